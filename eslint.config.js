@@ -1,0 +1,107 @@
+import tseslint from "typescript-eslint";
+import reactHooks from "eslint-plugin-react-hooks";
+
+// Who may import whom is written in ARCHITECTURE.md; these rules hold it.
+const onlyEntryPoints = (folder) => ({
+  group: ["**/src/**", "!**/src/index.js", "!**/src/schema/index.js"],
+  message: `${folder} uses src only through src/index.js and src/schema/index.js: anything else in src may change without notice.`,
+});
+
+export default tseslint.config(
+  { ignores: ["dist/", "node_modules/", "coverage/"] },
+  ...tseslint.configs.recommended,
+  {
+    rules: {
+      "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
+      "@typescript-eslint/no-explicit-any": "error",
+      "no-console": "error",
+      eqeqeq: "error",
+    },
+  },
+  {
+    files: ["src/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
+    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    rules: {
+      "@typescript-eslint/no-floating-promises": "error",
+      "@typescript-eslint/no-misused-promises": ["error", { checksVoidReturn: { attributes: false } }],
+    },
+  },
+  {
+    files: ["src/**/*.ts"],
+    rules: {
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            {
+              group: ["node:*", "fs", "path", "express", "serialport", "react", "react-dom", "ws"],
+              message:
+                "src runs anywhere: it knows nothing of Node, the DOM or a framework. Take what you need as an interface argument.",
+            },
+            {
+              group: ["**/server/**", "**/web/**", "**/test/**"],
+              message: "src knows nothing of server, web or test.",
+            },
+            {
+              group: ["**/src/index.js", "../index.js", "./index.js"],
+              message: "inside src import the file itself, not the barrel: barrels make cycles.",
+            },
+          ],
+        },
+      ],
+      "no-restricted-globals": [
+        "error",
+        "process",
+        "window",
+        "document",
+        "Buffer",
+        "console",
+        "setTimeout",
+        "performance",
+      ],
+    },
+  },
+  {
+    files: ["src/**/*.ts"],
+    ignores: ["src/schema/**"],
+    rules: {},
+  },
+  {
+    files: ["server/**/*.ts"],
+    rules: {
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            onlyEntryPoints("server"),
+            {
+              group: ["**/web/**", "**/test/**"],
+              message: "server and web never import each other; what they exchange is in src/schema.",
+            },
+          ],
+        },
+      ],
+      "no-console": "off",
+    },
+  },
+  {
+    files: ["web/**/*.{ts,tsx}"],
+    plugins: { "react-hooks": reactHooks },
+    rules: {
+      ...reactHooks.configs.recommended.rules,
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            onlyEntryPoints("web"),
+            {
+              group: ["**/server/**", "**/test/**", "node:*"],
+              message: "server and web never import each other; what they exchange is in src/schema.",
+            },
+          ],
+        },
+      ],
+    },
+  },
+  { files: ["scripts/**", "test/**"], rules: { "no-console": "off" } },
+);

@@ -1,0 +1,28 @@
+/** EBB commands for one trajectory, with what the host knows to be true after each. */
+export interface CommandStream {
+  readonly count: number;
+  /** The command without its CR. */
+  line(index: number): string;
+  /** Board seconds from the stream's start to each command's start; count + 1 entries. Zero-length for set-up commands. */
+  readonly boardS: Float64Array;
+  /** Trajectory seconds at each command's start; count + 1 entries. */
+  readonly planS: Float64Array;
+  /** Predicted step counters after each command (as QS reports them). */
+  readonly steps1: Int32Array;
+  readonly steps2: Int32Array;
+  /** Predicted accumulators after each command, 0 … 2^31 − 1. */
+  readonly acc1: Uint32Array;
+  readonly acc2: Uint32Array;
+  /** Trajectory run each command belongs to; −1 for pen and set-up commands. */
+  readonly run: Int32Array;
+  /** Limits that had to be met by splitting or slowing, in words. */
+  readonly warnings: readonly string[];
+}
+
+/** Where the board stands between two command streams. */
+export interface BoardState {
+  readonly steps1: number;
+  readonly steps2: number;
+  readonly acc1: number;
+  readonly acc2: number;
+}

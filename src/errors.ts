@@ -1,0 +1,53 @@
+/**
+ * The world's faults, as one error class with a code.
+ *
+ * A caller's bug (NaN, a wrong length) throws RangeError or TypeError instead.
+ * Oddities in a drawing are warnings in the result, never thrown.
+ */
+export const ERROR_CODES = [
+  "bad-file",
+  "bad-setting",
+  "out-of-bounds",
+  "no-board",
+  "busy",
+  "board-error",
+  "board-timeout",
+  "disconnected",
+  "not-found",
+  "conflict",
+  "not-allowed",
+  "cancelled",
+  "internal",
+] as const;
+
+export type ErrorCode = (typeof ERROR_CODES)[number];
+
+/** An expected failure: `message` says what is wrong, where, and what to do. */
+export class PlotwrightError extends Error {
+  override readonly name = "PlotwrightError";
+  readonly code: ErrorCode;
+
+  constructor(code: ErrorCode, message: string, options?: { cause?: unknown }) {
+    super(message, options);
+    this.code = code;
+  }
+}
+
+/** One table from code to what each front end does with it. */
+export const ERROR_TABLE: Readonly<
+  Record<ErrorCode, { readonly httpStatus: number; readonly exitCode: number }>
+> = {
+  "bad-file": { httpStatus: 422, exitCode: 3 },
+  "bad-setting": { httpStatus: 400, exitCode: 2 },
+  "out-of-bounds": { httpStatus: 422, exitCode: 3 },
+  "no-board": { httpStatus: 503, exitCode: 4 },
+  busy: { httpStatus: 409, exitCode: 4 },
+  "board-error": { httpStatus: 502, exitCode: 5 },
+  "board-timeout": { httpStatus: 504, exitCode: 5 },
+  disconnected: { httpStatus: 503, exitCode: 5 },
+  "not-found": { httpStatus: 404, exitCode: 3 },
+  conflict: { httpStatus: 409, exitCode: 5 },
+  "not-allowed": { httpStatus: 403, exitCode: 5 },
+  cancelled: { httpStatus: 409, exitCode: 5 },
+  internal: { httpStatus: 500, exitCode: 5 },
+};

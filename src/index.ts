@@ -1,0 +1,51 @@
+/**
+ * The public library: every name listed. Anything not here may change without notice.
+ * Each owner's names stand in a section of their own, in the order of the flow.
+ */
+// errors, units
+export { PlotwrightError, ERROR_CODES, ERROR_TABLE, type ErrorCode } from "./errors.js";
+
+// drawing
+export type {
+  Drawing,
+  DrawingGroup,
+  DrawingPaths,
+  DrawingWarning,
+  DashPattern,
+  ClipRegion,
+} from "./drawing/drawing.js";
+export { strokeCount, pointCount, type StrokeSet, type StrokeLayer } from "./drawing/stroke-set.js";
+export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
+
+// import
+
+// prepare
+export {
+  DEFAULT_PREPARE,
+  LAYER_MODES,
+  ORDER_MODES,
+  type LayerMode,
+  type OrderMode,
+  type PrepareSettings,
+} from "./prepare/settings.js";
+
+// plan
+export {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  MOTION_MODES,
+  type MotionLimits,
+  type MotionMode,
+  type MotionSettings,
+  type PenSettings,
+} from "./plan/settings.js";
+export type { MotionState, PenMove, Place, RunColumns, Trajectory } from "./plan/trajectory.js";
+
+// machines
+export type { MachineProfile } from "./machines/profile.js";
+
+// ebb
+export type { BoardState, CommandStream } from "./ebb/command-stream.js";
+
+// board
+export type { Cancellation, Clock, Transport } from "./board/transport.js";

@@ -1,0 +1,102 @@
+/**
+ * The REST interface under /api/v1: bodies and answers. Every error is `{ error: { code, message } }`
+ * with the status of ERROR_TABLE.
+ *
+ *   GET    /api/v1/state                      → Snapshot
+ *   GET    /api/v1/events                     → text/event-stream of ServerEvent (first: snapshot)
+ *   POST   /api/v1/jobs                       NewJob (JSON), or the file itself as the body with ?name=… → 201 Job
+ *   GET    /api/v1/jobs/:id                   → Job
+ *   GET    /api/v1/jobs/:id/drawing           → the uploaded file as text/plain attachment
+ *   PATCH  /api/v1/jobs/:id                   JobPatch → Job (settings only while queued)
+ *   POST   /api/v1/jobs/:id/move              MoveJob → { ok: true }
+ *   POST   /api/v1/jobs/:id/(start|pause|resume|cancel|requeue)  → Job
+ *   DELETE /api/v1/jobs/:id                   → { ok: true }  (not while plotting or paused)
+ *   POST   /api/v1/plotters/:id/pen           { up: boolean, heightPct? } → Plotter
+ *   POST   /api/v1/plotters/:id/motors-off    → Plotter
+ *   POST   /api/v1/plotters/:id/home          walks to home, pen up → Plotter
+ *   GET    /api/v1/samples                    → { samples: [{ name, title }] }
+ *   GET    /api/v1/samples/:name              → SVG text
+ */
+import { z } from "zod";
+import { ERROR_CODES } from "../errors.js";
+import { jobSchema } from "./job.js";
+import { plotSettingsSchema } from "./settings.js";
+
+export const newJobSchema = z.object({
+  name: z.string().trim().min(1).max(200),
+  drawing: z.string().min(1),
+  settings: plotSettingsSchema,
+  plotterId: z.string().max(100).optional(),
+});
+export type NewJob = z.infer<typeof newJobSchema>;
+
+export const jobPatchSchema = z
+  .object({ name: z.string().trim().min(1).max(200), settings: plotSettingsSchema })
+  .partial();
+export type JobPatch = z.infer<typeof jobPatchSchema>;
+
+/** Moves a queued job to stand before another, or to the end with null. */
+export const moveJobSchema = z.object({ beforeId: z.string().nullable() });
+export type MoveJob = z.infer<typeof moveJobSchema>;
+
+export const penRequestSchema = z.object({
+  up: z.boolean(),
+  heightPct: z.number().min(0).max(100).optional(),
+});
+export type PenRequest = z.infer<typeof penRequestSchema>;
+
+export const plotterSchema = z.object({
+  id: z.string(),
+  name: z.string(),
+  /** "virtual": no hardware, the built-in model. */
+  kind: z.enum(["virtual", "serial"]),
+  /** Serial path, for people; null for the virtual board. */
+  device: z.string().nullable(),
+  connection: z.enum(["absent", "connecting", "idle", "busy", "fault"]),
+  firmware: z.string().nullable(),
+  /** What is wrong and what to do, or null. */
+  message: z.string().nullable(),
+  penUp: z.boolean().nullable(),
+  motorsOn: z.boolean().nullable(),
+  /** mm from home; null when not known. */
+  xMm: z.number().nullable(),
+  yMm: z.number().nullable(),
+});
+export type Plotter = z.infer<typeof plotterSchema>;
+
+/** Jobs: queue order first, then history, newest first. */
+export const snapshotSchema = z.object({
+  version: z.string(),
+  plotters: z.array(plotterSchema),
+  jobs: z.array(jobSchema),
+});
+export type Snapshot = z.infer<typeof snapshotSchema>;
+
+export const serverEventSchema = z.discriminatedUnion("type", [
+  z.object({ type: z.literal("snapshot"), snapshot: snapshotSchema }),
+  z.object({ type: z.literal("job"), job: jobSchema }),
+  z.object({ type: z.literal("job-removed"), id: z.string() }),
+  /** Ids of all jobs, in the order of Snapshot.jobs. */
+  z.object({ type: z.literal("order"), ids: z.array(z.string()) }),
+  z.object({ type: z.literal("plotter"), plotter: plotterSchema }),
+  /** Several times a second while plotting. */
+  z.object({
+    type: z.literal("progress"),
+    jobId: z.string(),
+    plotterId: z.string(),
+    progress: z.number(),
+    elapsedS: z.number(),
+    remainingS: z.number(),
+    /** Seconds along the job's trajectory, for the page's own copy of the plan. */
+    planS: z.number(),
+    xMm: z.number(),
+    yMm: z.number(),
+    penUp: z.boolean(),
+  }),
+]);
+export type ServerEvent = z.infer<typeof serverEventSchema>;
+
+export const apiErrorSchema = z.object({
+  error: z.object({ code: z.enum(ERROR_CODES), message: z.string() }),
+});
+export type ApiError = z.infer<typeof apiErrorSchema>;

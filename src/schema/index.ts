@@ -1,0 +1,4 @@
+/** Everything that crosses a wire, a disk or a file: entry "plotwright/schema". */
+export * from "./settings.js";
+export * from "./job.js";
+export * from "./api.js";

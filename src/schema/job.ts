@@ -1,0 +1,48 @@
+/** A job of the queue, as the server keeps it and every browser sees it. */
+import { z } from "zod";
+import { plotSettingsSchema } from "./settings.js";
+
+/**
+ *   queued ──start──> plotting ──> done
+ *     ^                │  ^  └──> failed
+ *     │        pause   v  │ resume
+ *     └─(requeue)─── paused ──cancel──> cancelled
+ */
+export const JOB_STATES = ["queued", "plotting", "paused", "done", "failed", "cancelled"] as const;
+export const jobStateSchema = z.enum(JOB_STATES);
+export type JobState = z.infer<typeof jobStateSchema>;
+
+/** States that a job never leaves: it is history then. */
+export const ENDED_STATES: readonly JobState[] = ["done", "failed", "cancelled"];
+
+export const jobStatsSchema = z.object({
+  strokeCount: z.number(),
+  pointCount: z.number(),
+  drawMm: z.number(),
+  travelMm: z.number(),
+  penLiftCount: z.number(),
+  durationS: z.number(),
+});
+export type JobStats = z.infer<typeof jobStatsSchema>;
+
+export const jobSchema = z.object({
+  id: z.string(),
+  plotterId: z.string(),
+  name: z.string(),
+  state: jobStateSchema,
+  settings: plotSettingsSchema,
+  /** Null until the server has planned it. */
+  stats: jobStatsSchema.nullable(),
+  /** What of the file is not drawn, and what the planner had to change. Plain text. */
+  warnings: z.array(z.string()),
+  /** Of the plot's time, 0 … 1. */
+  progress: z.number(),
+  elapsedS: z.number(),
+  remainingS: z.number().nullable(),
+  /** What is happening or what went wrong, for the user; null when there is nothing to say. */
+  message: z.string().nullable(),
+  createdAt: z.string(),
+  startedAt: z.string().nullable(),
+  endedAt: z.string().nullable(),
+});
+export type Job = z.infer<typeof jobSchema>;
