@@ -1,8 +1,13 @@
-/** EBB commands for one trajectory, with what the host knows to be true after each. */
+/**
+ * EBB commands for one trajectory, with what the host knows to be true after each.
+ * Columns only, no functions: it is transferred between threads. Read a line with `commandLine(stream, i)`.
+ */
 export interface CommandStream {
   readonly count: number;
-  /** The command without its CR. */
-  line(index: number): string;
+  /** ASCII of all commands, each ended by CR: ready to be written. */
+  readonly text: Uint8Array;
+  /** count + 1 offsets into `text`. */
+  readonly textOffsets: Uint32Array;
   /** Board seconds from the stream's start to each command's start; count + 1 entries. Zero-length for set-up commands. */
   readonly boardS: Float64Array;
   /** Trajectory seconds at each command's start; count + 1 entries. */
