@@ -1,0 +1,71 @@
+/**
+ * Affine maps of the plane, in SVG's letters:
+ *
+ *   x′ = a x + c y + e        ( a c e )
+ *   y′ = b x + d y + f        ( b d f )
+ *
+ * Immutable: every function gives a new map.
+ */
+export interface Affine {
+  readonly a: number;
+  readonly b: number;
+  readonly c: number;
+  readonly d: number;
+  readonly e: number;
+  readonly f: number;
+}
+
+export const IDENTITY: Affine = { a: 1, b: 0, c: 0, d: 1, e: 0, f: 0 };
+
+export const translation = (x: number, y: number): Affine => ({ a: 1, b: 0, c: 0, d: 1, e: x, f: y });
+export const scaling = (x: number, y = x): Affine => ({ a: x, b: 0, c: 0, d: y, e: 0, f: 0 });
+
+/** Turns +x towards +y: clockwise on a page whose y runs down. Exact at multiples of a quarter turn. */
+export function rotation(angleRad: number): Affine {
+  const quarters = angleRad / (Math.PI / 2);
+  const whole = Math.round(quarters);
+  let cos = Math.cos(angleRad);
+  let sin = Math.sin(angleRad);
+  if (Math.abs(quarters - whole) < 1e-12) {
+    const k = ((whole % 4) + 4) % 4;
+    cos = [1, 0, -1, 0][k];
+    sin = [0, 1, 0, -1][k];
+  }
+  return { a: cos, b: sin, c: -sin, d: cos, e: 0, f: 0 };
+}
+
+/** The map that does `inner` first and `outer` after it. */
+export function compose(outer: Affine, inner: Affine): Affine {
+  return {
+    a: outer.a * inner.a + outer.c * inner.b,
+    b: outer.b * inner.a + outer.d * inner.b,
+    c: outer.a * inner.c + outer.c * inner.d,
+    d: outer.b * inner.c + outer.d * inner.d,
+    e: outer.a * inner.e + outer.c * inner.f + outer.e,
+    f: outer.b * inner.e + outer.d * inner.f + outer.f,
+  };
+}
+
+export const applyX = (m: Affine, x: number, y: number): number => m.a * x + m.c * y + m.e;
+export const applyY = (m: Affine, x: number, y: number): number => m.b * x + m.d * y + m.f;
+
+export const determinant = (m: Affine): number => m.a * m.d - m.b * m.c;
+
+/** The map back, or null where the map flattens the plane to a line or point. */
+export function invert(m: Affine): Affine | null {
+  const det = determinant(m);
+  if (det === 0 || !Number.isFinite(1 / det)) return null;
+  return {
+    a: m.d / det,
+    b: -m.b / det,
+    c: -m.c / det,
+    d: m.a / det,
+    e: (m.c * m.f - m.d * m.e) / det,
+    f: (m.b * m.e - m.a * m.f) / det,
+  };
+}
+
+/** How much lengths grow on average: the square root of how much areas do. */
+export const meanScale = (m: Affine): number => Math.sqrt(Math.abs(determinant(m)));
+
+export const isFiniteAffine = (m: Affine): boolean => Number.isFinite(m.a + m.b + m.c + m.d + m.e + m.f);

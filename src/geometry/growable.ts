@@ -1,0 +1,71 @@
+/** Number columns that grow by doubling: what loops append to before the final size is known. */
+
+/** x, y pairs, flat. `data` is replaced when it grows: read it again after every push. */
+export class PointBuffer {
+  data: Float64Array;
+  /** Numbers used so far (2 × points). */
+  length = 0;
+
+  constructor(capacityPoints = 64) {
+    this.data = new Float64Array(Math.max(1, capacityPoints) * 2);
+  }
+
+  get pointCount(): number {
+    return this.length / 2;
+  }
+
+  push(x: number, y: number): void {
+    if (this.length + 2 > this.data.length) this.reserve(1);
+    this.data[this.length++] = x;
+    this.data[this.length++] = y;
+  }
+
+  /** Makes room for `points` more, so that a kernel may write `data` itself. */
+  reserve(points: number): void {
+    const needed = this.length + 2 * points;
+    if (needed <= this.data.length) return;
+    const grown = new Float64Array(Math.max(needed, this.data.length * 2));
+    grown.set(this.data.subarray(0, this.length));
+    this.data = grown;
+  }
+
+  clear(): void {
+    this.length = 0;
+  }
+
+  /** A copy of exactly what was pushed. */
+  toArray(): Float64Array {
+    return this.data.slice(0, this.length);
+  }
+}
+
+type Column = Uint8Array | Uint32Array | Int32Array | Float32Array | Float64Array;
+
+/** One number at a time into a typed array of the given kind. */
+export class ColumnBuffer<T extends Column> {
+  data: T;
+  length = 0;
+  private readonly kind: new (length: number) => T;
+
+  constructor(kind: new (length: number) => T, capacity = 64) {
+    this.kind = kind;
+    this.data = new kind(Math.max(1, capacity));
+  }
+
+  push(value: number): void {
+    if (this.length === this.data.length) this.reserve(1);
+    this.data[this.length++] = value;
+  }
+
+  reserve(count: number): void {
+    const needed = this.length + count;
+    if (needed <= this.data.length) return;
+    const grown = new this.kind(Math.max(needed, this.data.length * 2));
+    grown.set(this.data);
+    this.data = grown;
+  }
+
+  toArray(): T {
+    return this.data.slice(0, this.length) as T;
+  }
+}
