@@ -6,6 +6,7 @@
  */
 export const ERROR_CODES = [
   "bad-file",
+  "too-large",
   "bad-setting",
   "out-of-bounds",
   "no-board",
@@ -38,6 +39,7 @@ export const ERROR_TABLE: Readonly<
   Record<ErrorCode, { readonly httpStatus: number; readonly exitCode: number }>
 > = {
   "bad-file": { httpStatus: 422, exitCode: 3 },
+  "too-large": { httpStatus: 413, exitCode: 3 },
   "bad-setting": { httpStatus: 400, exitCode: 2 },
   "out-of-bounds": { httpStatus: 422, exitCode: 3 },
   "no-board": { httpStatus: 503, exitCode: 4 },
