@@ -1,0 +1,100 @@
+/**
+ * One server per data folder.
+ *
+ * The lock is a file with the owner's process id and the time that process began. Node has no flock(), so a
+ * killed owner leaves the file behind: it is stale when no process has that id, or when the process with
+ * that id began at another time (ids are reused, and are always small in a container).
+ */
+import { linkSync, readFileSync, renameSync, rmSync, unlinkSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { randomBytes } from "node:crypto";
+import { PlotwrightError } from "../../src/index.js";
+
+interface Owner {
+  readonly pid: number;
+  /** Clock ticks since boot plus boot id on Linux; "" where it can't be known. */
+  readonly began: string;
+}
+
+/** Takes the lock or throws `busy`; the returned function gives it back. */
+export function lockDataDir(dir: string): () => void {
+  const path = join(dir, "server.lock");
+  const mine: Owner = { pid: process.pid, began: processBegan(process.pid) };
+  const draft = `${path}.${randomBytes(6).toString("hex")}`;
+  writeFileSync(draft, JSON.stringify(mine), { mode: 0o600 });
+  try {
+    for (let attempt = 0; attempt < 5; attempt++) {
+      if (tryLink(draft, path)) return () => release(path, mine);
+      const owner = readOwner(path);
+      if (owner !== null && isAlive(owner)) throw inUse(dir, owner.pid);
+      // Renamed first, so that of two servers that find it stale only one takes it away.
+      try {
+        renameSync(path, `${draft}.stale`);
+        unlinkSync(`${draft}.stale`);
+      } catch {
+        continue;
+      }
+    }
+    throw inUse(dir, 0);
+  } finally {
+    rmSync(draft, { force: true });
+  }
+}
+
+/** link() makes the name and fails if it is there, in one step, with the content already complete. */
+function tryLink(from: string, to: string): boolean {
+  try {
+    linkSync(from, to);
+    return true;
+  } catch (error) {
+    if ((error as NodeJS.ErrnoException).code === "EEXIST") return false;
+    throw error;
+  }
+}
+
+function release(path: string, mine: Owner): void {
+  const owner = readOwner(path);
+  if (owner?.pid === mine.pid && owner.began === mine.began) rmSync(path, { force: true });
+}
+
+function readOwner(path: string): Owner | null {
+  try {
+    const value: unknown = JSON.parse(readFileSync(path, "utf8"));
+    if (typeof value !== "object" || value === null) return null;
+    const { pid, began } = value as Record<string, unknown>;
+    return typeof pid === "number" && Number.isInteger(pid) && pid > 0 && typeof began === "string"
+      ? { pid, began }
+      : null;
+  } catch {
+    return null;
+  }
+}
+
+function isAlive(owner: Owner): boolean {
+  try {
+    process.kill(owner.pid, 0);
+  } catch (error) {
+    // EPERM: it lives, under another user.
+    if ((error as NodeJS.ErrnoException).code !== "EPERM") return false;
+  }
+  return owner.began === "" || owner.began === processBegan(owner.pid);
+}
+
+/** Field 22 of /proc/PID/stat; the name in field 2 may hold spaces, so count from its closing bracket. */
+function processBegan(pid: number): string {
+  try {
+    const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
+    const ticks = stat.slice(stat.lastIndexOf(")") + 2).split(" ")[19] ?? "";
+    return `${ticks}@${readFileSync("/proc/sys/kernel/random/boot_id", "utf8").trim()}`;
+  } catch {
+    return "";
+  }
+}
+
+function inUse(dir: string, pid: number): PlotwrightError {
+  const who = pid > 0 ? ` (process ${pid})` : "";
+  return new PlotwrightError(
+    "busy",
+    `Another plotwright server${who} uses the data folder ${dir}. Stop it, or choose another folder with --data.`,
+  );
+}

@@ -1,0 +1,73 @@
+/**
+ * What may happen to a job, as one pure function: (job, event) -> job, or a `conflict`.
+ *
+ *   queued ──start──> plotting ──finish──> done
+ *                       │  ^ └──fail──> failed ──requeue──> queued (so do done and cancelled)
+ *                  hold v  │ release
+ *                      paused ──cancel──> cancelled      (cancel works in queued and plotting too)
+ *
+ * Nothing here knows of disks, boards or sockets; the queue applies, stores and announces.
+ */
+import { PlotwrightError } from "../../src/index.js";
+import type { Job, JobState } from "../../src/schema/index.js";
+
+export type JobEvent =
+  | { readonly type: "start" }
+  | { readonly type: "hold" }
+  | { readonly type: "release" }
+  | { readonly type: "finish" }
+  | { readonly type: "fail"; readonly message: string }
+  | { readonly type: "cancel" }
+  | { readonly type: "requeue" };
+
+/** From which states each event may come, and to which it leads. */
+export const TRANSITIONS: Readonly<
+  Record<JobEvent["type"], { readonly from: readonly JobState[]; readonly to: JobState }>
+> = {
+  start: { from: ["queued"], to: "plotting" },
+  hold: { from: ["plotting"], to: "paused" },
+  release: { from: ["paused"], to: "plotting" },
+  finish: { from: ["plotting"], to: "done" },
+  fail: { from: ["plotting", "paused"], to: "failed" },
+  cancel: { from: ["queued", "plotting", "paused"], to: "cancelled" },
+  requeue: { from: ["done", "failed", "cancelled"], to: "queued" },
+};
+
+/** The job after the event, at the given time (ISO 8601); throws `conflict` when it can't happen now. */
+export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
+  const { from, to } = TRANSITIONS[event.type];
+  if (!from.includes(job.state)) throw cannot(job, event.type);
+  const next: Job = { ...job, state: to, message: null };
+  switch (event.type) {
+    case "start":
+      return { ...next, startedAt: nowIso };
+    case "hold":
+    case "release":
+      return next;
+    case "finish":
+      return { ...next, progress: 1, remainingS: 0, endedAt: nowIso };
+    case "fail":
+      return { ...next, message: event.message, remainingS: null, endedAt: nowIso };
+    case "cancel":
+      return { ...next, remainingS: null, endedAt: nowIso };
+    case "requeue":
+      return { ...next, progress: 0, elapsedS: 0, remainingS: null, startedAt: null, endedAt: null };
+  }
+}
+
+const VERBS: Readonly<Record<JobEvent["type"], string>> = {
+  start: "started",
+  hold: "paused",
+  release: "resumed",
+  finish: "finished",
+  fail: "failed",
+  cancel: "cancelled",
+  requeue: "queued again",
+};
+
+function cannot(job: Job, event: JobEvent["type"]): PlotwrightError {
+  return new PlotwrightError(
+    "conflict",
+    `"${job.name}" is ${job.state}, so it can't be ${VERBS[event]} now.`,
+  );
+}

@@ -1,0 +1,327 @@
+/**
+ * The queue: what may be done with jobs, in the order store -> announce. Nothing is announced that is not
+ * on disk, so a kill at any instant leaves every browser's last picture true or behind, never ahead.
+ *
+ * Progress is the exception: it is announced as it comes and written only with the next change of state.
+ */
+import { randomUUID } from "node:crypto";
+import { PlotwrightError } from "../../src/index.js";
+import {
+  ENDED_STATES,
+  type Job,
+  type JobPatch,
+  type JobStats,
+  type PlotSettings,
+  type ServerEvent,
+} from "../../src/schema/index.js";
+import type { PlotPlanner, PlotProgress } from "../plotter/types.js";
+import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
+import { applyJobEvent, type JobEvent } from "./job-machine.js";
+import type { PlotterPort } from "./plotter-port.js";
+import { Runner, type RunEnd } from "./runner.js";
+import type { Store } from "./store.js";
+
+export const INTERRUPTED_MESSAGE =
+  "The server stopped while this was plotting. Check the pen and the paper, set the carriage home, then queue it again.";
+
+export interface Planning {
+  measure(
+    drawing: string,
+    settings: PlotSettings,
+    signal?: AbortSignal,
+  ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
+  open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
+}
+
+export interface QueueParts {
+  readonly store: Store;
+  readonly files: DrawingFiles;
+  readonly planning: Planning;
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly announce: (event: ServerEvent) => void;
+  readonly nowIso: () => string;
+}
+
+export interface NewQueueJob {
+  readonly name: string;
+  readonly settings: PlotSettings;
+  readonly drawing: StoredDrawing;
+  readonly plotterId?: string | undefined;
+}
+
+export class JobQueue {
+  readonly #parts: QueueParts;
+  readonly #jobs = new Map<string, Job>();
+  readonly #runners = new Map<string, { readonly jobId: string; readonly runner: Runner }>();
+  #closing = false;
+
+  /** Loads what is on disk; a job that was plotting when the server ended becomes failed, with the reason. */
+  constructor(parts: QueueParts) {
+    this.#parts = parts;
+    for (const job of parts.store.jobs()) {
+      const wasRunning = job.state === "plotting" || job.state === "paused";
+      this.#jobs.set(job.id, job);
+      if (wasRunning) this.#apply(job.id, { type: "fail", message: INTERRUPTED_MESSAGE });
+    }
+  }
+
+  /** Queue order first, then history, newest first. */
+  list(): Job[] {
+    return this.#order().map((id) => this.get(id));
+  }
+
+  /** Throws `not-found`. */
+  get(id: string): Job {
+    const job = this.#jobs.get(id);
+    if (job === undefined) throw new PlotwrightError("not-found", `There is no job ${id}.`);
+    return job;
+  }
+
+  /** Plans the drawing to know it can be plotted, then appends it; throws what planning throws. */
+  async add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
+    const plotterId = wanted.plotterId ?? this.#firstPlotter();
+    this.#plotter(plotterId);
+    const { stats, warnings } = await this.#parts.planning.measure(
+      wanted.drawing.sha256,
+      wanted.settings,
+      signal,
+    );
+    const job: Job = {
+      id: randomUUID(),
+      plotterId,
+      name: wanted.name,
+      state: "queued",
+      settings: wanted.settings,
+      stats,
+      warnings: [...warnings],
+      progress: 0,
+      elapsedS: 0,
+      remainingS: stats.durationS,
+      message: null,
+      createdAt: this.#parts.nowIso(),
+      startedAt: null,
+      endedAt: null,
+    };
+    this.#parts.store.addJob(job, wanted.drawing);
+    this.#jobs.set(job.id, job);
+    this.#announceJob(job);
+    this.#announceOrder();
+    return job;
+  }
+
+  /** A name at any time; settings only while queued, and only such that can be planned. */
+  async patch(id: string, patch: JobPatch): Promise<Job> {
+    const { name, settings } = patch;
+    let planned: Partial<Job> = {};
+    if (settings !== undefined) {
+      this.#mustBeQueued(id, "Its settings");
+      const drawing = this.#parts.store.drawingOf(id);
+      const { stats, warnings } = await this.#parts.planning.measure(drawing, settings);
+      this.#mustBeQueued(id, "Its settings");
+      planned = { settings, stats, warnings: [...warnings], remainingS: stats.durationS };
+    }
+    return this.#save({ ...this.get(id), ...planned, ...(name === undefined ? {} : { name }) });
+  }
+
+  move(id: string, beforeId: string | null): void {
+    this.#mustBeQueued(id, "Its place");
+    this.#parts.store.moveJob(id, beforeId);
+    this.#announceOrder();
+  }
+
+  /** Throws `busy` while its plotter plots another job. */
+  start(id: string): Job {
+    const job = this.get(id);
+    const plotter = this.#plotter(job.plotterId);
+    const other = this.#runners.get(plotter.id);
+    if (other !== undefined && other.jobId !== id) {
+      throw new PlotwrightError(
+        "busy",
+        `"${this.get(other.jobId).name}" is on the plotter. Wait for it to end, or cancel it.`,
+      );
+    }
+    mustBeThere(plotter);
+    const started = this.#apply(id, { type: "start" });
+    this.#begin(plotter, started);
+    return started;
+  }
+
+  pause(id: string): Job {
+    const runner = this.#runnerOf(id, "plotting", "paused");
+    runner.pause();
+    return this.#note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
+  }
+
+  resume(id: string): Job {
+    const runner = this.#runnerOf(id, "paused", "resumed");
+    runner.resume();
+    return this.#note(id, "Going on.");
+  }
+
+  cancel(id: string): Job {
+    const job = this.get(id);
+    const running = this.#runners.get(job.plotterId);
+    if (running?.jobId !== id) return this.#apply(id, { type: "cancel" });
+    running.runner.cancel();
+    return this.#note(id, "Cancelling: the pen lifts and goes home.");
+  }
+
+  /** An ended job goes to the end of the queue again, with the same settings. */
+  requeue(id: string): Job {
+    const job = this.#apply(id, { type: "requeue" });
+    this.#parts.store.moveJob(id, null);
+    this.#announceOrder();
+    return this.#save({ ...job, remainingS: job.stats?.durationS ?? null });
+  }
+
+  async remove(id: string): Promise<void> {
+    const job = this.get(id);
+    if (job.state === "plotting" || job.state === "paused") {
+      throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
+    }
+    const unused = this.#parts.store.removeJob(id);
+    this.#jobs.delete(id);
+    this.#parts.announce({ type: "job-removed", id });
+    if (unused !== null) await this.#parts.files.remove(unused);
+  }
+
+  /** Path of the uploaded file. */
+  drawingPath(id: string): string {
+    this.get(id);
+    return this.#parts.files.path(this.#parts.store.drawingOf(id));
+  }
+
+  isPlotterBusy(plotterId: string): boolean {
+    return this.#runners.has(plotterId);
+  }
+
+  /** Cancels what is plotting (the pen lifts) and waits for it; the jobs are marked interrupted. */
+  async close(): Promise<void> {
+    this.#closing = true;
+    const running = [...this.#runners.values()];
+    for (const { runner } of running) runner.cancel();
+    await Promise.all(running.map(({ runner }) => runner.finished));
+  }
+
+  #begin(plotter: PlotterPort, job: Job): void {
+    const drawing = this.#parts.store.drawingOf(job.id);
+    const runner = new Runner(
+      plotter,
+      job.settings,
+      (signal) => this.#parts.planning.open(drawing, job.settings, signal),
+      {
+        progress: (progress) => this.#progress(job.id, plotter.id, progress),
+        held: (held) => this.#held(job.id, held),
+        refused: (message) => void this.#note(job.id, message),
+        ended: (end) => this.#ended(job.id, plotter.id, end),
+      },
+    );
+    this.#runners.set(plotter.id, { jobId: job.id, runner });
+  }
+
+  #progress(id: string, plotterId: string, progress: PlotProgress): void {
+    const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp } = progress;
+    this.#jobs.set(id, { ...this.get(id), progress: part, elapsedS, remainingS });
+    this.#parts.announce({
+      type: "progress",
+      jobId: id,
+      plotterId,
+      progress: part,
+      elapsedS,
+      remainingS,
+      planS,
+      xMm,
+      yMm,
+      penUp,
+    });
+  }
+
+  #held(id: string, held: boolean): void {
+    const { state } = this.get(id);
+    if (held && state === "plotting") this.#apply(id, { type: "hold" });
+    if (!held && state === "paused") this.#apply(id, { type: "release" });
+  }
+
+  #ended(id: string, plotterId: string, end: RunEnd): void {
+    this.#runners.delete(plotterId);
+    // A hold that was never released before the end (cancelled while paused) needs no step between.
+    if (end.kind === "failed") this.#apply(id, { type: "fail", message: end.error.message });
+    else if (end.kind === "cancelled" && this.#closing)
+      this.#apply(id, { type: "fail", message: INTERRUPTED_MESSAGE });
+    else if (end.kind === "cancelled") this.#apply(id, { type: "cancel" });
+    else {
+      if (this.get(id).state === "paused") this.#apply(id, { type: "release" });
+      this.#apply(id, { type: "finish" });
+    }
+    this.#announceOrder();
+  }
+
+  #apply(id: string, event: JobEvent): Job {
+    const before = this.get(id);
+    const after = this.#save(applyJobEvent(before, event, this.#parts.nowIso()));
+    if (ENDED_STATES.includes(after.state) !== ENDED_STATES.includes(before.state)) this.#announceOrder();
+    return after;
+  }
+
+  #note(id: string, message: string): Job {
+    const job = this.get(id);
+    return ENDED_STATES.includes(job.state) ? job : this.#save({ ...job, message });
+  }
+
+  #save(job: Job): Job {
+    this.#parts.store.saveJob(job);
+    this.#jobs.set(job.id, job);
+    this.#announceJob(job);
+    return job;
+  }
+
+  #announceJob(job: Job): void {
+    this.#parts.announce({ type: "job", job });
+  }
+
+  #announceOrder(): void {
+    this.#parts.announce({ type: "order", ids: this.#order() });
+  }
+
+  #order(): string[] {
+    return this.#parts.store.order();
+  }
+
+  #mustBeQueued(id: string, what: string): void {
+    const job = this.get(id);
+    if (job.state !== "queued") {
+      throw new PlotwrightError(
+        "conflict",
+        `"${job.name}" is ${job.state}. ${what} can change only while it is queued.`,
+      );
+    }
+  }
+
+  #runnerOf(id: string, state: Job["state"], verb: string): Runner {
+    const job = this.get(id);
+    const running = this.#runners.get(job.plotterId);
+    if (running?.jobId !== id || job.state !== state) {
+      throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
+    }
+    return running.runner;
+  }
+
+  #plotter(id: string): PlotterPort {
+    const plotter = this.#parts.plotters.get(id);
+    if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+    return plotter;
+  }
+
+  #firstPlotter(): string {
+    const first = [...this.#parts.plotters.keys()][0];
+    if (first === undefined) throw new PlotwrightError("no-board", "This server has no plotter.");
+    return first;
+  }
+}
+
+function mustBeThere(plotter: PlotterPort): void {
+  const { connection, message, name } = plotter.snapshot();
+  if (connection === "idle") return;
+  if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);
+  throw new PlotwrightError("no-board", message ?? `${name} is not connected. Plug it in and switch it on.`);
+}

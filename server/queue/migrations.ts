@@ -1,0 +1,47 @@
+/** The database's shape, one step per version; `PRAGMA user_version` says how many have been taken. */
+import type { Database } from "node-sqlite3-wasm";
+import { PlotwrightError } from "../../src/index.js";
+
+const MIGRATIONS: readonly string[] = [
+  `CREATE TABLE drawings (
+     sha256     TEXT PRIMARY KEY,
+     bytes      INTEGER NOT NULL
+   );
+   CREATE TABLE jobs (
+     id         TEXT PRIMARY KEY,
+     plotter_id TEXT NOT NULL,
+     position   INTEGER NOT NULL,     -- order of what is not ended; of no meaning for history
+     state      TEXT NOT NULL,
+     drawing    TEXT NOT NULL REFERENCES drawings (sha256),
+     name       TEXT NOT NULL,
+     settings   TEXT NOT NULL,        -- JSON, as src/schema
+     stats      TEXT,                 -- JSON
+     warnings   TEXT NOT NULL,        -- JSON
+     progress   REAL NOT NULL,
+     elapsed_s  REAL NOT NULL,
+     remaining_s REAL,
+     message    TEXT,
+     created_at TEXT NOT NULL,
+     started_at TEXT,
+     ended_at   TEXT
+   );
+   CREATE INDEX jobs_by_state ON jobs (state, position);
+   CREATE TABLE settings (
+     key        TEXT PRIMARY KEY,
+     value      TEXT NOT NULL         -- JSON
+   );`,
+];
+
+/** Brings the database to the newest version, or refuses one that is newer than this program. */
+export function migrate(db: Database, path: string): void {
+  const version = Number(db.get("PRAGMA user_version")?.["user_version"] ?? 0);
+  if (version > MIGRATIONS.length) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `The database ${path} was made by a newer plotwright (version ${version}, this one knows ${MIGRATIONS.length}). Update plotwright, or choose another folder with --data.`,
+    );
+  }
+  for (let step = version; step < MIGRATIONS.length; step++) {
+    db.exec(`BEGIN IMMEDIATE; ${MIGRATIONS[step]} PRAGMA user_version = ${step + 1}; COMMIT;`);
+  }
+}

@@ -1,0 +1,215 @@
+/**
+ * Jobs, their order, history and settings in one SQLite database. Every method that changes something
+ * returns only after the change is on disk (WAL with synchronous=FULL), so callers may announce it.
+ *
+ * Locking: node-sqlite3-wasm locks with a folder `plotwright.db.lock`, which a killed process leaves behind.
+ * The data folder's own lock (data-lock.ts) comes first and knows a stale one, so the folder is removed then.
+ */
+import { rmSync } from "node:fs";
+import { join } from "node:path";
+import sqlite from "node-sqlite3-wasm";
+import type { Database } from "node-sqlite3-wasm";
+import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { lockDataDir } from "./data-lock.js";
+import { migrate } from "./migrations.js";
+import type { StoredDrawing } from "./drawing-files.js";
+
+type Row = Record<string, number | bigint | string | Uint8Array | null>;
+type Value = number | string | null;
+
+const COLUMNS =
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, created_at, started_at, ended_at";
+const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
+
+export class Store {
+  readonly #db: Database;
+  readonly #unlock: () => void;
+
+  private constructor(db: Database, unlock: () => void) {
+    this.#db = db;
+    this.#unlock = unlock;
+  }
+
+  /** Throws `busy` when another server has the folder, `bad-setting` when the database can't be used. */
+  static open(dataDir: string): Store {
+    const unlock = lockDataDir(dataDir);
+    const path = join(dataDir, "plotwright.db");
+    let db: Database | undefined;
+    try {
+      rmSync(`${path}.lock`, { recursive: true, force: true });
+      db = new sqlite.Database(path);
+      // No other process may open it, so WAL needs no shared memory (which this build does not have).
+      db.exec("PRAGMA locking_mode = EXCLUSIVE");
+      db.exec("PRAGMA journal_mode = WAL");
+      db.exec("PRAGMA synchronous = FULL");
+      migrate(db, path);
+      return new Store(db, unlock);
+    } catch (cause) {
+      db?.close();
+      unlock();
+      if (cause instanceof PlotwrightError) throw cause;
+      throw new PlotwrightError(
+        "bad-setting",
+        `The database ${path} can't be opened (${(cause as Error).message}). Choose another folder with --data, or move that file away.`,
+        { cause },
+      );
+    }
+  }
+
+  /** Queue order first, then history, newest first. */
+  jobs(): Job[] {
+    const queued = this.#all(`SELECT ${COLUMNS} FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`);
+    const ended = this.#all(
+      `SELECT ${COLUMNS} FROM jobs WHERE state IN (${ENDED}) ORDER BY ended_at DESC, position DESC`,
+    );
+    return [...queued, ...ended].map(jobFromRow);
+  }
+
+  /** Ids in the order of jobs(). */
+  order(): string[] {
+    const queued = this.#all(`SELECT id FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`);
+    const ended = this.#all(
+      `SELECT id FROM jobs WHERE state IN (${ENDED}) ORDER BY ended_at DESC, position DESC`,
+    );
+    return [...queued, ...ended].map((row) => String(row["id"]));
+  }
+
+  /** The job's drawing as stored by DrawingFiles; throws `not-found`. */
+  drawingOf(id: string): string {
+    const row = this.#db.get("SELECT drawing FROM jobs WHERE id = ?", [id]);
+    if (row === null) throw new PlotwrightError("not-found", `There is no job ${id}.`);
+    return String((row as Row)["drawing"]);
+  }
+
+  isUsed(sha256: string): boolean {
+    return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [sha256]) !== null;
+  }
+
+  /** Appends to the queue. */
+  addJob(job: Job, drawing: StoredDrawing): void {
+    this.#transaction(() => {
+      this.#run("INSERT OR IGNORE INTO drawings (sha256, bytes) VALUES (?, ?)", [
+        drawing.sha256,
+        drawing.bytes,
+      ]);
+      this.#run(
+        `INSERT INTO jobs (position, drawing, ${COLUMNS})
+         VALUES ((SELECT COALESCE(MAX(position), 0) + 1 FROM jobs), ?, ${"?, ".repeat(13)}?)`,
+        [drawing.sha256, ...rowFromJob(job)],
+      );
+    });
+  }
+
+  saveJob(job: Job): void {
+    this.#run(`UPDATE jobs SET (${COLUMNS}) = (${"?, ".repeat(13)}?) WHERE id = ?`, [
+      ...rowFromJob(job),
+      job.id,
+    ]);
+  }
+
+  /** To stand before another job of the queue, or last with null. */
+  moveJob(id: string, beforeId: string | null): void {
+    const ids = this.#all(`SELECT id FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`)
+      .map((row) => String(row["id"]))
+      .filter((other) => other !== id);
+    const at = beforeId === null ? ids.length : ids.indexOf(beforeId);
+    if (at < 0) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
+    ids.splice(at, 0, id);
+    this.#transaction(() => {
+      const first = Number(
+        (this.#db.get("SELECT COALESCE(MAX(position), 0) + 1 AS p FROM jobs") as Row)["p"],
+      );
+      ids.forEach((one, index) =>
+        this.#run("UPDATE jobs SET position = ? WHERE id = ?", [first + index, one]),
+      );
+    });
+  }
+
+  /** Removes the job; returns its drawing's hash when no other job needs it any more. */
+  removeJob(id: string): string | null {
+    const sha256 = this.drawingOf(id);
+    this.#transaction(() => {
+      this.#run("DELETE FROM jobs WHERE id = ?", [id]);
+      if (!this.isUsed(sha256)) this.#run("DELETE FROM drawings WHERE sha256 = ?", [sha256]);
+    });
+    return this.isUsed(sha256) ? null : sha256;
+  }
+
+  /** A JSON value kept under a name, undefined when there is none; parse it with its schema. */
+  setting(key: string): unknown {
+    const row = this.#db.get("SELECT value FROM settings WHERE key = ?", [key]) as Row | null;
+    return row === null ? undefined : (JSON.parse(String(row["value"])) as unknown);
+  }
+
+  saveSetting(key: string, value: unknown): void {
+    this.#run(
+      "INSERT INTO settings (key, value) VALUES (?, ?) ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+      [key, JSON.stringify(value)],
+    );
+  }
+
+  close(): void {
+    if (!this.#db.isOpen) return;
+    this.#db.close();
+    this.#unlock();
+  }
+
+  #all(sql: string, values: Value[] = []): Row[] {
+    return this.#db.all(sql, values) as Row[];
+  }
+
+  #run(sql: string, values: Value[]): void {
+    this.#db.run(sql, values);
+  }
+
+  #transaction(work: () => void): void {
+    this.#db.exec("BEGIN IMMEDIATE");
+    try {
+      work();
+      this.#db.exec("COMMIT");
+    } catch (error) {
+      if (this.#db.inTransaction) this.#db.exec("ROLLBACK");
+      throw error;
+    }
+  }
+}
+
+function rowFromJob(job: Job): Value[] {
+  return [
+    job.id,
+    job.plotterId,
+    job.state,
+    job.name,
+    JSON.stringify(job.settings),
+    job.stats === null ? null : JSON.stringify(job.stats),
+    JSON.stringify(job.warnings),
+    job.progress,
+    job.elapsedS,
+    job.remainingS,
+    job.message,
+    job.createdAt,
+    job.startedAt,
+    job.endedAt,
+  ];
+}
+
+/** Parsed by the schema: what an older version wrote gets the defaults of newer fields. */
+function jobFromRow(row: Row): Job {
+  return jobSchema.parse({
+    id: row["id"],
+    plotterId: row["plotter_id"],
+    state: row["state"],
+    name: row["name"],
+    settings: JSON.parse(String(row["settings"])) as unknown,
+    stats: row["stats"] === null ? null : (JSON.parse(String(row["stats"])) as unknown),
+    warnings: JSON.parse(String(row["warnings"])) as unknown,
+    progress: row["progress"],
+    elapsedS: row["elapsed_s"],
+    remainingS: row["remaining_s"],
+    message: row["message"],
+    createdAt: row["created_at"],
+    startedAt: row["started_at"],
+    endedAt: row["ended_at"],
+  });
+}

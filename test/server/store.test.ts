@@ -1,0 +1,198 @@
+import { spawn } from "node:child_process";
+import { mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import sqlite from "node-sqlite3-wasm";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { Store } from "../../server/queue/store.js";
+import { drawingOf, makeJob } from "./support/jobs.js";
+import { pictureOf } from "./support/store-picture.js";
+
+let dir: string;
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-store-"));
+  prepareDataDir(dir);
+});
+afterEach(() => rmSync(dir, { recursive: true, force: true }));
+
+const ids = (store: Store): string[] => store.jobs().map((job) => job.id);
+
+describe("a store", () => {
+  it("gives back after reopening exactly the jobs that were put in, in their order", () => {
+    const first = Store.open(dir);
+    const jobs = ["a", "b", "c"].map((id) => makeJob(id, { message: `über ${id} 🖊`, warnings: ["x", "y"] }));
+    for (const job of jobs) first.addJob(job, drawingOf(job.id));
+    first.moveJob("c", "a");
+    first.close();
+    const second = Store.open(dir);
+    expect(second.jobs()).toEqual([jobs[2], jobs[0], jobs[1]]);
+    second.close();
+  });
+
+  it("lists history after the queue, newest end first", () => {
+    const store = Store.open(dir);
+    for (const id of ["a", "b", "c", "d"]) store.addJob(makeJob(id), drawingOf(id));
+    store.saveJob(makeJob("a", { state: "done", endedAt: "2026-01-02T00:00:00.000Z" }));
+    store.saveJob(makeJob("c", { state: "failed", endedAt: "2026-01-03T00:00:00.000Z" }));
+    expect(ids(store)).toEqual(["b", "d", "c", "a"]);
+    expect(store.order()).toEqual(ids(store));
+    store.close();
+  });
+
+  it("keeps a drawing as long as any job needs it", () => {
+    const store = Store.open(dir);
+    const drawing = drawingOf("shared");
+    store.addJob(makeJob("a"), drawing);
+    store.addJob(makeJob("b"), drawing);
+    expect(store.removeJob("a")).toBeNull();
+    expect(store.isUsed(drawing.sha256)).toBe(true);
+    expect(store.removeJob("b")).toBe(drawing.sha256);
+    expect(store.isUsed(drawing.sha256)).toBe(false);
+    store.close();
+  });
+
+  it("changes nothing when a job is moved before one that is not in the queue", () => {
+    const store = Store.open(dir);
+    for (const id of ["a", "b"]) store.addJob(makeJob(id), drawingOf(id));
+    expect(() => store.moveJob("a", "gone")).toThrow(/no job gone/);
+    expect(ids(store)).toEqual(["a", "b"]);
+    store.close();
+  });
+
+  it("keeps settings by name, and tells a missing one from null", () => {
+    const store = Store.open(dir);
+    store.saveSetting("page", { dark: true });
+    store.saveSetting("page", { dark: false });
+    store.saveSetting("nothing", null);
+    expect(store.setting("page")).toEqual({ dark: false });
+    expect(store.setting("nothing")).toBeNull();
+    expect(store.setting("missing")).toBeUndefined();
+    store.close();
+  });
+
+  it("refuses a folder that another server uses, and lets it go on", () => {
+    const store = Store.open(dir);
+    expect(() => Store.open(dir)).toThrow(/Another plotwright server \(process \d+\) uses the data folder/);
+    store.addJob(makeJob("a"), drawingOf("a"));
+    store.close();
+    const again = Store.open(dir);
+    expect(ids(again)).toEqual(["a"]);
+    again.close();
+  });
+
+  it("takes over a lock whose owner is gone, or whose number another process has now", () => {
+    for (const owner of [
+      '{"pid":999999999,"began":""}',
+      `{"pid":${process.pid},"began":"0@another-boot"}`,
+      "{",
+    ]) {
+      writeFileSync(join(dir, "server.lock"), owner);
+      Store.open(dir).close();
+      expect(readdirSync(dir).filter((name) => name.startsWith("server.lock"))).toEqual([]);
+    }
+  });
+
+  it("refuses a database of a newer version without touching it", () => {
+    Store.open(dir).close();
+    const path = join(dir, "plotwright.db");
+    const db = new sqlite.Database(path);
+    db.exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA user_version = 999");
+    db.close();
+    expect(() => Store.open(dir)).toThrow(/made by a newer plotwright/);
+    const after = new sqlite.Database(path);
+    after.exec("PRAGMA locking_mode = EXCLUSIVE");
+    expect(after.get("PRAGMA user_version")).toEqual({ user_version: 999 });
+    after.close();
+  });
+
+  it("names a file that is no database and leaves the folder free", () => {
+    writeFileSync(
+      join(dir, "plotwright.db"),
+      "this is not SQLite, but long enough to have a header".repeat(40),
+    );
+    expect(() => Store.open(dir)).toThrow(/can't be opened/);
+    expect(() => Store.open(dir)).toThrow(/can't be opened/);
+  });
+
+  it("has every change it told of, whenever it is killed", async () => {
+    for (let seed = 1; seed <= 10; seed++) {
+      const told = await changeUntilKilled(seed, 3 + ((seed * 37) % 90));
+      const store = Store.open(dir);
+      const found = pictureOf(store.jobs());
+      store.close();
+      expect(told).toContain(found);
+    }
+  }, 120_000);
+});
+
+/** What may be on disk after the kill: what was told last, and what was being done. */
+async function changeUntilKilled(seed: number, lines: number): Promise<string[]> {
+  const script = new URL("./support/store-child.ts", import.meta.url).pathname;
+  const child = spawn(process.execPath, ["--import", "tsx", script, dir, String(seed)], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  let done = "";
+  let tried = "";
+  let count = 0;
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  for await (const line of createInterface({ input: child.stdout })) {
+    const [what, ...picture] = line.split(" ");
+    if (what === "done") done = picture.join(" ");
+    else tried = picture.join(" ");
+    if (++count === lines) child.kill("SIGKILL");
+  }
+  await ended;
+  expect(count).toBeGreaterThanOrEqual(lines);
+  return [done, tried];
+}
+
+describe("drawing files", () => {
+  it("keeps the bytes as they came, under their hash, in one file for equal drawings", async () => {
+    const files = new DrawingFiles(dir, 1_000);
+    const parts = [Buffer.from("<svg "), Buffer.from("/>\r\n\0ü")];
+    const first = await files.add(parts);
+    const second = await files.add([Buffer.concat(parts)]);
+    expect(second).toEqual(first);
+    expect(readdirSync(join(dir, "drawings"))).toHaveLength(1);
+    const read: Buffer[] = [];
+    for await (const chunk of files.read(first.sha256)) read.push(chunk as Buffer);
+    expect(Buffer.concat(read)).toEqual(Buffer.concat(parts));
+  });
+
+  it("stops an upload at the limit and leaves nothing of it", async () => {
+    const files = new DrawingFiles(dir, 1_000);
+    let given = 0;
+    async function* endless(): AsyncGenerator<Uint8Array> {
+      for (;;) {
+        given += 400;
+        yield new Uint8Array(400);
+      }
+    }
+    await expect(files.add(endless())).rejects.toMatchObject({ code: "too-large" });
+    expect(given).toBe(1_200);
+    expect(readdirSync(join(dir, "drawings"))).toEqual([]);
+  });
+
+  it("leaves nothing of an upload that breaks off", async () => {
+    const files = new DrawingFiles(dir, 1_000);
+    async function* broken(): AsyncGenerator<Uint8Array> {
+      yield new Uint8Array(10);
+      throw new Error("connection lost");
+    }
+    await expect(files.add(broken())).rejects.toThrow("connection lost");
+    expect(readdirSync(join(dir, "drawings"))).toEqual([]);
+  });
+
+  it("sweeps away what no job needs and nothing else", async () => {
+    const files = new DrawingFiles(dir, 1_000);
+    const kept = await files.add([Buffer.from("kept")]);
+    await files.add([Buffer.from("unused")]);
+    writeFileSync(join(dir, "drawings", "incoming-1234"), "cut off");
+    writeFileSync(join(dir, "drawings", "notes.txt"), "the user's own");
+    await files.sweep((sha256) => sha256 === kept.sha256);
+    expect(readdirSync(join(dir, "drawings")).sort()).toEqual([`${kept.sha256}.svg`, "notes.txt"].sort());
+  });
+});

@@ -1,0 +1,37 @@
+import { createHash } from "node:crypto";
+import type { StoredDrawing } from "../../../server/queue/drawing-files.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type JobStats } from "../../../src/schema/index.js";
+
+export const STATS: JobStats = {
+  strokeCount: 3,
+  pointCount: 30,
+  drawMm: 120,
+  travelMm: 40,
+  penLiftCount: 3,
+  durationS: 12,
+};
+
+export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
+  return {
+    id,
+    plotterId: "virtual",
+    name: `Job ${id}`,
+    state: "queued",
+    settings: DEFAULT_PLOT_SETTINGS,
+    stats: STATS,
+    warnings: [],
+    progress: 0,
+    elapsedS: 0,
+    remainingS: 12,
+    message: null,
+    createdAt: "2026-01-01T00:00:00.000Z",
+    startedAt: null,
+    endedAt: null,
+    ...overrides,
+  };
+}
+
+export const drawingOf = (text: string): StoredDrawing => ({
+  sha256: createHash("sha256").update(text).digest("hex"),
+  bytes: text.length,
+});
