@@ -103,5 +103,5 @@ export default tseslint.config(
       ],
     },
   },
-  { files: ["scripts/**", "test/**"], rules: { "no-console": "off" } },
+  { files: ["scripts/**", "test/**", "bench/**"], rules: { "no-console": "off" } },
 );

@@ -1,11 +1,38 @@
 import { defineConfig } from "vitest/config";
 
+/** Tests that watch a real clock, or start browsers and processes: other work beside them would disturb them. */
+const ALONE = [
+  "test/e2e/**/*.test.ts",
+  "test/pty/**/*.test.ts",
+  "test/packaging/**/*.test.ts",
+  "test/**/*.alone.test.ts",
+];
+
 export default defineConfig({
   test: {
-    include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-    testTimeout: 30_000,
-    hookTimeout: 60_000,
-    pool: "forks",
     maxWorkers: 2,
+    projects: [
+      {
+        test: {
+          name: "together",
+          include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
+          exclude: ALONE,
+          testTimeout: 30_000,
+          hookTimeout: 60_000,
+          pool: "forks",
+        },
+      },
+      {
+        test: {
+          name: "alone",
+          include: ALONE,
+          globalSetup: ["test/support/built.ts"],
+          testTimeout: 120_000,
+          hookTimeout: 120_000,
+          pool: "forks",
+          fileParallelism: false,
+        },
+      },
+    ],
   },
 });

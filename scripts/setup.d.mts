@@ -1,0 +1,3 @@
+export declare const ROOT: string;
+export declare function ensureDependencies(): void;
+export declare function ensureBuild(): void;

@@ -1,0 +1,111 @@
+/**
+ * What `npm start` and `npm test` do first: right Node, packages installed, dist/ built.
+ * Runs before anything is installed, so it uses nothing but Node itself.
+ */
+import { spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const ROOT = fileURLToPath(new URL("..", import.meta.url));
+const inRoot = (...parts) => path.join(ROOT, ...parts);
+
+const OLDEST_NODE = [20, 19];
+
+/** Says what to do and ends the process: for faults that only the person at the keyboard can mend. */
+export function giveUp(message) {
+  console.error(`\nplotwright: ${message}`);
+  process.exit(1);
+}
+
+export function checkNode() {
+  const [major = 0, minor = 0] = process.versions.node.split(".").map(Number);
+  if (major > OLDEST_NODE[0] || (major === OLDEST_NODE[0] && minor >= OLDEST_NODE[1])) return;
+  giveUp(
+    `this is Node ${process.versions.node}, and plotwright needs ${OLDEST_NODE.join(".")} or newer.\n` +
+      "Get it from https://nodejs.org (the LTS version), or with a version manager such as nvm: nvm install --lts",
+  );
+}
+
+/** Runs a program in the project's folder with its output shown; returns its exit code. */
+export function run(command, args, options = {}) {
+  const result = spawnSync(command, args, { cwd: ROOT, stdio: "inherit", ...options });
+  if (result.error) throw result.error;
+  return result.status ?? 1;
+}
+
+/** npm, found so that it also works on Windows, where npm is a .cmd file that only a shell can start. */
+export function runNpm(args) {
+  const npmScript = process.env.npm_execpath;
+  if (npmScript && /npm-cli\.c?js$/.test(npmScript)) return run(process.execPath, [npmScript, ...args]);
+  return run("npm", args, { shell: process.platform === "win32" });
+}
+
+/** A program of node_modules by its script, so that no shell and no .cmd file is needed. */
+export const nodeModule = (...parts) => inRoot("node_modules", ...parts);
+
+const readJson = (file) => JSON.parse(readFileSync(file, "utf8"));
+
+/** npm notes in node_modules/.package-lock.json what it installed; that is compared with what is wanted. */
+function installedIsCurrent() {
+  const noteFile = nodeModule(".package-lock.json");
+  if (!existsSync(noteFile)) return false;
+  const installed = readJson(noteFile).packages ?? {};
+  const wanted = readJson(inRoot("package-lock.json")).packages ?? {};
+  return Object.entries(wanted).every(
+    ([name, entry]) => name === "" || entry.optional || installed[name]?.version === entry.version,
+  );
+}
+
+export function ensureDependencies() {
+  if (installedIsCurrent()) return;
+  console.log("plotwright: installing packages (npm ci) …");
+  if (runNpm(["ci", "--no-audit", "--no-fund"]) !== 0) {
+    giveUp(
+      "npm ci failed; its message is above. Is there a network connection? Then run the same command again.",
+    );
+  }
+}
+
+const BUILD_INPUTS = ["src", "server", "web", "tsconfig.json", "package.json", "package-lock.json"];
+
+function* filesBelow(relative) {
+  if (!existsSync(inRoot(relative))) return;
+  if (/\.\w+$/.test(relative)) {
+    yield relative;
+    return;
+  }
+  for (const entry of readdirSync(inRoot(relative), { withFileTypes: true })) {
+    const child = path.join(relative, entry.name);
+    if (entry.isDirectory()) yield* filesBelow(child);
+    else yield child;
+  }
+}
+
+/** One hash over the name and content of everything that decides what is in dist/. */
+function sourceStamp() {
+  const hash = createHash("sha256");
+  for (const file of BUILD_INPUTS.flatMap((input) => [...filesBelow(input)]).sort()) {
+    hash
+      .update(file)
+      .update("\0")
+      .update(readFileSync(inRoot(file)))
+      .update("\0");
+  }
+  return hash.digest("hex");
+}
+
+export function ensureBuild() {
+  const stampFile = inRoot("dist", ".stamp");
+  const stamp = sourceStamp();
+  if (existsSync(stampFile) && readFileSync(stampFile, "utf8") === stamp) return;
+  console.log("plotwright: building …");
+  if (runNpm(["run", "--silent", "build"]) !== 0) {
+    giveUp(
+      "the build failed; its message is above. In a checkout that you have not changed this is a fault of ours.",
+    );
+  }
+  mkdirSync(inRoot("dist"), { recursive: true });
+  writeFileSync(stampFile, stamp);
+}

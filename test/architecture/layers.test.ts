@@ -1,0 +1,140 @@
+/** The import rule of ARCHITECTURE.md, checked on the real imports. */
+import { readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
+import ts from "typescript";
+import { describe, expect, it } from "vitest";
+
+const ROOT = path.join(import.meta.dirname, "..", "..");
+
+/** What each folder of src may import, besides itself. The keys are every folder that there is. */
+const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
+  geometry: ["units", "errors"],
+  drawing: ["geometry", "units", "errors"],
+  import: ["drawing", "geometry", "units", "errors"],
+  machines: ["units", "errors"],
+  prepare: ["drawing", "geometry", "machines", "units", "errors"],
+  plan: ["prepare", "drawing", "geometry", "machines", "units", "errors"],
+  ebb: ["plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
+  export: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
+  board: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
+  schema: ["board", "ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
+};
+
+interface Import {
+  readonly from: string;
+  readonly to: string;
+}
+
+/** Paths from the project's root with forward slashes; `to` is a bare name for a package. */
+function importsOf(file: string): Import[] {
+  const text = readFileSync(path.join(ROOT, file), "utf8");
+  return ts.preProcessFile(text, true, true).importedFiles.map(({ fileName }) => ({
+    from: file,
+    to: fileName.startsWith(".")
+      ? path.posix.join(path.posix.dirname(file), fileName).replace(/\.jsx?$/, "")
+      : fileName,
+  }));
+}
+
+function sourceFiles(folder: string): string[] {
+  return readdirSync(path.join(ROOT, folder), { recursive: true, encoding: "utf8" })
+    .map((file) => path.posix.join(folder, file.split(path.sep).join("/")))
+    .filter((file) => /\.tsx?$/.test(file) && !file.endsWith(".d.ts"));
+}
+
+const importsIn = (folder: string): Import[] => sourceFiles(folder).flatMap(importsOf);
+const write = ({ from, to }: Import): string => `${from} imports ${to}`;
+
+/** "src/plan/corner" → "plan"; "src/units" → "units". */
+const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
+
+/** The imports of one search that close a circle, as a readable chain; empty when there is none. */
+function findCycle(imports: readonly Import[]): string[] {
+  const next = new Map<string, string[]>();
+  for (const { from, to } of imports) {
+    const key = from.replace(/\.tsx?$/, "");
+    next.set(key, [...(next.get(key) ?? []), to]);
+  }
+  const done = new Set<string>();
+  const visit = (file: string, way: readonly string[]): string[] => {
+    if (way.includes(file)) return [...way.slice(way.indexOf(file)), file];
+    if (done.has(file)) return [];
+    for (const to of next.get(file) ?? []) {
+      const cycle = visit(to, [...way, file]);
+      if (cycle.length > 0) return cycle;
+    }
+    done.add(file);
+    return [];
+  };
+  for (const file of next.keys()) {
+    const cycle = visit(file, []);
+    if (cycle.length > 0) return cycle;
+  }
+  return [];
+}
+
+describe("the layers of src", () => {
+  const inside = importsIn("src").filter(({ to }) => to.startsWith("src/"));
+
+  it("are the folders that the rule knows", () => {
+    const folders = readdirSync(path.join(ROOT, "src"), { withFileTypes: true })
+      .filter((entry) => entry.isDirectory())
+      .map((entry) => entry.name);
+    expect(folders.filter((folder) => !(folder in MAY_IMPORT))).toEqual([]);
+  });
+
+  it("import only layers below them", () => {
+    const wrong = inside.filter(({ from, to }) => {
+      const layer = layerOf(from);
+      const target = layerOf(to);
+      if (layer === "index" || target === layer) return false;
+      return !(MAY_IMPORT[layer] ?? []).includes(target);
+    });
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("have no circles among their files", () => {
+    expect(findCycle(inside)).toEqual([]);
+  });
+
+  it("know nothing of Node, of server, web or test", () => {
+    const wrong = importsIn("src").filter(({ to }) => /^(node:|server\/|web\/|test\/|scripts\/)/.test(to));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("keep zod to src/schema, so the planning worker does not carry it", () => {
+    const wrong = importsIn("src").filter(({ from, to }) => to === "zod" && !from.startsWith("src/schema/"));
+    expect(wrong.map(write)).toEqual([]);
+    expect(
+      inside.filter(({ from, to }) => !from.startsWith("src/schema/") && to.startsWith("src/schema/")),
+    ).toEqual([]);
+  });
+});
+
+describe("server and web", () => {
+  it.each(["server", "web"])("%s uses src only through its two entries", (folder) => {
+    const wrong = importsIn(folder).filter(
+      ({ to }) => to.startsWith("src/") && to !== "src/index" && to !== "src/schema/index",
+    );
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("never import each other, nor a test", () => {
+    const wrong = [...importsIn("server"), ...importsIn("web")].filter(({ from, to }) => {
+      const other = from.startsWith("web/") ? "server/" : "web/";
+      return to.startsWith(other) || to.startsWith("test/") || to.startsWith("scripts/");
+    });
+    expect(wrong.map(write)).toEqual([]);
+  });
+});
+
+describe("the search for circles", () => {
+  it("finds one that is there", () => {
+    const circle = [
+      { from: "src/a.ts", to: "src/b" },
+      { from: "src/b.ts", to: "src/c" },
+      { from: "src/c.ts", to: "src/b" },
+    ];
+    expect(findCycle(circle)).toEqual(["src/b", "src/c", "src/b"]);
+  });
+});
