@@ -20,6 +20,9 @@ export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js"
 // import
 
 // prepare
+export { prepare, type Prepared, type PreparedLayer } from "./prepare/prepare.js";
+export { checkBounds } from "./prepare/check-bounds.js";
+export type { Work } from "./prepare/work.js";
 export {
   DEFAULT_PREPARE,
   LAYER_MODES,
@@ -39,7 +42,16 @@ export {
   type MotionSettings,
   type PenSettings,
 } from "./plan/settings.js";
-export type { MotionState, PenMove, Place, RunColumns, Trajectory } from "./plan/trajectory.js";
+export { plan, type PlanOptions } from "./plan/plan.js";
+export {
+  stateAt,
+  type MotionState,
+  type PenMove,
+  type Place,
+  type RunColumns,
+  type Trajectory,
+} from "./plan/trajectory.js";
+export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 // machines
 export type { MachineProfile } from "./machines/profile.js";

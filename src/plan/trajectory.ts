@@ -74,8 +74,131 @@ export interface MotionState {
   vy: number;
   ax: number;
   ay: number;
+  /** True from the instant the lift is commanded until the drop is. */
   penUp: boolean;
   /** −1 while travelling or waiting for the pen. */
   stroke: number;
   alongMm: number;
+}
+
+export function newMotionState(): MotionState {
+  return { x: 0, y: 0, vx: 0, vy: 0, ax: 0, ay: 0, penUp: true, stroke: -1, alongMm: 0 };
+}
+
+/**
+ * The state at `tS` seconds from the start: O(log blocks). Before the start and after the end: at rest there.
+ * While the carriage waits for the pen it stands where the last run ended, with `stroke` −1.
+ * Give `out` to have it filled instead of a new object.
+ *
+ * @throws RangeError when `tS` is NaN
+ */
+export function stateAt(
+  trajectory: Trajectory,
+  tS: number,
+  out: MotionState = newMotionState(),
+): MotionState {
+  if (Number.isNaN(tS)) throw new RangeError("stateAt: the time is NaN, it must be seconds");
+  const { penMoves, runs } = trajectory;
+  const move = lastNotAfter(tS, penMoves.length, (i) => penMoves[i]!.startS);
+  out.penUp = move < 0 || penMoves[move]!.up;
+  const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]!);
+  if (k < 0) return rest(out, startOf(trajectory));
+  const t = tS - trajectory.startS[k]!;
+  // A block's own end belongs to the block, except where another one or a wait follows at once.
+  if (t >= trajectory.durationS[k]! && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
+    blockState(trajectory, k, trajectory.durationS[k]!, out);
+    return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
+  }
+  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]!);
+  out.stroke = runs.stroke[run]!;
+  return blockState(trajectory, k, Math.min(t, trajectory.durationS[k]!), out);
+}
+
+/** Position, velocity and acceleration `t` seconds into block `k`; 0 ≤ t ≤ its duration. */
+export function blockState(trajectory: Trajectory, k: number, t: number, out: MotionState): MotionState {
+  const jx = trajectory.jx ? trajectory.jx[k]! : 0;
+  const jy = trajectory.jy ? trajectory.jy[k]! : 0;
+  const ax = trajectory.ax[k]!;
+  const ay = trajectory.ay[k]!;
+  const vx = trajectory.vx[k]!;
+  const vy = trajectory.vy[k]!;
+  out.x = trajectory.x[k]! + t * (vx + t * (ax / 2 + (t * jx) / 6));
+  out.y = trajectory.y[k]! + t * (vy + t * (ay / 2 + (t * jy) / 6));
+  out.vx = vx + t * (ax + (t * jx) / 2);
+  out.vy = vy + t * (ay + (t * jy) / 2);
+  out.ax = ax + t * jx;
+  out.ay = ay + t * jy;
+  out.alongMm = alongAt(trajectory, k, t);
+  return out;
+}
+
+/** mm along the source polyline: by the share of the block's own length that is behind. */
+function alongAt(trajectory: Trajectory, k: number, t: number): number {
+  const along = trajectory.alongMm[k]!;
+  const duration = trajectory.durationS[k]!;
+  if (!(t > 0)) return along;
+  const whole = blockLength(trajectory, k, duration);
+  const span = blockAlongSpan(trajectory, k, whole);
+  return whole > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / whole) : along;
+}
+
+/** Length along the source polyline that block `k` stands for; the last of a run counts by its own length. */
+function blockAlongSpan(trajectory: Trajectory, k: number, ownLength: number): number {
+  if (k + 1 >= trajectory.blockCount || endsRun(trajectory, k)) return ownLength;
+  return trajectory.alongMm[k + 1]! - trajectory.alongMm[k]!;
+}
+
+/** Length in mm of the first `t` seconds of block `k`: exact for straight blocks, else by Gauss's rule. */
+export function blockLength(trajectory: Trajectory, k: number, t: number): number {
+  const vx = trajectory.vx[k]!;
+  const vy = trajectory.vy[k]!;
+  const ax = trajectory.ax[k]!;
+  const ay = trajectory.ay[k]!;
+  const jx = trajectory.jx ? trajectory.jx[k]! : 0;
+  const jy = trajectory.jy ? trajectory.jy[k]! : 0;
+  let sum = 0;
+  for (let i = 0; i < GAUSS_NODES.length; i++) {
+    const u = t * GAUSS_NODES[i]!;
+    const wx = vx + u * (ax + (u * jx) / 2);
+    const wy = vy + u * (ay + (u * jy) / 2);
+    sum += GAUSS_WEIGHTS[i]! * Math.sqrt(wx * wx + wy * wy);
+  }
+  return sum * t;
+}
+
+// Gauss–Legendre of three points on [0, 1]: exact up to the fifth degree, so for every straight block.
+const GAUSS_NODES = [0.5 - Math.sqrt(0.15), 0.5, 0.5 + Math.sqrt(0.15)];
+const GAUSS_WEIGHTS = [5 / 18, 8 / 18, 5 / 18];
+
+/** True where block `k` is the last of its run. */
+function endsRun(trajectory: Trajectory, k: number): boolean {
+  const { firstBlock, count } = trajectory.runs;
+  const run = lastNotAfter(k, count, (i) => firstBlock[i]!);
+  return firstBlock[run + 1] === k + 1;
+}
+
+function rest(out: MotionState, [x, y]: readonly [number, number]): MotionState {
+  out.x = x;
+  out.y = y;
+  out.vx = out.vy = out.ax = out.ay = 0;
+  out.stroke = -1;
+  return out;
+}
+
+function startOf(trajectory: Trajectory): readonly [number, number] {
+  return trajectory.blockCount > 0 ? [trajectory.x[0]!, trajectory.y[0]!] : endOf(trajectory);
+}
+
+const endOf = (trajectory: Trajectory): readonly [number, number] => [trajectory.endX, trajectory.endY];
+
+/** Index of the last of `count` ascending values that is ≤ `value`; −1 where there is none. */
+function lastNotAfter(value: number, count: number, at: (index: number) => number): number {
+  let low = 0;
+  let high = count;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (at(middle) <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
 }

@@ -1,0 +1,195 @@
+/**
+ * Planning against a floor: a bare two-pass loop that writes the same blocks into arrays that exist
+ * already. The floor gets for nothing what planning must find out (lengths, directions, corner limits),
+ * so a ratio says what all the rest costs: corners, counting, growing, runs.
+ */
+import { performance } from "node:perf_hooks";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  plan,
+  type MotionSettings,
+  type StrokeSet,
+  type Trajectory,
+} from "../src/index.js";
+
+type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
+
+const REPEATS = 5;
+
+export default async function planBench(report: Report): Promise<void> {
+  const drawing = scribble(1_000_000, 1_000);
+  const floor = prepareFloor(drawing);
+  const floorMs = best(() => bareLoop(floor));
+  const rows = [
+    { what: "bare two-pass loop", ms: Math.round(floorMs), ratio: 1, blocks: floor.count, "bytes/block": "" },
+  ];
+  report("Planning one million segments (1 000 strokes), one thread", [
+    ...rows,
+    measured("junction", drawing, { ...DEFAULT_MOTION, mode: "junction" }, floorMs),
+  ]);
+}
+
+function measured(what: string, drawing: StrokeSet, motion: MotionSettings, floorMs: number) {
+  let trajectory: Trajectory | undefined;
+  const ms = best(() => {
+    trajectory = plan(drawing, motion, DEFAULT_PEN);
+  });
+  return {
+    what,
+    ms: Math.round(ms),
+    ratio: Number((ms / floorMs).toFixed(2)),
+    blocks: trajectory!.blockCount,
+    "bytes/block": Math.round(bytesOf(trajectory!) / trajectory!.blockCount),
+  };
+}
+
+function bytesOf(t: Trajectory): number {
+  const columns = [t.durationS, t.x, t.y, t.vx, t.vy, t.ax, t.ay, t.startS, t.alongMm, t.jx, t.jy];
+  return columns.reduce((sum, column) => sum + (column ? column.byteLength : 0), 0);
+}
+
+function best(run: () => void): number {
+  let ms = Infinity;
+  for (let i = 0; i < REPEATS; i++) {
+    const start = performance.now();
+    run();
+    ms = Math.min(ms, performance.now() - start);
+  }
+  return ms;
+}
+
+/** Smooth lines with a corner now and then, 0.2 to 1 mm a segment; the same every time. */
+export function scribble(segments: number, strokes: number): StrokeSet {
+  let seed = 12345;
+  const random = (): number => (seed = (seed * 1103515245 + 12345) % 2147483648) / 2147483648;
+  const perStroke = segments / strokes + 1;
+  const xy = new Float64Array(2 * perStroke * strokes);
+  let heading = 0;
+  for (let s = 0, k = 0; s < strokes; s++) {
+    let x = 50 + 200 * random();
+    let y = 50 + 150 * random();
+    let bend = 0;
+    for (let i = 0; i < perStroke; i++) {
+      xy[k++] = x;
+      xy[k++] = y;
+      bend = 0.9 * bend + 0.1 * (random() - 0.5);
+      heading += random() < 0.01 ? 3 * (random() - 0.5) : bend;
+      const step = 0.2 + 0.8 * random();
+      x += step * Math.cos(heading);
+      y += step * Math.sin(heading);
+    }
+  }
+  return {
+    xy,
+    offsets: Uint32Array.from({ length: strokes + 1 }, (_, i) => i * perStroke),
+    layer: new Uint16Array(strokes),
+    layers: [{ id: "all", name: "All", color: null }],
+  };
+}
+
+interface Floor {
+  count: number;
+  readonly segments: number;
+  readonly x: Float64Array;
+  readonly y: Float64Array;
+  readonly ux: Float64Array;
+  readonly uy: Float64Array;
+  readonly length: Float64Array;
+  readonly limit2: Float64Array;
+  readonly v2: Float64Array;
+  readonly columns: readonly Float64Array[];
+}
+
+/** Everything that the bare loop is given: segments, their corner limits, and arrays already paged in. */
+function prepareFloor(drawing: StrokeSet): Floor {
+  const segments = drawing.xy.length / 2 - 1;
+  const make = (n: number) => new Float64Array(n).fill(1);
+  const floor: Floor = {
+    count: 0,
+    segments,
+    x: make(segments + 1),
+    y: make(segments + 1),
+    ux: make(segments),
+    uy: make(segments),
+    length: make(segments),
+    limit2: make(segments + 1),
+    v2: make(segments + 1),
+    columns: Array.from({ length: 9 }, () => make(3 * segments)),
+  };
+  const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction" }, DEFAULT_PEN);
+  // The corner limits: the speeds that the plan itself found.
+  for (let i = 0; i <= segments; i++) {
+    floor.x[i] = drawing.xy[2 * i]!;
+    floor.y[i] = drawing.xy[2 * i + 1]!;
+    if (i === 0) continue;
+    const dx = floor.x[i]! - floor.x[i - 1]!;
+    const dy = floor.y[i]! - floor.y[i - 1]!;
+    const l = Math.hypot(dx, dy);
+    floor.length[i - 1] = l;
+    floor.ux[i - 1] = dx / l;
+    floor.uy[i - 1] = dy / l;
+  }
+  const stops = new Set(drawing.offsets);
+  const at = new Map<string, number>();
+  for (let k = 0; k < planned.blockCount; k++) {
+    at.set(`${planned.x[k]},${planned.y[k]}`, planned.vx[k]! ** 2 + planned.vy[k]! ** 2);
+  }
+  for (let i = 0; i <= segments; i++) {
+    floor.limit2[i] = stops.has(i) || i === segments ? 0 : (at.get(`${floor.x[i]},${floor.y[i]}`) ?? 0);
+  }
+  return floor;
+}
+
+function bareLoop(floor: Floor): void {
+  const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
+  const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns as [
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+    Float64Array,
+  ];
+  const { accelMmPerS2: accel, speedMmPerS: speed } = DEFAULT_MOTION.draw;
+  const max2 = speed * speed;
+  v2[n] = 0;
+  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i]!, v2[i + 1]! + 2 * accel * length[i]!);
+  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1]!, v2[i]! + 2 * accel * length[i]!);
+  let k = 0;
+  let clock = 0;
+  let along = 0;
+  const put = (i: number, from: number, w0: number, w1: number, d: number): void => {
+    const t = (2 * d) / (w0 + w1);
+    const a = (w1 - w0) / t;
+    durationS[k] = t;
+    bx[k] = x[i]! + ux[i]! * from;
+    by[k] = y[i]! + uy[i]! * from;
+    vx[k] = ux[i]! * w0;
+    vy[k] = uy[i]! * w0;
+    ax[k] = ux[i]! * a;
+    ay[k] = uy[i]! * a;
+    startS[k] = clock;
+    alongMm[k] = along + from;
+    clock += t;
+    k++;
+  };
+  for (let i = 0; i < n; i++) {
+    const l = length[i]!;
+    const w0 = Math.sqrt(v2[i]!);
+    const w1 = Math.sqrt(v2[i + 1]!);
+    const peak2 = Math.min(max2, (v2[i]! + v2[i + 1]!) / 2 + accel * l);
+    const peak = Math.sqrt(peak2);
+    const rise = (peak2 - v2[i]!) / (2 * accel);
+    const fall = (peak2 - v2[i + 1]!) / (2 * accel);
+    const cruise = l - rise - fall;
+    if (rise > 1e-9) put(i, 0, w0, peak, rise);
+    if (cruise > 1e-9) put(i, rise, peak, peak, cruise);
+    if (fall > 1e-9) put(i, l - fall, peak, w1, fall);
+    along += l;
+  }
+  floor.count = k;
+}

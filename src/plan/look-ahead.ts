@@ -1,0 +1,30 @@
+/**
+ * Exact look-ahead: the fastest speeds at the vertices under |a| ≤ A along the path.
+ *
+ * Method: v² changes by at most 2 A ℓ over a segment of length ℓ. One pass from the end backwards
+ * makes every vertex slow enough to brake for what follows, one pass forwards slow enough to be
+ * reached. Each limit is lowered only as far as any feasible profile must lower it, so no other
+ * feasible profile is faster anywhere. Linear, no back-tracking.
+ *
+ *   v2   in: largest speed² at each vertex, (mm/s)²; out: the speed² to pass it at
+ *
+ *   v² ^   limit ....      ....          backward:  v²ᵢ   ≤ v²ᵢ₊₁ + 2 A ℓᵢ
+ *      |     ___:   :_____:   :          forward:   v²ᵢ₊₁ ≤ v²ᵢ   + 2 A ℓᵢ
+ *      |    /   \  /      \             (straight lines over path length)
+ *      +---------------------------> s
+ */
+export function lookAhead(v2: Float64Array, length: Float64Array, segmentCount: number, accel: number): void {
+  const twoA = 2 * accel;
+  let next = v2[segmentCount]!;
+  for (let i = segmentCount - 1; i >= 0; i--) {
+    const reachable = next + twoA * length[i]!;
+    if (v2[i]! > reachable) v2[i] = reachable;
+    next = v2[i]!;
+  }
+  let previous = v2[0]!;
+  for (let i = 0; i < segmentCount; i++) {
+    const reachable = previous + twoA * length[i]!;
+    if (v2[i + 1]! > reachable) v2[i + 1] = reachable;
+    previous = v2[i + 1]!;
+  }
+}

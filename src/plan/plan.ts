@@ -1,0 +1,182 @@
+/**
+ * Strokes to motion: the sequence of runs and pen moves. How one run moves is the mode's matter.
+ *
+ *   travel | drop | draw stroke 0 | lift | travel | drop | draw stroke 1 | lift | travel home
+ *
+ * A travel of no length has no run. A dot (a stroke of one place) is a draw run without blocks. Where a
+ * stroke begins exactly where the last of the same layer ended, the pen stays down between them.
+ */
+import { PlotwrightError } from "../errors.js";
+import { pointCount, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import { BlockColumns } from "./block-columns.js";
+import { checkSettings } from "./check-settings.js";
+import { limitJunctions } from "./corner.js";
+import { lookAhead } from "./look-ahead.js";
+import { RunPath, SHORTEST_MM } from "./run-path.js";
+import type { MotionLimits, MotionSettings, PenSettings } from "./settings.js";
+import { writeTrapezoids } from "./trapezoid.js";
+import type { PenMove, Place, Trajectory } from "./trajectory.js";
+
+export interface PlanOptions {
+  /** Where in the drawing to begin, in the middle of a stroke too; default: its beginning. */
+  readonly from?: Place | undefined;
+  /** Where the carriage is, mm in the machine frame; default 0, 0. The pen is up there. */
+  readonly startX?: number | undefined;
+  readonly startY?: number | undefined;
+  /** End at 0, 0 with the pen up; default true. False: rest where the last stroke ends. */
+  readonly returnHome?: boolean | undefined;
+  /** Looked at before every stroke. An AbortSignal fits. */
+  readonly cancel?: { readonly aborted: boolean } | undefined;
+}
+
+/**
+ * Plans the motion that draws `strokes` in their order, from rest to rest. Linear in the number of points.
+ *
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other, "cancelled"
+ * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
+ */
+export function plan(
+  strokes: StrokeSet,
+  motion: MotionSettings,
+  pen: PenSettings,
+  options: PlanOptions = {},
+): Trajectory {
+  checkSettings(motion, pen);
+  if (motion.mode !== "junction") {
+    throw new PlotwrightError("bad-setting", `motion mode "${motion.mode}" is not available yet: use "junction"`);
+  }
+  const from = checkPlace(options.from, strokeCount(strokes));
+  const builder = new PlanBuilder(strokes, motion, pen, options.startX ?? 0, options.startY ?? 0);
+  for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
+    if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
+    builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0);
+  }
+  builder.lift();
+  if (options.returnHome ?? true) builder.travel(0, 0);
+  return builder.finish();
+}
+
+class PlanBuilder {
+  private readonly blocks: BlockColumns;
+  private readonly path = new RunPath();
+  private readonly hop = new RunPath();
+  private readonly penMoves: PenMove[] = [];
+  private readonly firstBlock: number[] = [];
+  private readonly runStroke: number[] = [];
+  private readonly runStartS: number[] = [];
+  private penUp = true;
+  private lastLayer = -1;
+
+  constructor(
+    private readonly strokes: StrokeSet,
+    private readonly motion: MotionSettings,
+    private readonly pen: PenSettings,
+    private x: number,
+    private y: number,
+  ) {
+    if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
+      throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
+    }
+    this.blocks = new BlockColumns(pointCount(strokes) + strokeCount(strokes), false);
+  }
+
+  draw(stroke: number, fromAlong: number): void {
+    const { path, strokes } = this;
+    path.load(strokes.xy, strokes.offsets[stroke]!, strokes.offsets[stroke + 1]!, fromAlong);
+    if (fromAlong > 0 && path.segmentCount === 0) return;
+    const layer = strokes.layer[stroke]!;
+    const x = path.x[0]!;
+    const y = path.y[0]!;
+    if (layer !== this.lastLayer || this.isElsewhere(x, y)) this.lift();
+    this.lastLayer = layer;
+    this.travel(x, y);
+    path.startAt(this.x, this.y);
+    this.drop();
+    this.beginRun(stroke);
+    writeRun(path, this.motion.draw, this.blocks);
+    this.x = path.x[path.segmentCount]!;
+    this.y = path.y[path.segmentCount]!;
+  }
+
+  travel(x: number, y: number): void {
+    if (!this.isElsewhere(x, y)) return;
+    this.beginRun(-1);
+    this.hop.setLine(this.x, this.y, x, y);
+    writeRun(this.hop, this.motion.travel, this.blocks);
+    this.x = x;
+    this.y = y;
+  }
+
+  lift(): void {
+    this.movePen(true, this.pen.upPct, this.pen.liftMs / 1000);
+  }
+
+  private drop(): void {
+    this.movePen(false, this.pen.downPct, this.pen.dropMs / 1000);
+  }
+
+  private movePen(up: boolean, heightPct: number, waitS: number): void {
+    if (this.penUp === up) return;
+    this.penUp = up;
+    const { blocks } = this;
+    this.penMoves.push({ beforeRun: this.runStroke.length, up, startS: blocks.clockS, waitS, heightPct });
+    blocks.clockS += waitS;
+  }
+
+  private beginRun(stroke: number): void {
+    this.firstBlock.push(this.blocks.count);
+    this.runStroke.push(stroke);
+    this.runStartS.push(this.blocks.clockS);
+  }
+
+  private isElsewhere(x: number, y: number): boolean {
+    return Math.hypot(x - this.x, y - this.y) >= SHORTEST_MM;
+  }
+
+  finish(): Trajectory {
+    const { blocks } = this;
+    blocks.trim();
+    return {
+      blockCount: blocks.count,
+      durationS: blocks.durationS,
+      x: blocks.x,
+      y: blocks.y,
+      vx: blocks.vx,
+      vy: blocks.vy,
+      ax: blocks.ax,
+      ay: blocks.ay,
+      jx: blocks.jx,
+      jy: blocks.jy,
+      startS: blocks.startS,
+      alongMm: blocks.alongMm,
+      runs: {
+        count: this.runStroke.length,
+        firstBlock: Uint32Array.from([...this.firstBlock, blocks.count]),
+        stroke: Int32Array.from(this.runStroke),
+        startS: Float64Array.from(this.runStartS),
+      },
+      penMoves: this.penMoves,
+      totalS: blocks.clockS,
+      endX: this.x,
+      endY: this.y,
+    };
+  }
+}
+
+function writeRun(path: RunPath, limits: MotionLimits, blocks: BlockColumns): void {
+  if (path.segmentCount === 0) return;
+  limitJunctions(path, limits.speedMmPerS, limits.accelMmPerS2, limits.cornerMm);
+  lookAhead(path.v2, path.length, path.segmentCount, limits.accelMmPerS2);
+  writeTrapezoids(path, limits.accelMmPerS2, blocks);
+}
+
+function checkPlace(place: Place | undefined, strokes: number): Place {
+  if (place === undefined) return { stroke: 0, alongMm: 0 };
+  const { stroke, alongMm } = place;
+  if (!(Number.isInteger(stroke) && stroke >= 0 && stroke <= strokes && alongMm >= 0 && alongMm < Infinity)) {
+    throw new RangeError(
+      `no place (stroke ${stroke}, ${alongMm} mm) in a drawing of ${strokes} strokes, numbered from 0`,
+    );
+  }
+  return place;
+}

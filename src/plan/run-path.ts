@@ -1,0 +1,125 @@
+/**
+ * The polyline of one run, ready for planning: points, segment lengths, unit directions.
+ *
+ *   x, y     mm, n + 1 points          length   mm, n segments, at least 2 SHORTEST_MM
+ *   ux, uy   unit directions           v2       (mm/s)², n + 1: limit of speed² at each point, then speed²
+ *   cap2     (mm/s)², n: limit of speed² inside each segment, never below `v2` at its ends
+ *
+ * One object is filled again for every run, so planning allocates nothing per stroke.
+ */
+
+/**
+ * Places nearer than this are one place: no travel is made between them. Points of a stroke nearer than
+ * twice this to the last kept one are left out: a direction taken from them is noise.
+ */
+export const SHORTEST_MM = 5e-7;
+
+export class RunPath {
+  segmentCount = 0;
+  x = new Float64Array(0);
+  y = new Float64Array(0);
+  length = new Float64Array(0);
+  ux = new Float64Array(0);
+  uy = new Float64Array(0);
+  v2 = new Float64Array(0);
+  cap2 = new Float64Array(0);
+  /** mm along the whole stroke at the first point. */
+  startAlong = 0;
+
+  /** The straight way between two points, at least SHORTEST_MM apart. */
+  setLine(x0: number, y0: number, x1: number, y1: number): void {
+    this.reserve(2);
+    const l = Math.hypot(x1 - x0, y1 - y0);
+    this.x[0] = x0;
+    this.y[0] = y0;
+    this.x[1] = x1;
+    this.y[1] = y1;
+    this.length[0] = l;
+    this.ux[0] = (x1 - x0) / l;
+    this.uy[0] = (y1 - y0) / l;
+    this.segmentCount = 1;
+    this.startAlong = 0;
+  }
+
+  /**
+   * Points [first, end) of `xy`, from `fromAlong` mm along them.
+   * Afterwards `segmentCount` is 0 where nothing is left to move, and x[0], y[0] is the start in any case.
+   *
+   * @throws RangeError when a coordinate is not finite, or so large that lengths are not
+   */
+  load(xy: Float64Array, first: number, end: number, fromAlong: number): void {
+    this.reserve(end - first);
+    const { x, y, length, ux, uy } = this;
+    let px = xy[2 * first]!;
+    let py = xy[2 * first + 1]!;
+    if (!(Math.abs(px) + Math.abs(py) < Infinity)) throw notFinite(first, px, py);
+    let n = 0;
+    let left = fromAlong;
+    this.startAlong = 0;
+    x[0] = px;
+    y[0] = py;
+    for (let i = first + 1; i < end; i++) {
+      const qx = xy[2 * i]!;
+      const qy = xy[2 * i + 1]!;
+      let dx = qx - px;
+      let dy = qy - py;
+      let l = Math.sqrt(dx * dx + dy * dy);
+      if (l < 2 * SHORTEST_MM) continue;
+      if (!(l < Infinity)) throw notFinite(i, qx, qy);
+      if (left > 0) {
+        if (left > l - 2 * SHORTEST_MM) {
+          left -= l;
+          this.startAlong += l;
+          x[0] = px = qx;
+          y[0] = py = qy;
+          continue;
+        }
+        px += (dx / l) * left;
+        py += (dy / l) * left;
+        this.startAlong += left;
+        left = 0;
+        x[0] = px;
+        y[0] = py;
+        dx = qx - px;
+        dy = qy - py;
+        l = Math.sqrt(dx * dx + dy * dy);
+      }
+      length[n] = l;
+      ux[n] = dx / l;
+      uy[n] = dy / l;
+      n++;
+      x[n] = px = qx;
+      y[n] = py = qy;
+    }
+    this.segmentCount = n;
+  }
+
+  /** Moves the first point a little (less than SHORTEST_MM), to where the pen really is. */
+  startAt(x: number, y: number): void {
+    this.x[0] = x;
+    this.y[0] = y;
+    if (this.segmentCount === 0) return;
+    const l = Math.hypot(this.x[1]! - x, this.y[1]! - y);
+    this.length[0] = l;
+    this.ux[0] = (this.x[1]! - x) / l;
+    this.uy[0] = (this.y[1]! - y) / l;
+  }
+
+  private reserve(points: number): void {
+    if (this.x.length >= points) return;
+    const size = Math.max(points, 2 * this.x.length);
+    this.x = new Float64Array(size);
+    this.y = new Float64Array(size);
+    this.length = new Float64Array(size);
+    this.ux = new Float64Array(size);
+    this.uy = new Float64Array(size);
+    this.v2 = new Float64Array(size);
+    this.cap2 = new Float64Array(size);
+  }
+}
+
+function notFinite(index: number, x: number, y: number): RangeError {
+  return new RangeError(
+    `point ${index} of the strokes is (${x}, ${y}): coordinates must be finite and of a sane size, in mm`,
+  );
+}

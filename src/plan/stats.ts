@@ -1,0 +1,65 @@
+/** A trajectory in a few numbers, for people and for `plan --json`. */
+import { blockLength, type Trajectory } from "./trajectory.js";
+
+export interface TrajectoryStats {
+  /** Way with the pen down, mm. */
+  readonly drawMm: number;
+  /** Way with the pen up, mm. */
+  readonly travelMm: number;
+  readonly penLiftCount: number;
+  /** mm/s */
+  readonly maxSpeed: number;
+  /** mm/s², within blocks: the jump of direction at a `junction` corner is not in it. */
+  readonly maxAccel: number;
+  readonly durationS: number;
+}
+
+/** Linear in the number of blocks. */
+export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
+  const { runs } = trajectory;
+  let drawMm = 0;
+  let travelMm = 0;
+  let speed2 = 0;
+  let accel2 = 0;
+  for (let run = 0; run < runs.count; run++) {
+    let way = 0;
+    for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) {
+      way += blockLength(trajectory, k, trajectory.durationS[k]!);
+      speed2 = Math.max(speed2, blockMaxSpeed2(trajectory, k));
+      accel2 = Math.max(accel2, blockMaxAccel2(trajectory, k));
+    }
+    if (runs.stroke[run]! < 0) travelMm += way;
+    else drawMm += way;
+  }
+  return {
+    drawMm,
+    travelMm,
+    penLiftCount: trajectory.penMoves.reduce((count, move) => count + (move.up ? 1 : 0), 0),
+    maxSpeed: Math.sqrt(speed2),
+    maxAccel: Math.sqrt(accel2),
+    durationS: trajectory.totalS,
+  };
+}
+
+/** With no jerk speed² is a convex parabola in time: largest at an end. With jerk the inside is sampled. */
+function blockMaxSpeed2(trajectory: Trajectory, k: number): number {
+  const { jx, jy } = trajectory;
+  const inner = jx && jy && (jx[k] !== 0 || jy[k] !== 0) ? 8 : 1;
+  let most = 0;
+  for (let i = 0; i <= inner; i++) {
+    const t = (trajectory.durationS[k]! * i) / inner;
+    const vx = trajectory.vx[k]! + t * (trajectory.ax[k]! + (t * (jx ? jx[k]! : 0)) / 2);
+    const vy = trajectory.vy[k]! + t * (trajectory.ay[k]! + (t * (jy ? jy[k]! : 0)) / 2);
+    most = Math.max(most, vx * vx + vy * vy);
+  }
+  return most;
+}
+
+function blockMaxAccel2(trajectory: Trajectory, k: number): number {
+  const t = trajectory.durationS[k]!;
+  const ax = trajectory.ax[k]!;
+  const ay = trajectory.ay[k]!;
+  const bx = ax + t * (trajectory.jx ? trajectory.jx[k]! : 0);
+  const by = ay + t * (trajectory.jy ? trajectory.jy[k]! : 0);
+  return Math.max(ax * ax + ay * ay, bx * bx + by * by);
+}

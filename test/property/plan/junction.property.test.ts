@@ -1,0 +1,151 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { DEFAULT_PEN, plan, stateAt, trajectoryStats, type MotionSettings } from "../../../src/index.js";
+import {
+  arbitraryLimits,
+  arbitraryStroke,
+  arbitraryStrokeSet,
+  strokeSetOf,
+  type Point,
+} from "../../support/arbitraries.js";
+import { worstOf } from "../../support/trajectory-checks.js";
+
+const RUNS = { numRuns: 1000 };
+const arbitraryMotion: fc.Arbitrary<MotionSettings> = fc.record({
+  mode: fc.constant("junction" as const),
+  draw: arbitraryLimits,
+  travel: arbitraryLimits,
+});
+
+describe("a junction plan of any drawing", () => {
+  it("keeps speed and acceleration within their limits at every instant, rests between runs and leaves no gap", () => {
+    fc.assert(
+      fc.property(arbitraryStrokeSet, arbitraryMotion, (strokes, motion) => {
+        const trajectory = plan(strokes, motion, DEFAULT_PEN);
+        const worst = worstOf(trajectory, strokes, motion.draw, motion.travel);
+        expect(worst.finite).toBe(true);
+        expect(worst.speed).toBeLessThanOrEqual(1.001);
+        expect(worst.accel).toBeLessThanOrEqual(1.001);
+        expect(worst.restSpeed).toBeLessThan(1e-6);
+        // 1e-9 mm, or the last bits of a coordinate of 1e6 mm.
+        const size = Math.max(1, ...Array.from(strokes.xy, Math.abs));
+        expect(worst.gap).toBeLessThanOrEqual(Math.max(1e-9, size * 1e-14));
+        expect(worst.distance).toBeLessThanOrEqual(2e-6);
+        expect(worst.clock).toBeLessThanOrEqual(1e-9 * Math.max(1, trajectory.totalS));
+      }),
+      RUNS,
+    );
+  });
+
+  it("draws every stroke once, in order, with the pen down only then", () => {
+    fc.assert(
+      fc.property(arbitraryStrokeSet, arbitraryMotion, (strokes, motion) => {
+        const { runs, penMoves } = plan(strokes, motion, DEFAULT_PEN);
+        const drawn = Array.from(runs.stroke).filter((stroke) => stroke >= 0);
+        expect(drawn).toEqual(Array.from({ length: strokes.offsets.length - 1 }, (_, i) => i));
+        let up = true;
+        let move = 0;
+        for (let run = 0; run <= runs.count; run++) {
+          for (; move < penMoves.length && penMoves[move]!.beforeRun === run; move++) up = penMoves[move]!.up;
+          if (run < runs.count) expect(up).toBe(runs.stroke[run]! < 0);
+        }
+        expect(up).toBe(true);
+        expect(move).toBe(penMoves.length);
+      }),
+      RUNS,
+    );
+  });
+
+  it("takes as long backwards as forwards", () => {
+    fc.assert(
+      fc.property(arbitraryStroke, arbitraryMotion, (stroke, motion) => {
+        const forwards = drawTime(stroke, motion);
+        const backwards = drawTime([...stroke].reverse(), motion);
+        expect(backwards).toBeCloseTo(forwards, 4 - Math.ceil(Math.log10(1 + forwards)));
+      }),
+      RUNS,
+    );
+  });
+
+  it("takes as long when space and all limits are scaled alike", () => {
+    const clean = fc.array(fc.tuple(fc.integer({ min: 0, max: 300 }), fc.integer({ min: 0, max: 200 })), {
+      minLength: 2,
+      maxLength: 12,
+    });
+    fc.assert(
+      fc.property(
+        clean,
+        arbitraryMotion,
+        fc.double({ min: 0.01, max: 100, noNaN: true }),
+        (stroke, motion, k) => {
+          const { speedMmPerS, accelMmPerS2, cornerMm, jerkMmPerS3 } = motion.draw;
+          const draw = {
+            speedMmPerS: k * speedMmPerS,
+            accelMmPerS2: k * accelMmPerS2,
+            cornerMm: k * cornerMm,
+            jerkMmPerS3: k * jerkMmPerS3,
+          };
+          const scaled = stroke.map(([x, y]): Point => [k * x, k * y]);
+          const time = drawTime(stroke, motion);
+          expect(Math.abs(drawTime(scaled, { ...motion, draw }) - time)).toBeLessThanOrEqual(
+            1e-9 * (1 + time),
+          );
+        },
+      ),
+      RUNS,
+    );
+  });
+
+  it("gives at any instant the state that its blocks give", () => {
+    fc.assert(
+      fc.property(
+        arbitraryStrokeSet,
+        arbitraryMotion,
+        fc.double({ min: 0, max: 1, noNaN: true }),
+        (strokes, motion, share) => {
+          const trajectory = plan(strokes, motion, DEFAULT_PEN);
+          const t = share * trajectory.totalS;
+          const now = stateAt(trajectory, t);
+          const soon = stateAt(trajectory, t + 1e-6);
+          const reach = Math.max(motion.draw.speedMmPerS, motion.travel.speedMmPerS) * 1e-6;
+          expect(Math.hypot(soon.x - now.x, soon.y - now.y)).toBeLessThanOrEqual(
+            1.01 * reach + 1e-9 * (1 + Math.abs(now.x) + Math.abs(now.y)),
+          );
+          if (now.stroke >= 0) expect(now.penUp).toBe(false);
+        },
+      ),
+      RUNS,
+    );
+  });
+
+  it("goes on from any place of the drawing and draws exactly what is left", () => {
+    fc.assert(
+      fc.property(
+        arbitraryStroke,
+        arbitraryMotion,
+        fc.double({ min: 0, max: 1, noNaN: true }),
+        (stroke, motion, share) => {
+          const strokes = strokeSetOf([
+            stroke,
+            [
+              [1, 1],
+              [9, 9],
+            ],
+          ]);
+          const whole = trajectoryStats(plan(strokeSetOf([stroke]), motion, DEFAULT_PEN)).drawMm;
+          const left = plan(strokes, motion, DEFAULT_PEN, { from: { stroke: 0, alongMm: share * whole } });
+          const drawn = trajectoryStats(left).drawMm;
+          expect(Math.abs(drawn - Math.hypot(8, 8) - (1 - share) * whole)).toBeLessThanOrEqual(
+            1e-5 + 1e-9 * whole,
+          );
+        },
+      ),
+      RUNS,
+    );
+  });
+});
+
+function drawTime(stroke: readonly Point[], motion: MotionSettings): number {
+  const [x, y] = stroke[0]!;
+  return plan(strokeSetOf([stroke]), motion, DEFAULT_PEN, { startX: x, startY: y, returnHome: false }).totalS;
+}
