@@ -3,7 +3,7 @@ import { defineConfig } from "vitest/config";
 /** Tests that watch a real clock, or start browsers and processes: other work beside them would disturb them. */
 const ALONE = [
   "test/e2e/**/*.test.ts",
-  "test/pty/**/*.test.ts",
+  "test/serial/**/*.test.ts",
   "test/packaging/**/*.test.ts",
   "test/**/*.alone.test.ts",
 ];
