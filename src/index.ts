@@ -55,9 +55,28 @@ export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 // machines
 export type { MachineProfile } from "./machines/profile.js";
+export { MACHINES, machineById } from "./machines/profiles.js";
+export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
+export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
+export {
+  compareFirmware,
+  firmwareFeatures,
+  firmwareFromReply,
+  type FirmwareFeatures,
+} from "./ebb/firmware.js";
+export {
+  commandName,
+  LineSplitter,
+  ReplyMatcher,
+  replyShape,
+  type BoardErrorReply,
+  type Reply,
+  type ReplyShape,
+  type ReplySyntax,
+} from "./ebb/replies.js";
 
 // board
 export type { Cancellation, Clock, Transport } from "./board/transport.js";

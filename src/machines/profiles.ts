@@ -1,0 +1,78 @@
+/**
+ * Plotters as data. Travel limits are the makers' published ones; home is the corner where x and y are 0.
+ *
+ * AxiDraw and NextDraw: 200-step motors, 5 full steps for one mm along an axis, so 80 at 1/16.
+ * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
+ */
+import { PlotwrightError } from "../errors.js";
+import type { MachineProfile } from "./profile.js";
+
+const STANDARD_SERVO = { servoPosAt0Pct: 7_500, servoPosAt100Pct: 28_000, servoPin: 4 } as const;
+const BRUSHLESS_SERVO = { servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 } as const;
+const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed", microstepMode: 1 } as const;
+
+const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+  id,
+  name,
+  widthMm,
+  heightMm,
+  ...BELT_DRIVE,
+  ...STANDARD_SERVO,
+});
+const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+  id,
+  name,
+  widthMm,
+  heightMm,
+  ...BELT_DRIVE,
+  ...BRUSHLESS_SERVO,
+});
+
+/** A sphere of 40 mm turned by 3200 steps; the pen arm moves 1/4 of that either way. */
+const EGG_STEPS_PER_TURN = 3_200;
+const EGG_TURN_MM = Math.PI * 40;
+
+export const MACHINES: readonly MachineProfile[] = [
+  axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
+  axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
+  axidraw("axidraw-se-a4", "AxiDraw SE/A4", 300, 218),
+  axidraw("axidraw-se-a3", "AxiDraw SE/A3", 430, 297),
+  axidraw("axidraw-v3-xlx", "AxiDraw V3 XLX", 595, 218),
+  axidraw("axidraw-minikit", "AxiDraw MiniKit", 160, 101.6),
+  axidraw("axidraw-se-a1", "AxiDraw SE/A1", 864, 594),
+  axidraw("axidraw-se-a2", "AxiDraw SE/A2", 594, 432),
+  axidraw("axidraw-v3-b6", "AxiDraw V3/B6", 190, 140),
+  nextdraw("nextdraw-8511", "NextDraw 8511", 300, 218),
+  nextdraw("nextdraw-1117", "NextDraw 1117", 430, 297),
+  nextdraw("nextdraw-2234", "NextDraw 2234", 864, 594),
+  {
+    id: "eggbot",
+    name: "EggBot (40 mm sphere)",
+    widthMm: Number(EGG_TURN_MM.toFixed(3)),
+    heightMm: Number((EGG_TURN_MM / 4).toFixed(3)),
+    stepsPerMm: EGG_STEPS_PER_TURN / EGG_TURN_MM,
+    motors: "direct",
+    microstepMode: 1,
+    ...STANDARD_SERVO,
+  },
+  {
+    id: "watercolorbot",
+    name: "WaterColorBot",
+    widthMm: 362,
+    heightMm: 216,
+    stepsPerMm: 80,
+    motors: "direct",
+    microstepMode: 1,
+    ...STANDARD_SERVO,
+  },
+];
+
+/** The profile of that id. Throws `bad-setting` naming those there are. */
+export function machineById(id: string): MachineProfile {
+  const machine = MACHINES.find((candidate) => candidate.id === id);
+  if (machine === undefined) {
+    const known = MACHINES.map((candidate) => candidate.id).join(", ");
+    throw new PlotwrightError("bad-setting", `There is no machine "${id}". Known machines: ${known}.`);
+  }
+  return machine;
+}
