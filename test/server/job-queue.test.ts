@@ -1,0 +1,250 @@
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import fc from "fast-check";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { INTERRUPTED_MESSAGE, JobQueue, type Planning } from "../../server/queue/job-queue.js";
+import { Store } from "../../server/queue/store.js";
+import { PlotwrightError } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
+import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { drawingOf } from "./support/jobs.js";
+
+let dir: string;
+let store: Store;
+let plotter: LedPlotter;
+let events: ServerEvent[];
+let queue: JobQueue;
+
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-queue-"));
+  prepareDataDir(dir);
+  openQueue();
+});
+afterEach(async () => {
+  await queue.close();
+  store.close();
+  rmSync(dir, { recursive: true, force: true });
+});
+
+function openQueue(planning: Planning = LED_PLANNING): void {
+  store = Store.open(dir);
+  plotter = new LedPlotter();
+  events = [];
+  queue = new JobQueue({
+    store,
+    files: new DrawingFiles(dir, 1_000_000),
+    planning,
+    plotters: new Map([[plotter.id, plotter]]),
+    // What is announced is on disk already.
+    announce: (event) => {
+      if (event.type === "job") expect(store.jobs()).toContainEqual(event.job);
+      events.push(event);
+    },
+    nowIso: () => new Date().toISOString(),
+  });
+}
+
+const add = (name: string): Promise<Job> =>
+  queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
+const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state}`);
+
+describe("the queue", () => {
+  it("plots a job through progress and hold to its end, telling each step", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.progress({ progress: 0.5, elapsedS: 6, remainingS: 6, planS: 6, xMm: 1, yMm: 2, penUp: false });
+    expect(queue.get(id)).toMatchObject({ state: "plotting", progress: 0.5, remainingS: 6 });
+    queue.pause(id);
+    expect(queue.get(id).state).toBe("paused");
+    queue.resume(id);
+    expect(queue.get(id).state).toBe("plotting");
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "done", progress: 1, remainingS: 0 });
+    expect(run.asked).toEqual(["pause", "resume"]);
+    const states = events.flatMap((event) => (event.type === "job" ? [event.job.state] : []));
+    expect(new Set(states)).toEqual(new Set(["queued", "plotting", "paused", "done"]));
+    expect(events).toContainEqual(
+      expect.objectContaining({ type: "progress", jobId: id, xMm: 1, yMm: 2, penUp: false }),
+    );
+  });
+
+  it("tells what the board's failure was, keeps the rest of the queue, and can plot again", async () => {
+    const first = await add("fern");
+    await add("moss");
+    queue.start(first.id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    expect(names()).toEqual(["moss queued", "fern failed"]);
+    expect(queue.get(first.id).message).toBe("The board was unplugged.");
+    queue.requeue(first.id);
+    expect(names()).toEqual(["moss queued", "fern queued"]);
+    queue.start(first.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names()).toEqual(["moss queued", "fern done"]);
+  });
+
+  it("refuses a second job while one is on the plotter", async () => {
+    const first = await add("fern");
+    const second = await add("moss");
+    queue.start(first.id);
+    expect(() => queue.start(second.id)).toThrow(/"fern" is on the plotter/);
+    expect(queue.get(second.id).state).toBe("queued");
+  });
+
+  it("refuses to start without a board, and the job stays queued", async () => {
+    const { id } = await add("fern");
+    plotter.connection = "absent";
+    expect(() => queue.start(id)).toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(queue.get(id).state).toBe("queued");
+  });
+
+  it("cancels a job that is still being planned", async () => {
+    await queue.close();
+    store.close();
+    openQueue({
+      ...LED_PLANNING,
+      open: (_drawing, _settings, signal) =>
+        new Promise((_resolve, reject) => {
+          signal.addEventListener("abort", () => reject(new PlotwrightError("cancelled", "stop")));
+        }),
+    });
+    const { id } = await add("fern");
+    queue.start(id);
+    queue.cancel(id);
+    await settled();
+    expect(queue.get(id).state).toBe("cancelled");
+    expect(plotter.runs).toEqual([]);
+  });
+
+  it("does not add a job whose drawing can't be planned", async () => {
+    await queue.close();
+    store.close();
+    openQueue({
+      ...LED_PLANNING,
+      measure: () => Promise.reject(new PlotwrightError("bad-file", "This is not an SVG.")),
+    });
+    await expect(add("fern")).rejects.toThrow("This is not an SVG.");
+    expect(queue.list()).toEqual([]);
+    expect(events).toEqual([]);
+  });
+
+  it("marks what was plotting as interrupted after a restart, and keeps the others' order", async () => {
+    const jobs = [await add("fern"), await add("moss"), await add("ivy")];
+    queue.move(jobs[2]!.id, jobs[1]!.id);
+    queue.start(jobs[0]!.id);
+    await plotter.nextRun();
+    store.close();
+    openQueue();
+    expect(names()).toEqual(["ivy queued", "moss queued", "fern failed"]);
+    expect(queue.get(jobs[0]!.id).message).toBe(INTERRUPTED_MESSAGE);
+  });
+
+  it("changes settings only while queued, and the name at any time", async () => {
+    const { id } = await add("fern");
+    const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "axidraw-se-a3" };
+    expect((await queue.patch(id, { settings })).settings.machine).toBe("axidraw-se-a3");
+    queue.cancel(id);
+    await expect(queue.patch(id, { settings })).rejects.toMatchObject({ code: "conflict" });
+    expect((await queue.patch(id, { name: "bracken" })).name).toBe("bracken");
+  });
+
+  it("keeps a job until its plot has ended", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    await expect(queue.remove(id)).rejects.toMatchObject({ code: "conflict" });
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    await queue.remove(id);
+    expect(queue.list()).toEqual([]);
+    expect(events.at(-1)).toEqual({ type: "job-removed", id });
+  });
+
+  it("agrees with a simple list on what is queued and in which order, whatever is asked of it", async () => {
+    const step = fc.record({
+      ask: fc.constantFrom("add", "move", "remove", "start", "end", "fail", "cancel", "requeue", "reopen"),
+      at: fc.nat(7),
+      to: fc.nat(7),
+    });
+    await fc.assert(
+      fc.asyncProperty(fc.array(step, { maxLength: 25 }), async (steps) => {
+        await startAfresh();
+        // The model: ids of what is not ended in order, the one that plots, and what has ended.
+        let open: string[] = [];
+        let plotting: string | null = null;
+        let ended: string[] = [];
+        for (const { ask, at, to } of steps) {
+          const waiting = open.filter((id) => id !== plotting);
+          const one = waiting[at % (waiting.length || 1)];
+          if (ask === "add") open.push((await add(`job ${open.length}`)).id);
+          if (ask === "move" && one !== undefined) {
+            const rest = open.filter((id) => id !== one);
+            const index = to % (rest.length + 1);
+            queue.move(one, rest[index] ?? null);
+            rest.splice(index, 0, one);
+            open = rest;
+          }
+          if (ask === "remove" && one !== undefined) {
+            await queue.remove(one);
+            open = open.filter((id) => id !== one);
+          }
+          if (ask === "start" && one !== undefined && plotting === null) {
+            queue.start(one);
+            plotting = one;
+          }
+          if ((ask === "end" || ask === "fail") && plotting !== null) {
+            const run = await plotter.nextRun();
+            await settled();
+            if (ask === "end") run.end({ kind: "done" });
+            else run.fail(new Error("broken"));
+            await settled();
+            open = open.filter((id) => id !== plotting);
+            ended.push(plotting);
+            plotting = null;
+          }
+          if (ask === "cancel" && one !== undefined) {
+            queue.cancel(one);
+            open = open.filter((id) => id !== one);
+            ended.push(one);
+          }
+          const again = ended[at % (ended.length || 1)];
+          if (ask === "requeue" && again !== undefined) {
+            queue.requeue(again);
+            ended = ended.filter((id) => id !== again);
+            open.push(again);
+          }
+          if (ask === "reopen") {
+            store.close();
+            openQueue();
+            if (plotting !== null) ended.push(plotting);
+            open = open.filter((id) => id !== plotting);
+            plotting = null;
+          }
+          const listed = queue.list();
+          expect(listed.slice(0, open.length).map((job) => job.id)).toEqual(open);
+          expect(new Set(listed.slice(open.length).map((job) => job.id))).toEqual(new Set(ended));
+          expect(listed.filter((job) => job.state === "plotting").map((job) => job.id)).toEqual(
+            plotting === null ? [] : [plotting],
+          );
+        }
+      }),
+      { numRuns: 40 },
+    );
+  }, 60_000);
+});
+
+async function startAfresh(): Promise<void> {
+  await queue.close();
+  for (const job of queue.list()) await queue.remove(job.id);
+  store.close();
+  openQueue();
+}
