@@ -1,0 +1,92 @@
+/** What a user gets from the registry: the packed tarball, installed in an empty folder. */
+import { spawnSync } from "node:child_process";
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  readdirSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { ROOT } from "../../scripts/setup.mjs";
+
+const folder = mkdtempSync(path.join(tmpdir(), "plotwright-package-"));
+const app = path.join(folder, "app");
+
+function run(
+  command: string,
+  args: readonly string[],
+  cwd: string,
+): { status: number | null; stdout: string; stderr: string } {
+  const isNpm = command === "npm" || command === "npx";
+  return spawnSync(command, args, { cwd, encoding: "utf8", shell: isNpm && process.platform === "win32" });
+}
+
+function succeed(command: string, args: readonly string[], cwd: string): string {
+  const result = run(command, args, cwd);
+  expect(`${result.status} ${result.status === 0 ? "" : result.stderr}`.trim()).toBe("0");
+  return result.stdout;
+}
+
+beforeAll(() => {
+  mkdirSync(app);
+  writeFileSync(path.join(app, "package.json"), '{ "name": "app", "private": true, "type": "module" }\n');
+  // dist/ is fresh already (global set-up), so the build of `prepack` need not run again.
+  succeed("npm", ["pack", "--ignore-scripts", "--pack-destination", folder], ROOT);
+  const tarball = readdirSync(folder).find((name) => name.endsWith(".tgz")) ?? "";
+  const flags = ["--ignore-scripts", "--prefer-offline", "--no-audit", "--no-fund"];
+  succeed("npm", ["install", ...flags, path.join(folder, tarball)], app);
+}, 300_000);
+
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+describe("the installed package", () => {
+  const installed = path.join(app, "node_modules", "plotwright");
+
+  it("holds the built product and nothing else", () => {
+    expect(readdirSync(installed).sort()).toEqual(
+      ["CHANGELOG.md", "LICENSE", "README.md", "dist", "package.json", "samples"].sort(),
+    );
+    expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["server", "src", "web"]);
+    expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
+  });
+
+  it("tells its version by npx plotwright --version", () => {
+    const { version } = JSON.parse(readFileSync(path.join(ROOT, "package.json"), "utf8")) as {
+      version: string;
+    };
+    expect(succeed("npx", ["--no-install", "plotwright", "--version"], app).trim()).toBe(version);
+  });
+
+  it("plans one of its samples by npx plotwright plan --json", () => {
+    const sample = path.join(installed, "samples", "hello-paper.svg");
+    const report = JSON.parse(
+      succeed("npx", ["--no-install", "plotwright", "plan", sample, "--json"], app),
+    ) as {
+      strokes: number;
+      durationS: number;
+    };
+    expect(report.strokes).toBeGreaterThan(20);
+    expect(report.durationS).toBeGreaterThan(10);
+  });
+
+  it("says about the virtual board what npx plotwright info asks", () => {
+    expect(succeed("npx", ["--no-install", "plotwright", "info", "--device", "virtual"], app)).toMatch(
+      /EBB|firmware/i,
+    );
+  });
+
+  it.each([
+    ["plotwright", "plan, importSvg, prepare, compile, VirtualBoard"],
+    ["plotwright/schema", "plotSettingsSchema, jobSchema"],
+    ["plotwright/server", "createServer"],
+  ])("lets a program import from %s", (entry, names) => {
+    const program = `import { ${names} } from "${entry}"; console.log([${names}].every((name) => name !== undefined));`;
+    writeFileSync(path.join(app, "program.js"), program);
+    expect(succeed(process.execPath, ["program.js"], app).trim()).toBe("true");
+  });
+});
