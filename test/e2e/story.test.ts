@@ -1,0 +1,132 @@
+/** The main job, end to end: open the page, drop a drawing, see it, plot it, find it again after a restart. */
+import { readFileSync } from "node:fs";
+import path from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { ROOT } from "../../scripts/setup.mjs";
+import { launchBrowser } from "../support/browser.js";
+import { colorsOf, distanceToMix, rgbFromHex, saturation, type Rgb } from "../support/colors.js";
+import {
+  dropFile,
+  historyPanel,
+  pixelsOf,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+} from "../support/page-actions.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+
+const DESKTOP = { width: 1440, height: 900 };
+const PHONE = { width: 390, height: 844 };
+const SAMPLE = "three-colour-hills.svg";
+
+const data = temporaryFolder("story");
+let browser: Browser;
+let server: ServerProcess;
+let page: Page;
+const complaints: string[] = [];
+
+async function openPage(viewport: { width: number; height: number }): Promise<Page> {
+  const context = await browser.newContext({ viewport, colorScheme: "light" });
+  const opened = await context.newPage();
+  opened.on("pageerror", (error) => complaints.push(error.message));
+  opened.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  await opened.goto(server.url);
+  return opened;
+}
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 20 });
+  page = await openPage(DESKTOP);
+});
+
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+  data.remove();
+});
+
+/** The part of the preview's pixels that a drawing's lines can be on: coloured ones. */
+const inked = async (target: Page): Promise<Rgb[]> =>
+  [...colorsOf(await pixelsOf(target.getByRole("img", { name: "Preview" })))].filter(
+    (color) => saturation(color) > 60,
+  );
+
+describe("a newcomer with a drawing", () => {
+  it("finds a sample on the paper and is told that no plotter is plugged in", async () => {
+    await waitForPlan(page);
+    await page
+      .getByText(/Virtual board/)
+      .first()
+      .waitFor();
+    expect((await inked(page)).length).toBeGreaterThan(2_000);
+  });
+
+  it("drops a file and sees how long it takes, how far, and how many pen lifts", async () => {
+    await dropFile(page, SAMPLE, readFileSync(path.join(ROOT, "samples", SAMPLE), "utf8"));
+    await page.getByText(SAMPLE.replace(".svg", "")).first().waitFor();
+    await waitForPlan(page);
+    const figures = await plotBar(page).innerText();
+    expect(figures).toMatch(/\d+\s*min/);
+    expect(figures).toMatch(/Pen lifts\s*\d+/i);
+  });
+
+  it("sees it in the colours of the legend, which ends at the drawing's top speed", async () => {
+    const legend = page.getByRole("img", { name: "Speed legend" });
+    const stops = (await legend.getAttribute("data-stops")) ?? "[]";
+    const inks = (JSON.parse(stops) as { mmPerS: number; color: string }[]).map(({ color }) =>
+      rgbFromHex(color),
+    );
+    expect(inks.length).toBeGreaterThan(4);
+    const drawn = await inked(page);
+    expect(drawn.length).toBeGreaterThan(2_000);
+    const strangers = drawn.filter((color) => distanceToMix(color, [255, 255, 255], inks) > 24);
+    expect(strangers.length / drawn.length).toBeLessThan(0.02);
+  });
+
+  it("adds it to the queue, starts it, and watches it come to 100 %", async () => {
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await queuePanel(page)
+      .getByRole("button", { name: /^Start / })
+      .click();
+    const progress = queuePanel(page).getByRole("progressbar");
+    await progress.waitFor();
+    const seen: number[] = [];
+    while (await progress.isVisible()) {
+      seen.push(Number(await progress.getAttribute("aria-valuenow").catch(() => seen.at(-1))));
+      await page.waitForTimeout(200);
+    }
+    expect(seen).toEqual([...seen].sort((a, b) => a - b));
+    expect(seen.at(-1)).toBeGreaterThan(90);
+    await historyPanel(page).getByText("Done").waitFor();
+    const { jobs } = (await (await fetch(`${server.url}/api/v1/state`)).json()) as {
+      jobs: { state: string; progress: number }[];
+    };
+    expect(jobs.map(({ state, progress: share }) => [state, share])).toEqual([["done", 1]]);
+  }, 180_000);
+
+  it("finds it in the history after the server was started anew", async () => {
+    await page.goto("about:blank");
+    await server.stop();
+    server = await startServerProcess({ dataDir: data.path });
+    await page.goto(server.url);
+    await historyPanel(page).getByText("Done").waitFor();
+    await historyPanel(page).getByText(SAMPLE.replace(".svg", "")).waitFor();
+  });
+
+  it("can do it on a phone without scrolling sideways", async () => {
+    const phone = await openPage(PHONE);
+    await waitForPlan(phone);
+    const widthPx = await phone.evaluate(() => document.documentElement.scrollWidth);
+    expect(widthPx).toBeLessThanOrEqual(PHONE.width);
+    await phone.getByRole("button", { name: "Plot", exact: true }).waitFor();
+    await phone.context().close();
+  });
+
+  it("meets no error in the browser's console on the way", () => {
+    expect(complaints).toEqual([]);
+  });
+});

@@ -1,0 +1,32 @@
+/** Do the colours on the screen belong to a legend? A line's edge pixels are mixed with the paper under it. */
+import type { Pixels } from "./page-actions.js";
+
+export type Rgb = readonly [r: number, g: number, b: number];
+
+export function* colorsOf({ data }: Pixels): Generator<Rgb> {
+  for (let i = 0; i < data.length; i += 4) yield [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
+}
+
+export const saturation = ([r, g, b]: Rgb): number => Math.max(r, g, b) - Math.min(r, g, b);
+
+/** Distance (0 … 441) from a colour to the nearest mix of `paper` with one of `inks`. */
+export function distanceToMix(color: Rgb, paper: Rgb, inks: readonly Rgb[]): number {
+  let nearest = Infinity;
+  for (const ink of inks) {
+    const along = [ink[0] - paper[0], ink[1] - paper[1], ink[2] - paper[2]] as const;
+    const from = [color[0] - paper[0], color[1] - paper[1], color[2] - paper[2]] as const;
+    const lengthSquared = along[0] ** 2 + along[1] ** 2 + along[2] ** 2;
+    const dot = from[0] * along[0] + from[1] * along[1] + from[2] * along[2];
+    const share = lengthSquared === 0 ? 0 : Math.min(1, Math.max(0, dot / lengthSquared));
+    nearest = Math.min(
+      nearest,
+      Math.hypot(from[0] - share * along[0], from[1] - share * along[1], from[2] - share * along[2]),
+    );
+  }
+  return nearest;
+}
+
+export const rgbFromHex = (hex: string): Rgb => {
+  const value = Number.parseInt(hex.slice(1), 16);
+  return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
+};
