@@ -1,0 +1,30 @@
+/** Does the drawing fit the machine? Asked before anything moves. */
+import type { StrokeSet } from "../drawing/stroke-set.js";
+import { PlotwrightError } from "../errors.js";
+import { boxOfPoints } from "../geometry/box.js";
+import type { MachineProfile } from "../machines/profile.js";
+
+/** mm; rounding and a carriage's own play, not a reason to refuse a plot. */
+const SLACK = 0.01;
+
+/** Throws `out-of-bounds`, with the figures, when a stroke leaves the machine's travel. */
+export function checkBounds(
+  strokes: StrokeSet,
+  machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,
+): void {
+  if (strokes.xy.length === 0) return;
+  const box = boxOfPoints(strokes.xy);
+  const fits =
+    box.x0 >= -SLACK &&
+    box.y0 >= -SLACK &&
+    box.x1 <= machine.widthMm + SLACK &&
+    box.y1 <= machine.heightMm + SLACK;
+  if (fits) return;
+  const mm = (value: number): string => String(Math.round(value * 10) / 10);
+  throw new PlotwrightError(
+    "out-of-bounds",
+    `The drawing reaches from (${mm(box.x0)}, ${mm(box.y0)}) to (${mm(box.x1)}, ${mm(box.y1)}) mm, but the ${machine.name} ` +
+      `can only go from (0, 0) to (${mm(machine.widthMm)}, ${mm(machine.heightMm)}) mm: choose a smaller paper, ` +
+      `turn the paper, or fit the drawing to it.`,
+  );
+}

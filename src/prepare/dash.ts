@@ -1,0 +1,115 @@
+/** Dashed lines as the dashes that they are. */
+import type { DashPattern } from "../drawing/drawing.js";
+import type { Box } from "../geometry/box.js";
+import { insideRange } from "../geometry/clip.js";
+import { LineBuilder, distance, lineCount, type Lines } from "../geometry/polyline.js";
+
+/** A pattern finer than this per period, mm, is drawn solid: no pen resolves it. */
+const FINEST_PERIOD = 0.05;
+
+/**
+ * Cuts every line whose tag has a pattern (lengths in mm on paper); dots and other lines pass unchanged.
+ * Dashes outside `box` are passed over, as a long line has no end of them.
+ */
+export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern | null, box: Box): Lines {
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    const pattern = patternOf(lines.tag[i]);
+    const isDot = lines.offsets[i + 1] - lines.offsets[i] < 2;
+    if (pattern === null || isDot || periodOf(pattern) < FINEST_PERIOD) builder.copy(lines, i, lines.tag[i]);
+    else new Dasher(pattern, lines.tag[i], builder).run(lines, i, box);
+  }
+  return builder.finish();
+}
+
+/** The pattern on paper that is `scale` times as large as the file's page. */
+export const scaledPattern = (pattern: DashPattern, scale: number): DashPattern => ({
+  lengths: pattern.lengths.map((length) => length * scale),
+  offset: pattern.offset * scale,
+});
+
+const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, length) => sum + length, 0);
+
+class Dasher {
+  private index = 0;
+  /** What is left of the present length, mm. */
+  private left = 0;
+  private readonly period: number;
+
+  constructor(
+    private readonly pattern: DashPattern,
+    private readonly tag: number,
+    private readonly builder: LineBuilder,
+  ) {
+    this.period = periodOf(pattern);
+    this.setPhase(pattern.offset);
+  }
+
+  private get isDrawing(): boolean {
+    return this.index % 2 === 0;
+  }
+
+  run(lines: Lines, i: number, box: Box): void {
+    const { xy, offsets } = lines;
+    const range: [number, number] = [0, 1];
+    for (let p = offsets[i] + 1; p < offsets[i + 1]; p++) {
+      const x0 = xy[2 * p - 2];
+      const y0 = xy[2 * p - 1];
+      const x1 = xy[2 * p];
+      const y1 = xy[2 * p + 1];
+      const length = distance(x0, y0, x1, y1);
+      if (!insideRange(x0, y0, x1, y1, box, range)) {
+        this.pass(length);
+        continue;
+      }
+      const [enter, leave] = range;
+      const x = (t: number): number => (t === 1 ? x1 : x0 + t * (x1 - x0));
+      const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
+      if (enter > 0) this.pass(enter * length);
+      this.dash(x(enter), y(enter), x(leave), y(leave), (leave - enter) * length);
+      if (leave < 1) this.pass((1 - leave) * length);
+    }
+    this.endDash();
+  }
+
+  /** Draws the dashes of a straight piece. */
+  private dash(x0: number, y0: number, x1: number, y1: number, length: number): void {
+    if (this.isDrawing) this.builder.point(x0, y0);
+    let along = 0;
+    while (length - along > this.left) {
+      along += this.left;
+      // A dash ends or begins here; one of no length ends where it began and leaves a dot.
+      this.builder.point(x0 + ((x1 - x0) * along) / length, y0 + ((y1 - y0) * along) / length);
+      if (this.isDrawing) this.builder.end(this.tag);
+      this.index = (this.index + 1) % this.pattern.lengths.length;
+      this.left = this.pattern.lengths[this.index];
+    }
+    this.left -= length - along;
+    if (this.isDrawing) this.builder.point(x1, y1);
+  }
+
+  /** Goes on along the pattern without drawing. */
+  private pass(length: number): void {
+    this.endDash();
+    let into = this.pattern.lengths[this.index] - this.left + length;
+    for (let k = 0; k < this.index; k++) into += this.pattern.lengths[k];
+    this.setPhase(into);
+  }
+
+  private endDash(): void {
+    if (this.isDrawing) this.builder.end(this.tag);
+    else this.builder.drop();
+  }
+
+  private setPhase(offset: number): void {
+    const { lengths } = this.pattern;
+    let into = ((offset % this.period) + this.period) % this.period;
+    for (this.index = 0; this.index < lengths.length - 1; this.index++) {
+      const length = lengths[this.index];
+      // Right at the start of a dash of no length it is still to come.
+      if (into < length || (into === 0 && length === 0)) break;
+      into -= length;
+    }
+    this.left = Math.max(lengths[this.index] - into, 0);
+  }
+}

@@ -1,0 +1,122 @@
+/** Shapes to polylines: curves become chords to a tolerance in mm, after the map onto the paper. */
+import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
+import { applyX, applyY, type Affine } from "../geometry/affine.js";
+import { flattenCubic } from "../geometry/cubic.js";
+import { PointBuffer } from "../geometry/growable.js";
+import { LineBuilder, type Lines } from "../geometry/polyline.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/** The verbs and coordinates of one shape, or of a clip region. */
+export interface VerbRange {
+  readonly verbs: Uint8Array;
+  readonly verbFrom: number;
+  readonly verbTo: number;
+  readonly coords: Float64Array;
+  readonly coordFrom: number;
+}
+
+/**
+ * One line for each subpath of the shapes where `wanted` is set; its tag is the shape.
+ * A subpath of no length is a dot. A shape without stroke is drawn as the outline of its fill,
+ * so its subpaths are closed, and dots of it are nothing.
+ */
+export function flattenShapes(
+  paths: DrawingPaths,
+  map: Affine,
+  toleranceMm: number,
+  wanted: Uint8Array,
+  work: Work,
+): Lines {
+  const builder = new LineBuilder();
+  for (let shape = 0; shape < paths.count; shape++) {
+    if ((shape & 1023) === 0) stopIfCancelled(work);
+    if (wanted[shape] === 0) continue;
+    const range = {
+      verbs: paths.verbs,
+      verbFrom: paths.verbOffsets[shape],
+      verbTo: paths.verbOffsets[shape + 1],
+      coords: paths.coords,
+      coordFrom: paths.coordOffsets[shape],
+    };
+    flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, () => shape);
+  }
+  return builder.finish();
+}
+
+/** Adds a line for each subpath; `tagOf` is given the number of the subpath, counted by VERB_MOVE. */
+export function flattenVerbs(
+  range: VerbRange,
+  map: Affine,
+  toleranceMm: number,
+  asArea: boolean,
+  builder: LineBuilder,
+  tagOf: (subpath: number) => number,
+): void {
+  const { verbs, coords } = range;
+  let at = range.coordFrom;
+  let subpath = -1;
+  let startX = 0;
+  let startY = 0;
+  let x = 0;
+  let y = 0;
+  const end = (): void => {
+    if (asArea && builder.openPoints > 2) builder.point(startX, startY);
+    if (asArea && builder.openPoints < 3) builder.drop();
+    else builder.end(tagOf(subpath));
+  };
+  for (let v = range.verbFrom; v < range.verbTo; v++) {
+    const verb = verbs[v];
+    if (verb === VERB_MOVE) {
+      end();
+      subpath++;
+      startX = x = applyX(map, coords[at], coords[at + 1]);
+      startY = y = applyY(map, coords[at], coords[at + 1]);
+      at += 2;
+      continue;
+    }
+    if (builder.openPoints === 0) builder.point(x, y);
+    if (verb === VERB_CLOSE) {
+      x = startX;
+      y = startY;
+      builder.point(x, y);
+      end();
+      continue;
+    }
+    if (verb === VERB_CUBIC) {
+      addCubic(builder, coords, at, map, x, y, toleranceMm);
+      at += 4;
+    }
+    x = applyX(map, coords[at], coords[at + 1]);
+    y = applyY(map, coords[at], coords[at + 1]);
+    at += 2;
+    builder.point(x, y);
+  }
+  end();
+}
+
+const chords = new PointBuffer(1024);
+
+function addCubic(
+  builder: LineBuilder,
+  coords: Float64Array,
+  at: number,
+  map: Affine,
+  x0: number,
+  y0: number,
+  toleranceMm: number,
+): void {
+  chords.clear();
+  flattenCubic(
+    chords,
+    x0,
+    y0,
+    applyX(map, coords[at], coords[at + 1]),
+    applyY(map, coords[at], coords[at + 1]),
+    applyX(map, coords[at + 2], coords[at + 3]),
+    applyY(map, coords[at + 2], coords[at + 3]),
+    applyX(map, coords[at + 4], coords[at + 5]),
+    applyY(map, coords[at + 4], coords[at + 5]),
+    toleranceMm,
+  );
+  for (let k = 0; k < chords.length - 2; k += 2) builder.point(chords.data[k], chords.data[k + 1]);
+}

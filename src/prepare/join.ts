@@ -1,0 +1,189 @@
+/**
+ * Joining lines whose ends meet, within a layer, so that the pen stays down.
+ *
+ * Every end is paired with at most one other end nearby; chains of paired lines become one line.
+ * Round one pairs ends at the same place, the straightest continuation first: where lines cross in a
+ * mesh, the pen then runs on through instead of turning. Round two pairs what is left, nearest first.
+ *
+ * Symbols: end 2i is the first point of line i, end 2i + 1 its last.
+ * `far[e]` is the other end of the chain that ends in e (kept for chain ends only), so that a chain
+ * is never joined to itself unless that closes a real loop.
+ *
+ * Nothing is moved: joining adds the gap, at most `radius`, as a straight piece.
+ * Dots and closed lines stay as they are.
+ */
+import { PointIndex } from "../geometry/point-index.js";
+import {
+  LineBuilder,
+  SAME_POINT,
+  distance,
+  isClosedLine,
+  lineCount,
+  lineLength,
+  type Lines,
+} from "../geometry/polyline.js";
+
+/** More candidates than this at one place are not compared: it keeps a star of 100 000 rays linear. */
+const MOST_CANDIDATES = 24;
+/** A chain shorter than this many radii is not closed on itself: its ends are near because it is short. */
+const SHORTEST_LOOP = 4;
+const UNPAIRED = -1;
+
+/** Lines of one tag must stand together. `radius` in mm; 0 joins only what meets to the bit (or nearly). */
+export function joinLines(lines: Lines, radius: number): Lines {
+  const builder = new LineBuilder();
+  const count = lineCount(lines);
+  for (let first = 0, end = 0; first < count; first = end) {
+    while (end < count && lines.tag[end] === lines.tag[first]) end++;
+    joinRange(lines, first, end, Math.max(radius, SAME_POINT), builder);
+  }
+  return builder.finish();
+}
+
+function joinRange(lines: Lines, first: number, end: number, radius: number, builder: LineBuilder): void {
+  const pairing = new Pairing(lines, first, end, radius);
+  pairing.run(SAME_POINT, true);
+  if (radius > SAME_POINT) pairing.run(radius, false);
+  const done = new Uint8Array(end - first);
+  for (let i = 0; i < done.length; i++) {
+    if (done[i] === 0) writeChain(lines, first, pairing.partner, i, done, builder);
+  }
+}
+
+class Pairing {
+  readonly partner: Int32Array;
+  private readonly far: Int32Array;
+  private readonly length: Float64Array;
+  /** Place of each end, and the unit vector in which its line leaves it. */
+  private readonly xy: Float64Array;
+  private readonly out: Float64Array;
+  private readonly joinable: Uint32Array;
+
+  constructor(
+    lines: Lines,
+    first: number,
+    end: number,
+    private readonly radius: number,
+  ) {
+    const ends = 2 * (end - first);
+    this.partner = new Int32Array(ends).fill(UNPAIRED);
+    this.far = new Int32Array(ends);
+    this.length = new Float64Array(ends);
+    this.xy = new Float64Array(2 * ends);
+    this.out = new Float64Array(2 * ends);
+    const joinable: number[] = [];
+    for (let i = first; i < end; i++) {
+      const e = 2 * (i - first);
+      const p = lines.offsets[i];
+      const q = lines.offsets[i + 1] - 1;
+      this.far[e] = e + 1;
+      this.far[e + 1] = e;
+      this.length[e] = this.length[e + 1] = lineLength(lines, i);
+      this.setEnd(lines, e, p, Math.min(p + 1, q));
+      this.setEnd(lines, e + 1, q, Math.max(q - 1, p));
+      if (q > p && !isClosedLine(lines, i)) joinable.push(e, e + 1);
+    }
+    this.joinable = Uint32Array.from(joinable);
+  }
+
+  private setEnd(lines: Lines, e: number, at: number, next: number): void {
+    const { xy } = lines;
+    const dx = xy[2 * at] - xy[2 * next];
+    const dy = xy[2 * at + 1] - xy[2 * next + 1];
+    const length = Math.sqrt(dx * dx + dy * dy) || 1;
+    this.xy[2 * e] = xy[2 * at];
+    this.xy[2 * e + 1] = xy[2 * at + 1];
+    this.out[2 * e] = dx / length;
+    this.out[2 * e + 1] = dy / length;
+  }
+
+  /** Pairs each free end with the best free one within `reach`: the straightest, or the nearest. */
+  run(reach: number, straightest: boolean): void {
+    const free = this.joinable.filter((e) => this.partner[e] === UNPAIRED);
+    const index = new PointIndex(this.xy, free);
+    for (const e of free) {
+      if (this.partner[e] !== UNPAIRED) continue;
+      const other = this.best(index, e, reach, straightest);
+      if (other < 0) continue;
+      this.pair(e, other);
+      index.remove(e);
+      index.remove(other);
+    }
+  }
+
+  private best(index: PointIndex, e: number, reach: number, straightest: boolean): number {
+    const x = this.xy[2 * e];
+    const y = this.xy[2 * e + 1];
+    let best = -1;
+    let bestCost = Infinity;
+    let seen = 0;
+    index.within(x, y, reach, (other) => {
+      if (other === e || !this.mayPair(e, other)) return true;
+      // Straight on means that the two lines leave the place in opposite directions.
+      const cost = straightest
+        ? this.out[2 * e] * this.out[2 * other] + this.out[2 * e + 1] * this.out[2 * other + 1]
+        : distance(x, y, this.xy[2 * other], this.xy[2 * other + 1]);
+      if (cost < bestCost) {
+        bestCost = cost;
+        best = other;
+      }
+      return ++seen < MOST_CANDIDATES;
+    });
+    return best;
+  }
+
+  private mayPair(e: number, other: number): boolean {
+    return this.far[e] !== other || this.length[e] > SHORTEST_LOOP * this.radius;
+  }
+
+  private pair(e: number, other: number): void {
+    this.partner[e] = other;
+    this.partner[other] = e;
+    const head = this.far[e];
+    const tail = this.far[other];
+    const length = this.length[e] + this.length[other];
+    this.far[head] = tail;
+    this.far[tail] = head;
+    this.length[head] = this.length[tail] = length;
+  }
+}
+
+/** Writes the chain that line `i` is in, in line i's own direction, beginning at its loose end if it has one. */
+function writeChain(
+  lines: Lines,
+  first: number,
+  partner: Int32Array,
+  i: number,
+  done: Uint8Array,
+  builder: LineBuilder,
+): void {
+  let entry = 2 * i;
+  while (partner[entry] !== UNPAIRED) {
+    entry = partner[entry] ^ 1;
+    if (entry >> 1 === i) break;
+  }
+  const head = entry;
+  const closes = partner[head] !== UNPAIRED;
+  for (;;) {
+    const line = entry >> 1;
+    done[line] = 1;
+    addPoints(lines, first + line, (entry & 1) === 1, builder);
+    const next = partner[entry ^ 1];
+    if (next === UNPAIRED || next === head) break;
+    entry = next;
+  }
+  if (closes) {
+    const line = first + (head >> 1);
+    const p = (head & 1) === 1 ? lines.offsets[line + 1] - 1 : lines.offsets[line];
+    builder.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
+  }
+  builder.end(lines.tag[first + i]);
+}
+
+function addPoints(lines: Lines, i: number, reversed: boolean, builder: LineBuilder): void {
+  const { xy, offsets } = lines;
+  const from = offsets[i];
+  const to = offsets[i + 1] - 1;
+  if (reversed) for (let p = to; p >= from; p--) builder.point(xy[2 * p], xy[2 * p + 1]);
+  else for (let p = from; p <= to; p++) builder.point(xy[2 * p], xy[2 * p + 1]);
+}

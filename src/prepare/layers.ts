@@ -1,0 +1,57 @@
+/** Which layer each shape belongs to: by group of the file, by stroke colour, or all in one. */
+import type { Drawing } from "../drawing/drawing.js";
+import type { StrokeLayer } from "../drawing/stroke-set.js";
+import type { LayerMode } from "./settings.js";
+
+/** StrokeSet keeps a layer index in 16 bits; what is beyond shares the last layer. */
+const MOST_LAYERS = 65_535;
+
+export interface LayerTable {
+  /** Only layers that hold a shape, in the file's order. */
+  readonly layers: readonly StrokeLayer[];
+  /** Index into `layers` for every shape. */
+  readonly ofShape: Uint16Array;
+}
+
+export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
+  const { paths } = drawing;
+  const keyCount = mode === "group" ? drawing.groups.length : mode === "stroke" ? drawing.colors.length : 1;
+  const keyOf = (shape: number): number =>
+    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(drawing, shape), 0) : 0;
+
+  const used = new Uint8Array(keyCount);
+  const colors = new Int32Array(keyCount).fill(UNSEEN);
+  for (let shape = 0; shape < paths.count; shape++) {
+    const key = keyOf(shape);
+    const ink = inkOf(drawing, shape);
+    colors[key] = colors[key] === UNSEEN || colors[key] === ink ? ink : MIXED;
+    used[key] = 1;
+  }
+
+  const layers: StrokeLayer[] = [];
+  const indexOfKey = new Uint16Array(keyCount);
+  for (let key = 0; key < keyCount; key++) {
+    if (used[key] === 0) continue;
+    if (layers.length < MOST_LAYERS) layers.push(layerOf(drawing, mode, key, colors[key]));
+    indexOfKey[key] = layers.length - 1;
+  }
+  const ofShape = new Uint16Array(paths.count);
+  for (let shape = 0; shape < paths.count; shape++) ofShape[shape] = indexOfKey[keyOf(shape)];
+  return { layers, ofShape };
+}
+
+const UNSEEN = -2;
+const MIXED = -1;
+
+/** The colour that a shape is drawn in: its stroke, else its fill (its outline is drawn then). */
+function inkOf(drawing: Drawing, shape: number): number {
+  const stroke = drawing.paths.stroke[shape];
+  return stroke >= 0 ? stroke : drawing.paths.fill[shape];
+}
+
+function layerOf(drawing: Drawing, mode: LayerMode, key: number, ink: number): StrokeLayer {
+  const color = ink >= 0 ? drawing.colors[ink] : null;
+  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, color };
+  if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], color };
+  return { id: "all", name: "All strokes", color };
+}

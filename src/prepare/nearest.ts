@@ -1,0 +1,81 @@
+/**
+ * Order "fast": always on to the nearest end that is left. Either end of an open line will do, and any
+ * point of a closed one. Over a uniform grid: about n log n, 20 000 strokes in some hundredths of a second.
+ */
+import { PointIndex } from "../geometry/point-index.js";
+import { isClosedLine, type Lines } from "../geometry/polyline.js";
+import type { Tour } from "./tour.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/** Once most points are gone the grid is made anew, as rings over emptied cells cost time. */
+const REBUILD_BELOW = 1 / 4;
+
+/**
+ * Orders lines [first, end), writing into `tour` (same range of `order`), from the place x, y.
+ * Answers the place where the pen ends.
+ */
+export function nearestOrder(
+  lines: Lines,
+  first: number,
+  end: number,
+  x: number,
+  y: number,
+  tour: Tour,
+  work: Work,
+): { x: number; y: number } {
+  const entries = entriesOf(lines, first, end);
+  let index = new PointIndex(entries.xy);
+  let built = index.size;
+  for (let k = first; k < end; k++) {
+    if ((k & 1023) === 0) stopIfCancelled(work);
+    if (index.size < built * REBUILD_BELOW && built > 1_000) {
+      index = new PointIndex(entries.xy, index.remaining());
+      built = index.size;
+    }
+    const entry = index.nearest(x, y);
+    const line = entries.line[entry];
+    const from = entries.firstOf[line - first];
+    const to = entries.firstOf[line - first + 1];
+    for (let e = from; e < to; e++) index.remove(e);
+    tour.order[k] = line;
+    const closed = isClosedLine(lines, line);
+    tour.start[line] = closed ? entry - from : 0;
+    tour.reversed[line] = !closed && entry > from ? 1 : 0;
+    const exit = closed ? entry : from + to - 1 - entry;
+    x = entries.xy[2 * exit];
+    y = entries.xy[2 * exit + 1];
+  }
+  return { x, y };
+}
+
+interface Entries {
+  readonly xy: Float64Array;
+  /** Line of each entry. */
+  readonly line: Uint32Array;
+  /** Line `first + i` has entries [firstOf[i], firstOf[i + 1]). */
+  readonly firstOf: Uint32Array;
+}
+
+/** Every point at which a line can be begun: both ends, one for a dot, all corners of a closed line. */
+function entriesOf(lines: Lines, first: number, end: number): Entries {
+  const { xy, offsets } = lines;
+  const firstOf = new Uint32Array(end - first + 1);
+  for (let i = first; i < end; i++) {
+    const points = offsets[i + 1] - offsets[i];
+    firstOf[i - first + 1] = firstOf[i - first] + (isClosedLine(lines, i) ? points - 1 : Math.min(points, 2));
+  }
+  const places = new Float64Array(2 * firstOf[end - first]);
+  const line = new Uint32Array(firstOf[end - first]);
+  for (let i = first; i < end; i++) {
+    const from = firstOf[i - first];
+    const to = firstOf[i - first + 1];
+    const closed = isClosedLine(lines, i);
+    for (let e = from; e < to; e++) {
+      const p = closed ? offsets[i] + e - from : e === from ? offsets[i] : offsets[i + 1] - 1;
+      places[2 * e] = xy[2 * p];
+      places[2 * e + 1] = xy[2 * p + 1];
+      line[e] = i;
+    }
+  }
+  return { xy: places, line, firstOf };
+}

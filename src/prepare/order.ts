@@ -1,0 +1,38 @@
+/**
+ * The order of drawing, layer by layer: less pen-up travel, the same lines.
+ *
+ * Whatever is asked for, the result is never longer than the order of the file: the shorter is kept.
+ */
+import { lineCount, type Lines } from "../geometry/polyline.js";
+import { nearestOrder } from "./nearest.js";
+import type { OrderMode } from "./settings.js";
+import { fileTour, travelOf, type Tour } from "./tour.js";
+import type { Work } from "./work.js";
+
+/** Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order. */
+export function orderLines(lines: Lines, mode: OrderMode, work: Work): Tour {
+  const given = fileTour(lines);
+  if (mode === "none") return given;
+  const tour = nearestTour(lines, work);
+  return travelOf(lines, tour) <= travelOf(lines, given) ? tour : given;
+}
+
+function nearestTour(lines: Lines, work: Work): Tour {
+  const tour = fileTour(lines);
+  let place = { x: 0, y: 0 };
+  for (const [first, end] of tagRanges(lines)) {
+    place = nearestOrder(lines, first, end, place.x, place.y, tour, work);
+  }
+  return tour;
+}
+
+/** Ranges [first, end) of lines that share a tag. */
+export function tagRanges(lines: Lines): [number, number][] {
+  const ranges: [number, number][] = [];
+  const count = lineCount(lines);
+  for (let first = 0, end = 0; first < count; first = end) {
+    while (end < count && lines.tag[end] === lines.tag[first]) end++;
+    ranges.push([first, end]);
+  }
+  return ranges;
+}

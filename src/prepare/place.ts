@@ -1,0 +1,131 @@
+/**
+ * Where the drawing lies on the paper: one map from the file's page to the machine frame.
+ *
+ *   home ┌──────────────── x        paper    top left corner at home, turned by `landscape`
+ *        │  ┌───────────┐           inside   the paper less its margins
+ *        │  │  inside   │           fit      what is drawn fills `inside`, centred
+ *        y  └───────────┘           true     page corner on paper corner
+ */
+import type { ClipRegion, Drawing } from "../drawing/drawing.js";
+import type { PaperSize } from "../drawing/paper.js";
+import { PlotwrightError } from "../errors.js";
+import {
+  IDENTITY,
+  applyX,
+  applyY,
+  compose,
+  rotation,
+  scaling,
+  translation,
+  type Affine,
+} from "../geometry/affine.js";
+import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
+import { boundsOfVerbs } from "./bounds.js";
+import type { PrepareSettings } from "./settings.js";
+
+export interface Placement {
+  /** Page mm to machine mm. */
+  readonly map: Affine;
+  readonly paper: Box;
+  readonly inside: Box;
+  /** Box of each shape on the paper, before any clipping; empty for a shape that draws nothing. */
+  readonly shapeBoxes: readonly Box[];
+}
+
+/** Width and height as the paper lies: the long side along x in landscape, along y otherwise. */
+export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
+  const long = Math.max(paper.widthMm, paper.heightMm);
+  const short = Math.min(paper.widthMm, paper.heightMm);
+  return landscape ? { widthMm: long, heightMm: short } : { widthMm: short, heightMm: long };
+}
+
+/** Throws `bad-setting` when the margins leave no room. */
+export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
+  const paper = paperBox(settings);
+  const inside = insideMargins(paper, settings);
+  const turn = rotation((settings.rotateDeg * Math.PI) / 180);
+  const turned = shapeBoxes(drawing, turn);
+  const after = settings.fit
+    ? fitted(contentBox(drawing, turned, turn), inside)
+    : onCorner(pageBox(drawing, turn));
+  return { map: compose(after, turn), paper, inside, shapeBoxes: turned.map((box) => movedBox(box, after)) };
+}
+
+function paperBox(settings: PrepareSettings): Box {
+  const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
+  return { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
+}
+
+function insideMargins(paper: Box, settings: PrepareSettings): Box {
+  const m = settings.marginMm;
+  const inside = { x0: m, y0: m, x1: paper.x1 - m, y1: paper.y1 - m };
+  if (inside.x0 < inside.x1 && inside.y0 < inside.y1) return inside;
+  throw new PlotwrightError(
+    "bad-setting",
+    `Margins of ${m} mm leave no room on paper of ${paper.x1} × ${paper.y1} mm: make the margin smaller or the paper larger.`,
+  );
+}
+
+function shapeBoxes(drawing: Drawing, map: Affine): Box[] {
+  const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
+  const boxes: Box[] = new Array<Box>(count);
+  for (let i = 0; i < count; i++) {
+    boxes[i] = boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
+  }
+  return boxes;
+}
+
+/** Box of all that the file draws, hidden layers included: layers plotted one by one must still meet. */
+function contentBox(drawing: Drawing, boxes: readonly Box[], map: Affine): Box {
+  const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
+  let content = EMPTY_BOX;
+  for (let i = 0; i < boxes.length; i++) {
+    let box = boxes[i];
+    for (let clip = drawing.paths.clip[i]; clip >= 0; clip = drawing.clips[clip].parent) {
+      box = intersectBoxes(box, clipBoxes[clip]);
+    }
+    if (!isEmptyBox(box) && !isFarAway(box)) content = uniteBoxes(content, box);
+  }
+  return content;
+}
+
+const clipBox = (clip: ClipRegion, map: Affine): Box =>
+  boundsOfVerbs(clip.verbs, 0, clip.verbs.length, clip.coords, 0, map);
+
+/** mm. What reaches further than this (a thousand kilometres) is a fault of the file, not a drawing. */
+const FAR_AWAY = 1e9;
+
+/** True for boxes that no paper could hold, so that they must not decide the scale. */
+export const isFarAway = (box: Box): boolean =>
+  !(box.x0 > -FAR_AWAY && box.y0 > -FAR_AWAY && box.x1 < FAR_AWAY && box.y1 < FAR_AWAY);
+
+function fitted(content: Box, inside: Box): Affine {
+  if (isEmptyBox(content)) return IDENTITY;
+  const width = content.x1 - content.x0;
+  const height = content.y1 - content.y0;
+  const scale = Math.min((inside.x1 - inside.x0) / width, (inside.y1 - inside.y0) / height);
+  // A lone dot has no size to scale by.
+  const s = Number.isFinite(scale) ? scale : 1;
+  const toMiddle = translation((inside.x0 + inside.x1) / 2, (inside.y0 + inside.y1) / 2);
+  const fromMiddle = translation(-(content.x0 + content.x1) / 2, -(content.y0 + content.y1) / 2);
+  return compose(toMiddle, compose(scaling(s), fromMiddle));
+}
+
+const onCorner = (page: Box): Affine => translation(-page.x0, -page.y0);
+
+function pageBox(drawing: Drawing, map: Affine): Box {
+  const { widthMm: w, heightMm: h } = drawing;
+  const corners = [0, 0, w, 0, w, h, 0, h];
+  const mapped = corners.map((_, k) =>
+    k % 2 === 0 ? applyX(map, corners[k], corners[k + 1]) : applyY(map, corners[k - 1], corners[k]),
+  );
+  return boxOfPoints(mapped);
+}
+
+/** Under maps that scale and move only. */
+const movedBox = (box: Box, map: Affine): Box => ({
+  x0: map.a * box.x0 + map.e,
+  y0: map.d * box.y0 + map.f,
+  x1: map.a * box.x1 + map.e,
+  y1: map.d * box.y1 + map.f,
+});

@@ -1,0 +1,64 @@
+/**
+ * Fewer points, the same line to a tolerance: Douglas and Peucker's method, with a work list instead of
+ * recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
+ *
+ *        ·  far
+ *      /   \           the point farthest from the chord stays if it is farther than the tolerance,
+ *  a ·-------· b       and both halves are looked at again; else all between a and b go
+ *
+ * The distance is to the chord as a segment, so a line that doubles back keeps its turning point.
+ */
+import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
+
+/** No dropped point is farther than `tolerance` mm from the new line; ends stay. */
+export function simplifyLines(lines: Lines, tolerance: number): Lines {
+  if (!(tolerance > 0)) return lines;
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    const first = lines.offsets[i];
+    const points = lines.offsets[i + 1] - first;
+    const keep = keptPoints(lines.xy, first, points, tolerance);
+    for (let k = 0; k < points; k++) {
+      if (keep[k] === 1) builder.point(lines.xy[2 * (first + k)], lines.xy[2 * (first + k) + 1]);
+    }
+    builder.end(lines.tag[i]);
+  }
+  return builder.finish();
+}
+
+function keptPoints(xy: Float64Array, first: number, points: number, tolerance: number): Uint8Array {
+  const keep = new Uint8Array(points);
+  keep[0] = keep[points - 1] = 1;
+  const todo: number[] = [0, points - 1];
+  while (todo.length > 0) {
+    const b = todo.pop() as number;
+    const a = todo.pop() as number;
+    let far = -1;
+    let far2 = tolerance * tolerance;
+    for (let k = a + 1; k < b; k++) {
+      const d2 = distance2ToSegment(xy, first + k, first + a, first + b);
+      if (d2 > far2) {
+        far2 = d2;
+        far = k;
+      }
+    }
+    if (far < 0) continue;
+    keep[far] = 1;
+    todo.push(a, far, far, b);
+  }
+  return keep;
+}
+
+function distance2ToSegment(xy: Float64Array, p: number, a: number, b: number): number {
+  const ax = xy[2 * a];
+  const ay = xy[2 * a + 1];
+  const dx = xy[2 * b] - ax;
+  const dy = xy[2 * b + 1] - ay;
+  const px = xy[2 * p] - ax;
+  const py = xy[2 * p + 1] - ay;
+  const length2 = dx * dx + dy * dy;
+  const t = length2 > 0 ? Math.min(Math.max((px * dx + py * dy) / length2, 0), 1) : 0;
+  const ex = px - t * dx;
+  const ey = py - t * dy;
+  return ex * ex + ey * ey;
+}

@@ -1,0 +1,74 @@
+/**
+ * A tour: in which order, which way round, and from where each line is drawn; and how far the pen
+ * travels for it. The pen starts at home (0, 0) and goes back there. Lengths in mm.
+ */
+import { LineBuilder, distance, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
+
+export interface Tour {
+  /** Line indices in drawing order. */
+  readonly order: Uint32Array;
+  /** 1 where a line is drawn backwards; by line index. */
+  readonly reversed: Uint8Array;
+  /** For closed lines the point to begin at, counted from the line's first; by line index. */
+  readonly start: Uint32Array;
+}
+
+/** The lines as they stand. */
+export function fileTour(lines: Lines): Tour {
+  const count = lineCount(lines);
+  return {
+    order: Uint32Array.from({ length: count }, (_, i) => i),
+    reversed: new Uint8Array(count),
+    start: new Uint32Array(count),
+  };
+}
+
+/** Index of the point where the pen comes down for line `i`. */
+export function entryPoint(lines: Lines, tour: Tour, i: number): number {
+  if (tour.start[i] > 0) return lines.offsets[i] + tour.start[i];
+  return tour.reversed[i] === 1 ? lines.offsets[i + 1] - 1 : lines.offsets[i];
+}
+
+/** Index of the point where it is lifted. */
+export function exitPoint(lines: Lines, tour: Tour, i: number): number {
+  if (tour.start[i] > 0) return lines.offsets[i] + tour.start[i];
+  return tour.reversed[i] === 1 ? lines.offsets[i] : lines.offsets[i + 1] - 1;
+}
+
+/** Pen-up way from home through all lines and home again, mm. */
+export function travelOf(lines: Lines, tour: Tour): number {
+  const { xy } = lines;
+  let x = 0;
+  let y = 0;
+  let travel = 0;
+  for (const i of tour.order) {
+    const entry = 2 * entryPoint(lines, tour, i);
+    travel += distance(x, y, xy[entry], xy[entry + 1]);
+    const exit = 2 * exitPoint(lines, tour, i);
+    x = xy[exit];
+    y = xy[exit + 1];
+  }
+  return tour.order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
+}
+
+/** The lines as the tour draws them. */
+export function linesOfTour(lines: Lines, tour: Tour): Lines {
+  const builder = new LineBuilder();
+  for (const i of tour.order) {
+    if (tour.start[i] > 0 && isClosedLine(lines, i)) copyFrom(lines, i, tour.start[i], builder);
+    else builder.copy(lines, i, lines.tag[i], tour.reversed[i] === 1);
+  }
+  return builder.finish();
+}
+
+/** A closed line begun at another of its points. */
+function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder): void {
+  const { xy, offsets } = lines;
+  const first = offsets[i];
+  const segments = offsets[i + 1] - 1 - first;
+  for (let k = 0; k <= segments; k++) {
+    const p = first + ((start + k) % segments);
+    builder.point(xy[2 * p], xy[2 * p + 1]);
+  }
+  builder.end(lines.tag[i]);
+}

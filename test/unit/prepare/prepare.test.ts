@@ -1,0 +1,362 @@
+import { describe, expect, it } from "vitest";
+import { pointCount, strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
+import { checkBounds } from "../../../src/prepare/check-bounds.js";
+import { prepare } from "../../../src/prepare/prepare.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { clipOf, drawingOf } from "../../support/drawings.js";
+
+const TRUE_SIZE: PrepareSettings = {
+  ...DEFAULT_PREPARE,
+  landscape: false,
+  marginMm: 0,
+  fit: false,
+  order: "none",
+};
+
+const strokesOf = (set: StrokeSet): number[][] =>
+  Array.from({ length: strokeCount(set) }, (_, i) =>
+    Array.from(set.xy.subarray(2 * set.offsets[i], 2 * set.offsets[i + 1])),
+  );
+
+/** Rounded to 0.01 mm, for reading. */
+const rounded = (strokes: number[][]): number[][] =>
+  strokes.map((stroke) => stroke.map((v) => Math.round(v * 100) / 100 + 0));
+
+const draw = (drawing: Parameters<typeof prepare>[0], settings: Partial<PrepareSettings> = {}): number[][] =>
+  rounded(strokesOf(prepare(drawing, { ...TRUE_SIZE, ...settings }).strokes));
+
+describe("placing", () => {
+  it("puts page corner on paper corner at true size", () => {
+    expect(draw(drawingOf(["M10 20L30 40"]))).toEqual([[10, 20, 30, 40]]);
+  });
+
+  it("fits what is drawn into the space inside the margins, centred", () => {
+    const drawing = drawingOf(["M40 40L60 40L60 50L40 50Z"]);
+    const settings = { fit: true, marginMm: 10, paper: { widthMm: 100, heightMm: 200 } };
+    expect(draw(drawing, settings)).toEqual([[10, 80, 90, 80, 90, 120, 10, 120, 10, 80]]);
+  });
+
+  it("fits by where a curve goes, not by its control points", () => {
+    // This arch is 100 wide and 3/4 of 80 = 60 high.
+    const drawing = drawingOf(["M0 0C0 80 100 80 100 0"]);
+    const settings = { fit: true, paper: { widthMm: 100, heightMm: 200 }, flattenMm: 0.001 };
+    const ys = draw(drawing, settings)[0].filter((_, k) => k % 2 === 1);
+    expect(Math.max(...ys) - Math.min(...ys)).toBeCloseTo(60, 1);
+  });
+
+  it("lays the long side along x in landscape, however the size was given", () => {
+    for (const paper of [
+      { widthMm: 210, heightMm: 297 },
+      { widthMm: 297, heightMm: 210 },
+    ]) {
+      const wide = prepare(drawingOf(["M0 0L1 1"]), { ...TRUE_SIZE, paper, landscape: true });
+      const tall = prepare(drawingOf(["M0 0L1 1"]), { ...TRUE_SIZE, paper, landscape: false });
+      expect([wide.paperWidthMm, wide.paperHeightMm]).toEqual([297, 210]);
+      expect([tall.paperWidthMm, tall.paperHeightMm]).toEqual([210, 297]);
+    }
+  });
+
+  it("turns clockwise as the eye sees it, and keeps the turned page on the paper's corner", () => {
+    // The top edge of a 100 × 50 page becomes the right edge of a 50 × 100 one.
+    const drawing = drawingOf(["M0 0L100 0"], { widthMm: 100, heightMm: 50 });
+    expect(draw(drawing, { rotateDeg: 90 })).toEqual([[50, 0, 50, 100]]);
+  });
+
+  it("keeps the scale of the whole drawing when a layer is hidden, so that layers meet", () => {
+    const drawing = drawingOf(
+      [
+        { d: "M0 0L10 10", group: 0 },
+        { d: "M0 0L100 100", group: 1 },
+      ],
+      {
+        groups: ["a", "b"],
+      },
+    );
+    const settings = { fit: true, paper: { widthMm: 200, heightMm: 200 } };
+    expect(draw(drawing, { ...settings, hiddenLayers: ["g1"] })).toEqual([[0, 0, 20, 20]]);
+  });
+
+  it("refuses margins that leave no room, with the figures", () => {
+    expect(() => prepare(drawingOf(["M0 0L1 1"]), { ...TRUE_SIZE, marginMm: 105 })).toThrow(
+      expect.objectContaining({ code: "bad-setting", message: expect.stringContaining("105 mm") }),
+    );
+  });
+
+  it("gives the fit no say to a shape a million kilometres away, and says so", () => {
+    const drawing = drawingOf(["M0 0L1e300 1e300", "M10 10L20 20"]);
+    const prepared = prepare(drawing, { ...TRUE_SIZE, fit: true, paper: { widthMm: 100, heightMm: 100 } });
+    expect(rounded(strokesOf(prepared.strokes))).toEqual([[0, 0, 100, 100]]);
+    expect(prepared.warnings.join()).toContain("1 shape is much too far");
+  });
+});
+
+describe("shaping", () => {
+  it("closes a closed subpath to the bit and goes on from its start", () => {
+    expect(draw(drawingOf(["M10 10L20 10L20 20ZL0 0"]), { joinMm: 0 })).toEqual([
+      [10, 10, 20, 10, 20, 20, 10, 10],
+      [10, 10, 0, 0],
+    ]);
+  });
+
+  it("draws a subpath of no length as a dot, and a lone move not at all", () => {
+    expect(draw(drawingOf(["M10 10L10 10", "M20 20Z", "M30 30"]))).toEqual([
+      [10, 10],
+      [20, 20],
+    ]);
+  });
+
+  it("draws a filled shape without stroke as its closed outline in the colour of its fill", () => {
+    const drawing = drawingOf([{ d: "M0 0L10 0L10 10", stroke: null, fill: "#ff0000" }]);
+    expect(draw(drawing)).toEqual([[0, 0, 10, 0, 10, 10, 0, 0]]);
+    expect(prepare(drawing, { ...TRUE_SIZE, layers: "stroke" }).layers[0].id).toBe("#ff0000");
+  });
+
+  it("cuts dashes at the pattern's lengths after scaling, across corners, from its offset", () => {
+    const drawing = drawingOf([{ d: "M0 0L10 0L10 10", dash: 0 }], {
+      dashes: [{ lengths: [4, 4], offset: 2 }],
+    });
+    expect(draw(drawing, { joinMm: 0 })).toEqual([
+      [0, 0, 2, 0],
+      [6, 0, 10, 0],
+      [10, 4, 10, 8],
+    ]);
+  });
+
+  it("draws dashes of no length as dots", () => {
+    const drawing = drawingOf([{ d: "M0 0L10 0", dash: 0 }], { dashes: [{ lengths: [0, 4], offset: 0 }] });
+    expect(draw(drawing)).toEqual([
+      [0, 0],
+      [4, 0],
+      [8, 0],
+    ]);
+  });
+
+  it("draws a pattern too fine for any pen as a solid line", () => {
+    const drawing = drawingOf([{ d: "M0 0L100 0", dash: 0 }], {
+      dashes: [{ lengths: [1e-9, 1e-9], offset: 0 }],
+    });
+    expect(draw(drawing)).toEqual([[0, 0, 100, 0]]);
+  });
+});
+
+describe("cutting", () => {
+  it("cuts a line at the margins and says how much is lost", () => {
+    const prepared = prepare(drawingOf(["M0 50L500 50"]), { ...TRUE_SIZE, marginMm: 10 });
+    expect(rounded(strokesOf(prepared.strokes))).toEqual([[10, 50, 200, 50]]);
+    expect(prepared.warnings.join()).toContain("310 mm of line lie outside the margins");
+  });
+
+  it("leaves the line whole when it is not to be cut", () => {
+    expect(draw(drawingOf(["M-5 50L500 50"]), { marginMm: 10, clipToMargins: false })).toEqual([
+      [-5, 50, 500, 50],
+    ]);
+  });
+
+  it("makes one stroke of the inner part of a closed line that begins inside", () => {
+    const drawing = drawingOf(["M50 50L250 50L250 60L50 60Z"]);
+    expect(draw(drawing, { joinMm: 0 })).toEqual([[210, 60, 50, 60, 50, 50, 210, 50]]);
+  });
+
+  it("cuts lines to a clip region and to its parent", () => {
+    const drawing = drawingOf([{ d: "M0 50L100 50", clip: 1 }], {
+      clips: [clipOf("M20 0L80 0L80 100L20 100Z"), clipOf("M0 0L60 0L60 100L0 100Z", 0, 0)],
+    });
+    expect(draw(drawing)).toEqual([[20, 50, 60, 50]]);
+  });
+
+  it("minds the rule of a clip region with a hole", () => {
+    const ring = "M0 0L90 0L90 90L0 90ZM30 30L60 30L60 60L30 60Z";
+    const through = (rule: number): number[][] =>
+      draw(drawingOf([{ d: "M10 45L80 46", clip: 0 }], { clips: [clipOf(ring, rule)] })).sort(
+        (a, b) => a[0] - b[0],
+      );
+    expect(through(0)).toEqual([[10, 45, 80, 46]]);
+    expect(through(1)).toEqual([
+      [10, 45, 30, 45.29],
+      [60, 45.71, 80, 46],
+    ]);
+  });
+
+  it("unites the shapes of a clip region, whichever way they wind", () => {
+    const clip = clipOf("M0 0L50 0L50 90L0 90ZM40 0L40 90L80 90L80 0Z");
+    const two = { ...clip, shape: Uint32Array.from([0, 1]) };
+    expect(draw(drawingOf([{ d: "M0 50L100 50", clip: 0 }], { clips: [two] }))).toEqual([[0, 50, 80, 50]]);
+  });
+
+  it("keeps a closed line in one piece when the clip cuts it elsewhere", () => {
+    const drawing = drawingOf([{ d: "M50 50L95 50L95 60L50 60Z", clip: 0 }], {
+      clips: [clipOf("M0 0L80 0L80.5 100L0 100Z")],
+    });
+    expect(draw(drawing, { joinMm: 0 })).toHaveLength(1);
+  });
+});
+
+describe("joining and dropping", () => {
+  it("joins ends that are near, whichever way round, within a layer only", () => {
+    const lines = ["M0 0L10 0", "M20 0L10.05 0"];
+    expect(draw(drawingOf(lines))).toEqual([[0, 0, 10, 0, 10.05, 0, 20, 0]]);
+    const twoLayers = drawingOf(
+      [
+        { d: lines[0], group: 0 },
+        { d: lines[1], group: 1 },
+      ],
+      { groups: ["a", "b"] },
+    );
+    expect(draw(twoLayers)).toHaveLength(2);
+    expect(draw(drawingOf(lines), { joinMm: 0.04 })).toHaveLength(2);
+    expect(draw(drawingOf(lines), { joinMm: 0 })).toHaveLength(2);
+  });
+
+  it("closes a loop of four lines", () => {
+    const square = drawingOf(["M0 0L10 0", "M10 0L10 10", "M0 10L10 10", "M0 10L0 0"]);
+    expect(draw(square)).toEqual([[0, 0, 10, 0, 10, 10, 0, 10, 0, 0]]);
+  });
+
+  it("runs straight on where lines cross", () => {
+    const cross = drawingOf(["M0 5L5 5", "M5 0L5 5", "M5 5L10 5", "M5 5L5 10"]);
+    expect(draw(cross)).toEqual([
+      [0, 5, 5, 5, 10, 5],
+      [5, 0, 5, 5, 5, 10],
+    ]);
+  });
+
+  it("does not bend a short line onto itself", () => {
+    expect(draw(drawingOf(["M0 0L0.05 0"]))).toEqual([[0, 0, 0.05, 0]]);
+  });
+
+  it("keeps dots apart, and drops them only when short strokes are dropped", () => {
+    const drawing = drawingOf(["M5 5L5 5", "M5 5L5 5", "M5 5L6 5"]);
+    expect(draw(drawing)).toHaveLength(3);
+    expect(draw(drawing, { dropShorterMm: 0.5 })).toEqual([[5, 5, 6, 5]]);
+  });
+
+  it("simplifies within its tolerance", () => {
+    expect(draw(drawingOf(["M0 0L5 0.01L10 0L15 1L20 0"]), { simplifyMm: 0.05 })).toEqual([
+      [0, 0, 10, 0, 15, 1, 20, 0],
+    ]);
+  });
+});
+
+describe("layers", () => {
+  const drawing = drawingOf(
+    [
+      { d: "M0 0L10 0", stroke: "#ff0000", group: 0 },
+      { d: "M0 5L20 5", stroke: "#0000ff", group: 1 },
+      { d: "M0 9L30 9", stroke: "#ff0000", group: 1 },
+    ],
+    { groups: ["first", "second", "empty"] },
+  );
+
+  it("are the groups that hold something, with their counts and their colour where it is one", () => {
+    const { layers } = prepare(drawing, TRUE_SIZE);
+    expect(layers.map(({ id, name, color, strokeCount: n, drawMm }) => [id, name, color, n, drawMm])).toEqual(
+      [
+        ["g0", "first", "#ff0000", 1, 10],
+        ["g1", "second", null, 2, 50],
+      ],
+    );
+  });
+
+  it("are the stroke colours, and all in one, on demand", () => {
+    const byColor = prepare(drawing, { ...TRUE_SIZE, layers: "stroke" });
+    expect(byColor.layers.map((layer) => [layer.id, layer.drawMm])).toEqual([
+      ["#ff0000", 40],
+      ["#0000ff", 20],
+    ]);
+    expect(prepare(drawing, { ...TRUE_SIZE, layers: "all" }).layers.map((layer) => layer.drawMm)).toEqual([
+      60,
+    ]);
+  });
+
+  it("are listed with their counts when hidden, and not drawn", () => {
+    const prepared = prepare(drawing, { ...TRUE_SIZE, hiddenLayers: ["g0"] });
+    expect(prepared.layers.map((layer) => [layer.visible, layer.strokeCount])).toEqual([
+      [false, 1],
+      [true, 2],
+    ]);
+    expect(prepared.strokes.layers.map((layer) => layer.id)).toEqual(["g1"]);
+    expect([...prepared.strokes.layer]).toEqual([0, 0]);
+    expect(prepared.drawMm).toBe(50);
+  });
+
+  it("stand together in the strokes, in the file's order", () => {
+    const mixed = drawingOf(
+      [
+        { d: "M0 0L1 0", group: 1 },
+        { d: "M0 3L1 3", group: 0 },
+        { d: "M0 6L1 6", group: 1 },
+      ],
+      { groups: ["a", "b"] },
+    );
+    expect([...prepare(mixed, { ...TRUE_SIZE, order: "fast" }).strokes.layer]).toEqual([0, 1, 1]);
+  });
+});
+
+describe("ordering", () => {
+  it("goes to the nearest end, turning strokes round", () => {
+    expect(draw(drawingOf(["M90 0L50 0", "M40 0L10 0"]), { order: "fast" })).toEqual([
+      [10, 0, 40, 0],
+      [50, 0, 90, 0],
+    ]);
+  });
+
+  it("begins a closed stroke at its nearest corner", () => {
+    expect(draw(drawingOf(["M20 20L20 10L10 10L10 20Z"]), { order: "fast" })).toEqual([
+      [10, 10, 10, 20, 20, 20, 20, 10, 10, 10],
+    ]);
+  });
+
+  it("measures travel from home through the strokes and home again", () => {
+    const prepared = prepare(drawingOf(["M3 4L3 10", "M3 20L3 4.5"]), TRUE_SIZE);
+    expect(prepared.travelMmUnordered).toBeCloseTo(5 + 10 + Math.hypot(3, 4.5), 9);
+    expect(prepared.travelMm).toBe(prepared.travelMmUnordered);
+  });
+});
+
+describe("degenerate input", () => {
+  it("prepares an empty drawing to no strokes and a warning", () => {
+    const prepared = prepare(drawingOf([]), DEFAULT_PREPARE);
+    expect(strokeCount(prepared.strokes)).toBe(0);
+    expect(pointCount(prepared.strokes)).toBe(0);
+    expect(prepared.travelMm).toBe(0);
+    expect(prepared.warnings).toEqual(["The file has no lines to draw."]);
+  });
+
+  it("fits a lone dot and a straight line", () => {
+    const settings = { fit: true, paper: { widthMm: 100, heightMm: 100 } };
+    expect(draw(drawingOf(["M7 7L7 7"]), settings)).toEqual([[50, 50]]);
+    expect(draw(drawingOf(["M7 7L9 7"]), settings)).toEqual([[0, 50, 100, 50]]);
+  });
+
+  it("stops when it is asked to", () => {
+    expect(() => prepare(drawingOf(["M0 0L1 1"]), TRUE_SIZE, { cancel: { aborted: true } })).toThrow(
+      expect.objectContaining({ code: "cancelled" }),
+    );
+  });
+
+  it("reports progress that never falls and ends at 1", () => {
+    const seen: number[] = [];
+    prepare(drawingOf(["M0 0L1 1"]), DEFAULT_PREPARE, { onProgress: (done) => seen.push(done) });
+    expect(seen).toEqual([...seen].sort((a, b) => a - b));
+    expect(seen.at(-1)).toBe(1);
+  });
+});
+
+describe("checkBounds", () => {
+  const machine = { name: "AxiDraw V3", widthMm: 300, heightMm: 218 };
+
+  it("lets a drawing pass that the machine can reach, and an empty one", () => {
+    expect(() => checkBounds(prepare(drawingOf(["M0 0L210 200"]), TRUE_SIZE).strokes, machine)).not.toThrow();
+    expect(() => checkBounds(prepare(drawingOf([]), TRUE_SIZE).strokes, machine)).not.toThrow();
+  });
+
+  it("refuses one that reaches further, with the figures", () => {
+    const { strokes } = prepare(drawingOf(["M10 10L20 290"]), TRUE_SIZE);
+    expect(() => checkBounds(strokes, machine)).toThrow(
+      expect.objectContaining({
+        code: "out-of-bounds",
+        message: expect.stringMatching(/290\).*AxiDraw V3.*218/),
+      }),
+    );
+  });
+});
