@@ -80,3 +80,5 @@ export {
 
 // board
 export type { Cancellation, Clock, Transport } from "./board/transport.js";
+export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
+export { SessionLog } from "./board/session-log.js";

@@ -1,0 +1,103 @@
+/** A serial port as a `Transport`; its failures as sentences that say how to mend them. */
+import { SerialPort } from "serialport";
+import { PlotwrightError, type Transport } from "../../src/index.js";
+
+/** The board is a USB device that ignores the rate; it has to be some legal number. */
+const BAUD_RATE = 115_200;
+
+/** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
+export async function openSerial(path: string): Promise<Transport> {
+  const port = new SerialPort({ path, baudRate: BAUD_RATE, autoOpen: false, lock: true });
+  await new Promise<void>((resolve, reject) => {
+    port.open((error) => (error ? reject(openError(path, error)) : resolve()));
+  });
+  return new SerialTransport(port);
+}
+
+class SerialTransport implements Transport {
+  private closing: Promise<void> | null = null;
+
+  constructor(private readonly port: SerialPort) {
+    // An error without a listener would end the process; the loss itself arrives by "close".
+    port.on("error", () => undefined);
+  }
+
+  write(bytes: Uint8Array): Promise<void> {
+    return new Promise((resolve, reject) => {
+      if (!this.port.isOpen) {
+        reject(lostError(this.port.path));
+        return;
+      }
+      this.port.write(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), (error) => {
+        if (error) reject(lostError(this.port.path, error));
+        else resolve();
+      });
+    });
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.port.removeAllListeners("data");
+    this.port.on("data", listener);
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.port.once("close", (error: Error | null | undefined) => {
+      if (this.closing) listener();
+      else listener(lostError(this.port.path, error ?? undefined));
+    });
+  }
+
+  close(): Promise<void> {
+    this.closing ??= new Promise((resolve) => {
+      if (!this.port.isOpen) {
+        resolve();
+        return;
+      }
+      // Unsent output would make the system wait for a board that may not read it any more.
+      this.port.flush(() => this.port.close(() => resolve()));
+    });
+    return this.closing;
+  }
+}
+
+function lostError(path: string, cause?: Error): PlotwrightError {
+  return new PlotwrightError(
+    "disconnected",
+    `The connection to the board at ${path} is lost: check its USB cable and power, then connect again.`,
+    { cause },
+  );
+}
+
+/** The system's words, which differ by platform, turned into ours. */
+function openError(path: string, error: Error): PlotwrightError {
+  const words = error.message;
+  if (/permission denied|EACCES/i.test(words)) {
+    return new PlotwrightError("not-allowed", permissionWords(path), { cause: error });
+  }
+  if (/cannot lock|temporarily unavailable|resource busy|EBUSY|EAGAIN|access denied/i.test(words)) {
+    return new PlotwrightError(
+      "busy",
+      `Another program is using ${path}: close it (other plotter software, a serial monitor, a second plotwright), then connect again.`,
+      { cause: error },
+    );
+  }
+  if (/no such file|file not found|ENOENT|ENXIO|ENODEV|cannot find/i.test(words)) {
+    return new PlotwrightError(
+      "no-board",
+      `There is no device at ${path}: plug the plotter in, or choose another with --device ("plotwright devices" lists them).`,
+      { cause: error },
+    );
+  }
+  return new PlotwrightError("no-board", `${path} cannot be opened as a serial port (${words}).`, {
+    cause: error,
+  });
+}
+
+export function permissionWords(path: string): string {
+  return (
+    `This account may not open ${path}. On Linux add it to the port's group (sudo usermod -aG dialout $USER, ` +
+    `on Arch: uucp) and log in again, or add the udev rule ` +
+    `SUBSYSTEM=="tty", ATTRS{idVendor}=="04d8", ATTRS{idProduct}=="fd92", TAG+="uaccess" ` +
+    `in /etc/udev/rules.d/60-eibotboard.rules and plug the board in anew.`
+  );
+}

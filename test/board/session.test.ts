@@ -1,0 +1,182 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { BoardSession, type PlotwrightError } from "../../src/index.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { ScriptedLine } from "../support/scripted-line.js";
+
+const VERSION_281 = "EBBv13_and_above EB Firmware Version 2.8.1\r\n";
+
+function newSession(answer?: (line: string) => string | null) {
+  const clock = new ManualClock();
+  const line = new ScriptedLine(answer);
+  return { clock, line, session: new BoardSession(line, { clock }) };
+}
+
+/** What became of a promise, as a value. */
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+describe("who is there", () => {
+  it("reads the firmware from the answer to V", async () => {
+    const { session } = newSession(() => VERSION_281);
+    expect(await session.identify()).toMatchObject({ firmware: "2.8.1" });
+  });
+
+  it("brings a 3.x board that was left in its other syntax back to the plain one", async () => {
+    const { line, session } = newSession((command) =>
+      command === "V" ? "V,EBBv13_and_above EB Firmware Version 3.0.3\n" : "CUOK\r\n",
+    );
+    expect((await session.identify()).firmware).toBe("3.0.3");
+    expect(line.written).toEqual(["V", "CU,10,0"]);
+  });
+
+  it("asks again when the remains of an earlier conversation spoil the first answer", async () => {
+    let asked = 0;
+    const { clock, session } = newSession(() =>
+      ++asked === 1 ? "!8 Err: Unknown command '1,:312C'\r\n" : VERSION_281,
+    );
+    expect((await clock.run(session.identify())).firmware).toBe("2.8.1");
+  });
+
+  it("says within 3 s that nothing answers", async () => {
+    const { clock, session } = newSession();
+    const identified = outcome(clock.run(session.identify(), 3));
+    expect(await identified).toMatch(/^board-timeout: Nothing answers on this port/);
+  });
+
+  it("names what another device said", async () => {
+    const { clock, session } = newSession(() => "Grbl 1.1h ['$' for help]\r\n");
+    expect(await outcome(clock.run(session.identify(), 3))).toMatch(/^no-board: .*Grbl 1\.1h/);
+  });
+});
+
+describe("answers and the commands they belong to", () => {
+  it("gives each of many commands under way its own answer", async () => {
+    const { line, session } = newSession();
+    const all = [session.send("SM,10,5,5"), session.query("QS"), session.send("SP,1"), session.query("QG")];
+    line.say("OK\r\n-12,34\n\rOK\r\nOK\r\n3E\r\n");
+    expect(await Promise.all(all)).toEqual([undefined, "-12,34", undefined, "3E"]);
+  });
+
+  it("does not mind where the line cuts its bytes", async () => {
+    const reply = "OK\r\n7,-8\n\rOK\r\nQM,0,0,0,0\n\rOK\r\n";
+    await fc.assert(
+      fc.asyncProperty(
+        fc.array(fc.integer({ min: 1, max: reply.length - 1 }), { maxLength: 10 }),
+        async (cuts) => {
+          const { line, session } = newSession();
+          const all = [session.send("SP,1"), session.query("QS"), session.query("QM"), session.send("SP,0")];
+          const places = [0, ...cuts.sort((a, b) => a - b), reply.length];
+          for (let i = 1; i < places.length; i++) line.say(reply.slice(places[i - 1], places[i]));
+          expect(await Promise.all(all)).toEqual([undefined, "7,-8", "0,0,0,0", undefined]);
+        },
+      ),
+    );
+  });
+
+  it.each([
+    ["without an OK after it", "!4 Err: Missing parameter(s)\r\nOK\r\n5,6\n\rOK\r\n"],
+    ["with an OK after it", "!4 Err: Missing parameter(s)\r\nOK\r\nOK\r\n5,6\n\rOK\r\n"],
+  ])("names the command that an error belongs to, %s", async (_, reply) => {
+    const { line, session } = newSession();
+    const all = [outcome(session.send("SM,1")), outcome(session.send("SP,1")), outcome(session.query("QS"))];
+    line.say(reply);
+    expect(await Promise.all(all)).toEqual([
+      "board-error: The board refused SM,1: Missing parameter(s).",
+      undefined,
+      "5,6",
+    ]);
+  });
+
+  it("does not take a surplus-parameter error, which comes after the OK, for the next command's answer", async () => {
+    const { line, session } = newSession();
+    const next = session.send("SP,1");
+    line.say("OK\r\n");
+    await next;
+    const after = session.send("SP,0");
+    line.say("!7 Err: Extra parameter\r\nOK\r\n");
+    await after;
+    expect(session.strayCount).toBe(1);
+  });
+
+  it("goes on over a lost OK when a later value proves that it was lost", async () => {
+    const { line, session } = newSession();
+    const all = [session.send("LT,1"), session.send("LT,2"), session.query("QM"), session.send("LT,3")];
+    line.say("OK\r\nQM,0,0,0,0\n\rOK\r\n");
+    expect(await Promise.all(all)).toEqual([undefined, undefined, "0,0,0,0", undefined]);
+    expect(session.lostReplyCount).toBe(1);
+  });
+
+  it("says of a lost value that it was lost, and gives the others theirs", async () => {
+    const { line, session } = newSession();
+    const all = [outcome(session.query("QG")), session.send("LT,2"), session.query("QS")];
+    line.say("OK\r\n1,2\n\rOK\r\n");
+    expect(await Promise.all(all)).toEqual([
+      expect.stringContaining("answer to QG was lost"),
+      undefined,
+      "1,2",
+    ]);
+  });
+
+  it("ignores garbage between answers, and counts it", async () => {
+    const { line, session } = newSession();
+    const all = [session.send("SP,1"), session.query("QS")];
+    line.say("\x80\xff?x\r\nOK\r\n#garbage\r\n3,4\n\rOK\r\n");
+    expect(await Promise.all(all)).toEqual([undefined, "3,4"]);
+    expect(session.strayCount).toBe(2);
+  });
+});
+
+describe("a board that fails", () => {
+  it("is found silent after the session's patience, and everything that waits is told so", async () => {
+    const { clock, session } = newSession();
+    const all = [outcome(session.send("SP,1")), outcome(session.query("QS"))];
+    const faults: string[] = [];
+    session.onFault((error) => faults.push(error.code));
+    await clock.advance(1.4);
+    expect(faults).toEqual([]);
+    await clock.advance(0.2);
+    expect(faults).toEqual(["board-timeout"]);
+    expect(await Promise.all(all)).toEqual([
+      expect.stringMatching(/^board-timeout: .*waiting on SP,1/),
+      expect.stringMatching(/^board-timeout/),
+    ]);
+    expect(await outcome(session.send("SP,0"))).toMatch(/^board-timeout/);
+  });
+
+  it("is given the time that the motion ahead of a command takes", async () => {
+    const { clock, line, session } = newSession();
+    const move = session.send("SM,5000,0,0", 5);
+    await clock.advance(6);
+    expect(session.failure).toBeNull();
+    line.say("OK\r\n");
+    await move;
+  });
+
+  it("is told apart from a host that slept: what has come meanwhile is read first", async () => {
+    const { clock, line, session } = newSession();
+    const move = session.send("SP,1");
+    await clock.sleep(60);
+    line.say("OK\r\n");
+    await move;
+    expect(session.failure).toBeNull();
+  });
+
+  it("rejects everything at once when the line is lost", async () => {
+    const { line, session } = newSession();
+    const waiting = outcome(session.query("QS"));
+    line.lose(new Error("gone"));
+    expect(await waiting).toMatch(/^disconnected: .*USB cable/);
+    expect(await outcome(session.query("QS"))).toMatch(/^disconnected/);
+  });
+});
+
+describe("the log", () => {
+  it("holds what was said, in order, and forgets the oldest beyond its size", async () => {
+    const clock = new ManualClock();
+    const line = new ScriptedLine(() => "OK\r\n");
+    const session = new BoardSession(line, { clock, logLines: 4 });
+    for (const command of ["SP,1", "SP,0", "SP,1"]) await session.send(command);
+    expect(session.log.text()).toBe("0.0000 > SP,0\n0.0000 < OK\n0.0000 > SP,1\n0.0000 < OK\n");
+  });
+});

@@ -1,0 +1,75 @@
+import type { Clock } from "../../src/index.js";
+
+interface Timer {
+  readonly dueS: number;
+  readonly order: number;
+  readonly callback: () => void;
+}
+
+/** Time that passes only when a test says so. Timers fire in order, promises settle between them. */
+export class ManualClock implements Clock {
+  private timeS = 0;
+  private timers: Timer[] = [];
+  private created = 0;
+
+  nowS(): number {
+    return this.timeS;
+  }
+
+  after(delayS: number, callback: () => void): () => void {
+    const timer = { dueS: this.timeS + Math.max(0, delayS), order: this.created++, callback };
+    this.insert(timer);
+    return () => {
+      const index = this.timers.indexOf(timer);
+      if (index >= 0) this.timers.splice(index, 1);
+    };
+  }
+
+  /** Passes time, firing what is due; what those start is fired too where it falls within. */
+  async advance(byS: number): Promise<void> {
+    const untilS = this.timeS + byS;
+    await settle();
+    while (this.timers.length > 0 && this.timers[0]!.dueS <= untilS) {
+      const timer = this.timers.shift()!;
+      this.timeS = Math.max(this.timeS, timer.dueS);
+      timer.callback();
+      await settle();
+    }
+    this.timeS = untilS;
+  }
+
+  /** Time passes without a timer firing, as for a process that was stopped; then all that is due fires. */
+  async sleep(byS: number): Promise<void> {
+    this.timeS += byS;
+    await this.advance(0);
+  }
+
+  /** Passes as much time as the work needs. Throws when it needs more than `limitS`. */
+  async run<T>(work: Promise<T>, limitS = 100_000): Promise<T> {
+    let done = false;
+    const finished = work.finally(() => {
+      done = true;
+    });
+    finished.catch(() => undefined);
+    const untilS = this.timeS + limitS;
+    await settle();
+    while (!done) {
+      const next = this.timers[0];
+      if (!next) throw new Error("the work waits for something that no timer brings");
+      if (next.dueS > untilS) throw new Error(`the work is not done after ${limitS} s`);
+      await this.advance(Math.max(0, next.dueS - this.timeS));
+    }
+    return finished;
+  }
+
+  private insert(timer: Timer): void {
+    let at = this.timers.length;
+    while (at > 0 && this.timers[at - 1]!.dueS > timer.dueS) at--;
+    this.timers.splice(at, 0, timer);
+  }
+}
+
+/** Lets every promise that can settle do so. */
+async function settle(): Promise<void> {
+  for (let i = 0; i < 8; i++) await Promise.resolve();
+}
