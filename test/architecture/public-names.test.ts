@@ -1,0 +1,47 @@
+/** Every public name is in docs/library.md, whose examples test/packaging runs. */
+import { readFileSync } from "node:fs";
+import path from "node:path";
+import ts from "typescript";
+import { describe, expect, it } from "vitest";
+
+const ROOT = path.join(import.meta.dirname, "..", "..");
+const read = (file: string): string => readFileSync(path.join(ROOT, file), "utf8");
+
+/** The names in an entry's `export { … } from` lists, and those that it declares itself. */
+function exportedNames(file: string): string[] {
+  const source = ts.createSourceFile(file, read(file), ts.ScriptTarget.ES2022, true);
+  return source.statements.flatMap((statement) => {
+    if (
+      ts.isExportDeclaration(statement) &&
+      statement.exportClause &&
+      ts.isNamedExports(statement.exportClause)
+    ) {
+      return statement.exportClause.elements.map((element) => element.name.text);
+    }
+    const isExported = ts.canHaveModifiers(statement)
+      ? ts.getModifiers(statement)?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword)
+      : false;
+    const isNamed =
+      ts.isFunctionDeclaration(statement) ||
+      ts.isInterfaceDeclaration(statement) ||
+      ts.isClassDeclaration(statement);
+    return isExported && isNamed && statement.name ? [statement.name.text] : [];
+  });
+}
+
+const codeIn = (markdown: string): string =>
+  [...markdown.matchAll(/```ts\n[\s\S]*?```|`[^`\n]+`/g)].map(([code]) => code).join("\n");
+
+describe("docs/library.md", () => {
+  const code = codeIn(read("docs/library.md"));
+
+  it.each(["src/index.ts", "server/index.ts"])("shows every name that %s exports", (entry) => {
+    const names = exportedNames(entry);
+    expect(names.length).toBeGreaterThan(0);
+    expect(names.filter((name) => !new RegExp(`\\b${name}\\b`).test(code))).toEqual([]);
+  });
+
+  it("has no barrel that exports what nobody listed", () => {
+    expect(read("src/index.ts")).not.toMatch(/^export \*/m);
+  });
+});

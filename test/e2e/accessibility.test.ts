@@ -1,0 +1,107 @@
+/** The page under axe's rules (WCAG 2.2 A and AA), in each state that looks different, light and dark, desk and phone. */
+import axe from "axe-core";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { launchBrowser } from "../support/browser.js";
+import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+
+const data = temporaryFolder("accessibility");
+let browser: Browser;
+let server: ServerProcess;
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 1 });
+});
+
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+  data.remove();
+});
+
+async function openPage(width: number, height: number, colorScheme: "light" | "dark"): Promise<Page> {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+  const page = await context.newPage();
+  await page.goto(server.url);
+  await waitForPlan(page);
+  return page;
+}
+
+/** Serious and critical findings, one line each: rule, and the elements it is about. */
+async function findingsOn(page: Page): Promise<string[]> {
+  await page.evaluate(axe.source);
+  const { violations } = await page.evaluate(() =>
+    (window as unknown as { axe: typeof axe }).axe.run(document, {
+      runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+    }),
+  );
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(
+      ({ id, help, nodes }) => `${id}: ${help} (${nodes.map(({ target }) => target.join(" ")).join(", ")})`,
+    );
+}
+
+/** Opens every folded group of settings, so that what is in it is looked at too. */
+async function unfold(page: Page): Promise<void> {
+  const folded = page.locator("button[aria-expanded=false]:visible");
+  while ((await folded.count()) > 0) await folded.first().click();
+}
+
+describe("axe finds nothing serious", () => {
+  it.each([
+    [1440, 900, "light"],
+    [1440, 900, "dark"],
+    [390, 844, "light"],
+    [390, 844, "dark"],
+  ] as const)("on the first visit at %i × %i, %s", async (width, height, scheme) => {
+    const page = await openPage(width, height, scheme);
+    await unfold(page);
+    expect(await findingsOn(page)).toEqual([]);
+    await page.context().close();
+  });
+
+  it("with a file that can't be read, a queue, a plot under way, and the question before cancelling", async () => {
+    const page = await openPage(1440, 900, "light");
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await queuePanel(page)
+      .getByRole("button", { name: /^Start / })
+      .click();
+    await queuePanel(page).getByRole("progressbar").waitFor();
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await dropFile(page, "torn.svg", "<svg><path");
+    await page.getByText(/torn/).first().waitFor();
+    expect(await findingsOn(page)).toEqual([]);
+    await queuePanel(page).getByRole("button", { name: "Cancel" }).click();
+    expect(await findingsOn(page)).toEqual([]);
+    await page.context().close();
+  });
+});
+
+describe("someone without a mouse", () => {
+  it("reaches every control by Tab, and each says what it is", async () => {
+    const page = await openPage(1440, 900, "light");
+    const names = new Set<string>();
+    for (let press = 0; press < 120; press++) {
+      await page.keyboard.press("Tab");
+      const name = await page.evaluate(() => {
+        const element = document.activeElement;
+        if (element === null || element === document.body) return null;
+        const labels = (element as HTMLInputElement).labels;
+        return (
+          element.getAttribute("aria-label") ??
+          (labels?.[0]?.textContent || null) ??
+          element.textContent ??
+          ""
+        ).trim();
+      });
+      if (name === null) break;
+      names.add(name);
+    }
+    expect([...names]).not.toContain("");
+    for (const button of ["Plot", "Add to queue", "Pen up", "Zoom in"]) expect([...names]).toContain(button);
+    await page.context().close();
+  });
+});
