@@ -23,6 +23,7 @@ export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js"
 export { prepare, type Prepared, type PreparedLayer } from "./prepare/prepare.js";
 export { checkBounds } from "./prepare/check-bounds.js";
 export type { Work } from "./prepare/work.js";
+export { NO_CODES, formatLayerName, parseLayerName, type LayerCodes } from "./prepare/layer-codes.js";
 export {
   DEFAULT_PREPARE,
   LAYER_MODES,
@@ -80,5 +81,25 @@ export {
 
 // board
 export type { Cancellation, Clock, Transport } from "./board/transport.js";
+export {
+  VirtualBoard,
+  type BoardStatistics,
+  type DrawnPolyline,
+  type VirtualBoardOptions,
+  type VirtualBoardState,
+} from "./board/virtual-board.js";
 export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
 export { SessionLog } from "./board/session-log.js";
+export {
+  parseSteps,
+  streamCommands,
+  Streamer,
+  type StreamOptions,
+  type StreamPlace,
+  type StreamReport,
+} from "./board/streamer.js";
+
+// export
+export { toSvg, type SvgOptions } from "./export/strokes-to-svg.js";
+export { toJson, type StrokesJson } from "./export/strokes-to-json.js";
+export { trajectoryToSvg, type TrajectorySvgOptions } from "./export/trajectory-to-svg.js";

@@ -49,9 +49,9 @@ function ringsOfClip(drawing: Drawing, index: number, map: Affine, toleranceMm: 
   const lines = builder.finish();
   const filled: Paths64[] = [];
   for (let i = 0, next = 0; i < lineCount(lines); i = next) {
-    const shape = clip.shape[lines.tag[i]];
+    const shape = clip.shape?.[lines.tag[i]];
     const rings: Paths64 = [];
-    for (next = i; next < lineCount(lines) && clip.shape[lines.tag[next]] === shape; next++) {
+    for (next = i; next < lineCount(lines) && clip.shape?.[lines.tag[next]] === shape; next++) {
       rings.push(ringOf(lines, next));
     }
     const isEvenOdd = clip.rule[lines.tag[i]] === RULE_EVENODD;

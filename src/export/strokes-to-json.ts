@@ -1,0 +1,33 @@
+/** The prepared drawing as JSON: polylines in mm in drawing order, layer by layer, for other programs. */
+import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+
+export interface StrokesJson {
+  readonly format: "plotwright-strokes";
+  readonly version: 1;
+  /** mm; the paper as it lies, its top left corner at 0, 0. */
+  readonly widthMm: number;
+  readonly heightMm: number;
+  readonly layers: readonly {
+    readonly id: string;
+    readonly name: string;
+    readonly color: string | null;
+    /** Each stroke as x, y, x, y … mm; two numbers are a dot. */
+    readonly strokesMm: readonly (readonly number[])[];
+  }[];
+}
+
+/** Coordinates are rounded to 1 µm. */
+export function toJson(strokes: StrokeSet, paper: { widthMm: number; heightMm: number }): StrokesJson {
+  const layers = strokes.layers.map((layer) => ({ ...layer, strokesMm: [] as number[][] }));
+  for (let i = 0; i < strokeCount(strokes); i++) {
+    const points = strokes.xy.subarray(2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
+    layers[strokes.layer[i]].strokesMm.push(Array.from(points, (v) => Math.round(v * 1000) / 1000));
+  }
+  return {
+    format: "plotwright-strokes",
+    version: 1,
+    widthMm: paper.widthMm,
+    heightMm: paper.heightMm,
+    layers,
+  };
+}

@@ -1,0 +1,46 @@
+/** The few words of SVG that exports are written in. Lengths in mm; one user unit is one mm. */
+
+/** Text for an attribute or element: markup escaped, characters that XML forbids left out. */
+export function xmlText(text: string): string {
+  let out = "";
+  for (const char of text) {
+    const code = char.codePointAt(0) as number;
+    const allowed =
+      code === 9 ||
+      code === 10 ||
+      code === 13 ||
+      (code >= 32 && code < 0xd800) ||
+      (code > 0xdfff && code < 0xfffe) ||
+      code > 0xffff;
+    if (allowed) out += ESCAPES[char] ?? char;
+  }
+  return out;
+}
+
+const ESCAPES: Readonly<Record<string, string>> = {
+  "&": "&amp;",
+  "<": "&lt;",
+  ">": "&gt;",
+  '"': "&quot;",
+};
+
+/** To the micrometre, without trailing zeros. */
+export const mmText = (value: number): string => String(Math.round(value * 1000) / 1000 + 0);
+
+/** The opening tag of a page of that size. */
+export const svgOpening = (widthMm: number, heightMm: number): string =>
+  `<?xml version="1.0" encoding="UTF-8"?>\n` +
+  `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ` +
+  `width="${mmText(widthMm)}mm" height="${mmText(heightMm)}mm" viewBox="0 0 ${mmText(widthMm)} ${mmText(heightMm)}">\n`;
+
+/** Path data of the points [from, to) of interleaved coordinates; one point is a dot. */
+export function pathData(xy: Float64Array, from: number, to: number): string {
+  let d = `M${mmText(xy[2 * from])} ${mmText(xy[2 * from + 1])}`;
+  if (to === from + 1) return `${d}h0`;
+  const closed = to > from + 3 && xy[2 * from] === xy[2 * to - 2] && xy[2 * from + 1] === xy[2 * to - 1];
+  d += "L";
+  for (let p = from + 1; p < (closed ? to - 1 : to); p++) {
+    d += `${p > from + 1 ? " " : ""}${mmText(xy[2 * p])} ${mmText(xy[2 * p + 1])}`;
+  }
+  return closed ? `${d}Z` : d;
+}

@@ -1,0 +1,72 @@
+/**
+ * Layer names that carry orders for the plot, as AxiDraw users write them.
+ * (https://wiki.evilmadscientist.com/AxiDraw_Layer_Control)
+ *
+ *   name   = "%" text                       the layer is not plotted
+ *          | ["!"] [number] { code } text   "!" waits for the operator before the layer
+ *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; of several valid ones
+ *          | "+s" 1…110   pen-down speed, percent      the last holds; one out of range is passed over
+ *          | "+d" 1…      wait before the layer, ms
+ *   number = digits: which layers "plot layer N" takes
+ *   text   = whatever is left, as people read it
+ *
+ * Codes follow one another without a space; the first thing that is not a code begins the text.
+ */
+export interface LayerCodes {
+  readonly skip: boolean;
+  readonly pause: boolean;
+  readonly number: number | null;
+  readonly penDownPct: number | null;
+  readonly drawSpeedPct: number | null;
+  readonly delayMs: number | null;
+  readonly text: string;
+}
+
+export function parseLayerName(name: string): LayerCodes {
+  if (name.startsWith("%")) return { ...NO_CODES, skip: true, text: name.slice(1) };
+  const pause = name.startsWith("!");
+  const head = /^\d*/.exec(pause ? name.slice(1) : name) as RegExpExecArray;
+  let rest = (pause ? name.slice(1) : name).slice(head[0].length);
+  let penDownPct: number | null = null;
+  let drawSpeedPct: number | null = null;
+  let delayMs: number | null = null;
+  for (let code = CODE.exec(rest); code !== null; code = CODE.exec(rest)) {
+    const value = code[2] === "" ? NaN : Number(code[2]);
+    const letter = code[1].toLowerCase();
+    if (letter === "h" && value <= 100) penDownPct = value;
+    if (letter === "s" && value >= 1 && value <= 110) drawSpeedPct = value;
+    if (letter === "d" && value > 0) delayMs = value;
+    rest = rest.slice(code[0].length);
+  }
+  const number = head[0] === "" ? null : Number(head[0]);
+  return { skip: false, pause, number, penDownPct, drawSpeedPct, delayMs, text: rest };
+}
+
+/** The name that `parseLayerName` reads back; a space goes before text that would be taken for a code. */
+export function formatLayerName(codes: LayerCodes): string {
+  if (codes.skip) return `%${codes.text}`;
+  const head = [
+    codes.pause ? "!" : "",
+    codes.number ?? "",
+    codes.delayMs === null ? "" : `+d${codes.delayMs}`,
+    codes.penDownPct === null ? "" : `+h${codes.penDownPct}`,
+    codes.drawSpeedPct === null ? "" : `+s${codes.drawSpeedPct}`,
+  ].join("");
+  const taken = parseLayerName(head + codes.text);
+  return taken.text === codes.text && taken.skip === codes.skip && taken.number === codes.number
+    ? head + codes.text
+    : `${head} ${codes.text}`;
+}
+
+export const NO_CODES: LayerCodes = {
+  skip: false,
+  pause: false,
+  number: null,
+  penDownPct: null,
+  drawSpeedPct: null,
+  delayMs: null,
+  text: "",
+};
+
+/** A code counts only when something follows its letter, as in the software that it comes from. */
+const CODE = /^\+([hsd])(?=.)(\d*)/is;
