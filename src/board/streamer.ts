@@ -1,0 +1,510 @@
+/**
+ * Sends command streams by a window of board time instead of by acknowledgement.
+ *
+ * Board, USB and system buffers together always hold about `windowS` of motion, so the board goes on while
+ * the host is stalled. The price: on firmware with a queue of one, the board's parser stands blocked behind
+ * what was written ahead, and an emergency stop waits for it. Hence a window of 0.3 s, not 3 s. Where the
+ * board's own queue is deeper, no more is written than it can take, and a stop is read at once.
+ *
+ *      executed        executing     waiting in the board      not yet written
+ *   ───────────────|───────^──────|────────────────────────|- - - - - - - - - -
+ *                  board time now  <------- windowS ------->
+ *
+ * Time here is board time on the driver's clock: with a virtual board that runs 20 times faster, the clock
+ * given in runs 20 times faster too. A stream can be cut at any command and another put in its place while
+ * the board plays what it has: so a hold, a change of speed and a resume need no gap.
+ */
+import type { CommandStream } from "../ebb/command-stream.js";
+import { PlotwrightError } from "../errors.js";
+import { BoardPace } from "./board-pace.js";
+import type { BoardSession, Outgoing } from "./session.js";
+import type { Cancellation, Clock } from "./transport.js";
+
+export interface StreamOptions {
+  /** Counts board seconds. */
+  readonly clock: Clock;
+  /** Motion kept ahead of the pen, board seconds. Default 0.3. */
+  readonly windowS?: number;
+  /** Commands that wait in the board's queue before its parser blocks: 1, or what `CU,4` has set. */
+  readonly queueDepth?: number;
+  /** "acks": for comparison only, the next command is written when the one before is acknowledged. */
+  readonly pacing?: "window" | "acks";
+  /** Queries sent during the stream, every so many board seconds. `QU,6`, `QG` or `QM` as the first keep the time line true. */
+  readonly poll?: { readonly lines: readonly string[]; readonly everyS: number };
+  /** Board seconds beyond the plan before a board that does not get on counts as stuck. Default 2. */
+  readonly stuckS?: number;
+  readonly onPoll?: (line: string, reply: string) => void;
+  /** What to add to the board's step counters for the places of the streams. Default 0, 0. */
+  readonly origin?: readonly [number, number];
+}
+
+/** Where in which stream the board is. */
+export interface StreamPlace {
+  readonly stream: CommandStream;
+  readonly commandIndex: number;
+  /** Trajectory seconds of `stream`. */
+  readonly planS: number;
+}
+
+export interface StreamReport {
+  /** The board's step counters, `origin` added; null where its firmware cannot say. */
+  readonly steps1: number | null;
+  readonly steps2: number | null;
+  /** True when they equal the prediction (or cannot be read). */
+  readonly exact: boolean;
+  /** The last command written: the state after it is where the board stands. */
+  readonly end: StreamPlace;
+  /** False after a cut that nothing followed. */
+  readonly complete: boolean;
+}
+
+/** A command that takes board time, written and not yet known to be over. */
+interface InFlight {
+  readonly number: number;
+  readonly startS: number;
+  readonly endS: number;
+  readonly writtenS: number;
+  readonly stream: CommandStream;
+  readonly index: number;
+}
+
+/** An answer later than this after the write means that the board's queue was full. Board seconds. */
+const WAITED_S = 0.02;
+/** Wake-ups closer than this are one. */
+const MIN_WAKE_S = 0.004;
+/** How long an estimate of the board's time may be ahead of what it acknowledges. */
+const ACK_SLACK_S = 0.05;
+/** Dryness too short to tell from the line's own delay. */
+const DRY_S = 0.002;
+const IDLE_POLL_S = 0.02;
+
+export class Streamer {
+  /** Times that the board ran dry in the middle of a run. */
+  underrunCount = 0;
+  /** Seconds that it stood still for that. */
+  underrunS = 0;
+
+  private readonly session: BoardSession;
+  private readonly options: Required<Pick<StreamOptions, "clock" | "windowS" | "queueDepth" | "stuckS">> &
+    StreamOptions;
+  private readonly pace = new BoardPace();
+
+  private stream: CommandStream | null = null;
+  private next = 0;
+  /** Board time line at `stream`'s second 0. */
+  private offsetS = 0;
+  /** Nothing from `atIndex` on is written; `then`, when there is one, goes on from there. */
+  private limit: { readonly atIndex: number; readonly then: CommandStream | null } | null = null;
+  private flight: InFlight[] = [];
+  private writtenCount = 0;
+  private ackedCount = 0;
+  private unanswered = 0;
+  private lastWritten: StreamPlace | null = null;
+  private lastWrittenEndS = 0;
+  /** The command that polls find executing, and since when. */
+  private executing = -1;
+  private executingSinceS = 0;
+  private cancelWake: (() => void) | null = null;
+  private cancelPoll: (() => void) | null = null;
+  private ending = false;
+  private failure: PlotwrightError | null = null;
+  private settle: { resolve(report: StreamReport): void; reject(error: PlotwrightError): void } | null = null;
+
+  constructor(session: BoardSession, options: StreamOptions) {
+    this.session = session;
+    this.options = { windowS: 0.3, queueDepth: 1, stuckS: 2, ...options };
+  }
+
+  /**
+   * Plays a stream to its end, or to a cut that nothing follows: resolves when the board is idle and its
+   * step counters have been read. Rejects when a command is refused or the board is lost or stuck.
+   */
+  play(stream: CommandStream): Promise<StreamReport> {
+    if (this.settle) throw new TypeError("a stream is already being played");
+    return new Promise((resolve, reject) => {
+      this.settle = { resolve, reject };
+      this.lastWritten = null;
+      this.schedulePoll();
+      this.take(stream);
+    });
+  }
+
+  /** The first command not written yet. */
+  get nextIndex(): number {
+    return this.next;
+  }
+
+  /** Writes nothing more of the stream. Returns the first command that the board will not get. */
+  cut(): StreamPlace {
+    const stream = this.stream;
+    if (!stream || !this.playing) throw new TypeError("nothing is being played");
+    this.limit = { atIndex: this.next, then: null };
+    // Not before the caller has had the chance to put another stream in its place.
+    this.sleep(0);
+    return { stream, commandIndex: this.next, planS: stream.planS[this.next]! };
+  }
+
+  /**
+   * Ends the stream before `atIndex`, or goes over to `then` there, which was compiled from the state at that
+   * command. False when the command has been written already: too late.
+   */
+  cutAt(atIndex: number, then: CommandStream | null = null): boolean {
+    if (!this.playing || this.next > atIndex) return false;
+    this.limit = { atIndex, then };
+    this.pump();
+    return true;
+  }
+
+  /** After a cut: goes on with a stream that was compiled from the state at the cut. False: it came to rest. */
+  replace(stream: CommandStream): boolean {
+    return this.cutAt(this.next, stream);
+  }
+
+  /** True while a stream can still be cut and replaced without the board coming to rest. */
+  get playing(): boolean {
+    return this.settle !== null && !this.ending;
+  }
+
+  /** Motion that the board still has to play, seconds. */
+  inFlightS(): number {
+    return Math.max(0, this.lastWrittenEndS - this.boardS());
+  }
+
+  /** Where the board is now, by its time line. */
+  place(): StreamPlace {
+    const boardS = this.boardS();
+    for (const entry of this.flight) {
+      if (boardS >= entry.endS) continue;
+      const share = Math.max(0, (boardS - entry.startS) / (entry.endS - entry.startS));
+      const fromS = entry.stream.planS[entry.index]!;
+      const toS = entry.stream.planS[entry.index + 1]!;
+      return { stream: entry.stream, commandIndex: entry.index, planS: fromS + share * (toS - fromS) };
+    }
+    if (this.lastWritten) {
+      const { stream, commandIndex } = this.lastWritten;
+      return { stream, commandIndex, planS: stream.planS[commandIndex + 1]! };
+    }
+    if (!this.stream) throw new TypeError("nothing has been played");
+    return { stream: this.stream, commandIndex: 0, planS: this.stream.planS[0]! };
+  }
+
+  /** Stops writing and gives up waiting; what the board has is not touched. */
+  abandon(error: PlotwrightError): void {
+    this.fail(error);
+  }
+
+  private take(stream: CommandStream): void {
+    this.stream = stream;
+    this.next = 0;
+    this.offsetS = this.lastWrittenEndS - stream.boardS[0]!;
+    this.limit = null;
+    this.pump();
+  }
+
+  /** Estimated board time, held back where the board has not acknowledged as far. */
+  private boardS(): number {
+    const estimateS = Math.min(this.pace.boardS(this.options.clock.nowS()), this.lastWrittenEndS);
+    // Unacknowledged number n means that the queue before it is full: n − depth has not begun.
+    const unacked = this.entry(this.ackedCount);
+    const blocked = this.entry(this.ackedCount - this.options.queueDepth);
+    if (!unacked || !blocked || this.options.clock.nowS() - unacked.writtenS < WAITED_S) return estimateS;
+    return Math.min(estimateS, blocked.startS + ACK_SLACK_S);
+  }
+
+  private entry(number: number): InFlight | undefined {
+    const first = this.flight[0];
+    return first ? this.flight[number - first.number] : undefined;
+  }
+
+  /** Writes what is due, and sleeps until more is. */
+  private pump(): void {
+    this.cancelWake?.();
+    this.cancelWake = null;
+    if (this.failure || this.ending) return;
+    const stream = this.stream!;
+    const boardS = this.boardS();
+    this.forgetExecuted(boardS);
+    const batch: Outgoing[] = [];
+    const endIndex = this.limit?.atIndex ?? stream.count;
+    while (this.next < endIndex && this.mayWrite(stream, boardS)) {
+      batch.push(this.outgoing(stream, this.next));
+      this.next++;
+    }
+    if (batch.length > 0) this.session.write(batch);
+    if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
+    else if (this.limit?.then) this.take(this.limit.then);
+    else this.awaitEnd(boardS);
+  }
+
+  private mayWrite(stream: CommandStream, boardS: number): boolean {
+    if (this.options.pacing === "acks") return this.unanswered === 0;
+    const endS = this.offsetS + stream.boardS[this.next + 1]!;
+    const waiting = this.flight.length;
+    // One whole command always waits behind the executing one, however long they are.
+    if (waiting < 2) return true;
+    if (this.options.queueDepth > 1 && waiting >= this.options.queueDepth) return false;
+    return endS - boardS <= this.options.windowS;
+  }
+
+  /** Until the next command comes into the window, or the executing one ends. */
+  private wakeInS(stream: CommandStream, boardS: number): number {
+    if (this.options.pacing === "acks") return this.options.stuckS;
+    const windowS = this.offsetS + stream.boardS[this.next + 1]! - this.options.windowS - boardS;
+    const executing = this.flight[0];
+    const endsInS = executing ? executing.endS - boardS : 0;
+    return Math.max(MIN_WAKE_S, Math.min(windowS > 0 ? windowS : endsInS, Math.max(endsInS, 0)));
+  }
+
+  private outgoing(stream: CommandStream, index: number): Outgoing {
+    const line = commandLine(stream, index);
+    const startS = this.offsetS + stream.boardS[index]!;
+    const endS = this.offsetS + stream.boardS[index + 1]!;
+    this.unanswered++;
+    const place = { stream, commandIndex: index, planS: stream.planS[index]! };
+    if (endS === startS) {
+      this.lastWritten = place;
+      return { line, waitS: this.motionAheadS(), onReply: (error) => this.answered(error, false) };
+    }
+    const nowS = this.options.clock.nowS();
+    const dryS = this.pace.written(startS, nowS);
+    if (dryS > DRY_S && this.isSameRun(stream, index)) {
+      this.underrunCount++;
+      this.underrunS += dryS;
+    }
+    const waitS = this.motionAheadS();
+    this.flight.push({ number: this.writtenCount, startS, endS, writtenS: nowS, stream, index });
+    this.writtenCount++;
+    this.lastWritten = place;
+    this.lastWrittenEndS = endS;
+    return { line, waitS, onReply: (error) => this.answered(error, true) };
+  }
+
+  /** The longest that the board can rightly keep silent: its queue frees a place when a command ends. */
+  private motionAheadS(): number {
+    let longestS = 0;
+    for (const entry of this.flight) longestS = Math.max(longestS, entry.endS - entry.startS);
+    return longestS;
+  }
+
+  private isSameRun(stream: CommandStream, index: number): boolean {
+    const last = this.lastWritten;
+    const run = stream.run[index]!;
+    if (!last || run < 0) return false;
+    if (last.stream === stream) return stream.run[last.commandIndex] === run;
+    // A stream that replaced another in motion goes on with the run that was cut.
+    return last.stream.run[last.commandIndex]! >= 0 && index === 0;
+  }
+
+  private answered(error: PlotwrightError | null, takesTime: boolean): void {
+    this.unanswered--;
+    if (error) {
+      this.fail(error);
+      return;
+    }
+    const nowS = this.options.clock.nowS();
+    if (takesTime) {
+      const entry = this.entry(this.ackedCount);
+      const begun = this.entry(this.ackedCount - this.options.queueDepth);
+      this.ackedCount++;
+      if (entry && begun) this.pace.begun(begun.startS, nowS, nowS - entry.writtenS > WAITED_S);
+    }
+    this.pump();
+  }
+
+  private forgetExecuted(boardS: number): void {
+    let over = 0;
+    while (
+      over < this.flight.length &&
+      this.flight[over]!.endS <= boardS &&
+      this.flight[over]!.number < this.ackedCount
+    ) {
+      over++;
+    }
+    if (over > 0) this.flight.splice(0, over);
+  }
+
+  private sleep(delayS: number): void {
+    this.cancelWake?.();
+    this.cancelWake = this.options.clock.after(delayS, () => this.pump());
+  }
+
+  private schedulePoll(): void {
+    const poll = this.options.poll;
+    if (!poll) return;
+    this.cancelPoll = this.options.clock.after(poll.everyS, () => {
+      if (this.failure || this.ending) return;
+      const waitS = this.motionAheadS();
+      const last = poll.lines.length - 1;
+      this.session.write(
+        poll.lines.map((line, i) => ({
+          line,
+          waitS,
+          onReply: (error, reply) => {
+            if (this.session.failure) return;
+            if (!error) this.polled(line, reply, i === 0);
+            if (i === last) this.schedulePoll();
+          },
+        })),
+      );
+    });
+  }
+
+  private polled(line: string, reply: string, tellsTime: boolean): void {
+    if (this.failure || this.ending) return;
+    this.options.onPoll?.(line, reply);
+    const waiting = tellsTime ? waitingCount(line, reply) : null;
+    if (waiting !== null) this.correctPace(waiting);
+    if (!this.failure) this.pump();
+  }
+
+  /** What the board says waits in its queue puts our time line right, from both sides. */
+  private correctPace(waiting: number): void {
+    const nowS = this.options.clock.nowS();
+    const executing = this.entry(this.ackedCount - 1 - waiting);
+    if (!executing) return;
+    this.pace.begun(executing.startS, nowS, false);
+    if (waiting === 0) return;
+    this.pace.notEnded(executing.endS, nowS);
+    if (this.isStuck(executing, nowS)) this.fail(stuck());
+  }
+
+  private isStuck(executing: InFlight, nowS: number): boolean {
+    if (executing.number !== this.executing) {
+      this.executing = executing.number;
+      this.executingSinceS = nowS;
+    }
+    return nowS - this.executingSinceS > executing.endS - executing.startS + this.options.stuckS;
+  }
+
+  /** All that there is has been written: sleeps until the last of it should be over, then asks. */
+  private awaitEnd(boardS: number): void {
+    if (this.ending) return;
+    const leftS = this.lastWrittenEndS - boardS;
+    if (this.unanswered > 0 || leftS > 0) {
+      // The last answers wake us; so does time, for a board whose time we have misjudged.
+      if (this.unanswered === 0) this.sleep(Math.max(MIN_WAKE_S, leftS));
+      return;
+    }
+    this.ending = true;
+    this.cancelPoll?.();
+    void this.finish();
+  }
+
+  private async finish(): Promise<void> {
+    try {
+      await this.untilIdle();
+      const report = await this.report();
+      this.stream = null;
+      this.ending = false;
+      const settle = this.settle;
+      this.settle = null;
+      settle?.resolve(report);
+    } catch (error) {
+      this.fail(error instanceof PlotwrightError ? error : internal(error));
+    }
+  }
+
+  private async untilIdle(): Promise<void> {
+    const clock = this.options.clock;
+    const startS = clock.nowS();
+    for (;;) {
+      const fields = (await this.session.query("QM")).split(",");
+      if (fields.every((field) => field === "0")) return;
+      if (clock.nowS() - startS > this.options.stuckS) throw stuck();
+      await new Promise<void>((resolve) => void clock.after(IDLE_POLL_S, resolve));
+    }
+  }
+
+  private async report(): Promise<StreamReport> {
+    const stream = this.stream!;
+    const end = this.lastWritten ?? { stream, commandIndex: -1, planS: stream.planS[0]! };
+    const complete = this.next >= stream.count;
+    const steps = await this.readSteps();
+    const exact =
+      steps === null ||
+      end.commandIndex < 0 ||
+      (steps[0] === end.stream.steps1[end.commandIndex] && steps[1] === end.stream.steps2[end.commandIndex]);
+    return { steps1: steps?.[0] ?? null, steps2: steps?.[1] ?? null, exact, end, complete };
+  }
+
+  private async readSteps(): Promise<readonly [number, number] | null> {
+    try {
+      const [counter1, counter2] = parseSteps(await this.session.query("QS"));
+      const [origin1, origin2] = this.options.origin ?? [0, 0];
+      return [counter1 + origin1, counter2 + origin2];
+    } catch (error) {
+      // Firmware before 2.4.3 has no step counters to ask for.
+      if (this.session.failure) throw error;
+      return null;
+    }
+  }
+
+  private fail(error: PlotwrightError): void {
+    if (this.failure) return;
+    this.failure = error;
+    this.cancelWake?.();
+    this.cancelPoll?.();
+    const settle = this.settle;
+    this.settle = null;
+    settle?.reject(error);
+  }
+}
+
+/** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */
+export async function streamCommands(
+  session: BoardSession,
+  stream: CommandStream,
+  options: StreamOptions & {
+    readonly cancel?: Cancellation;
+    readonly onProgress?: (place: StreamPlace) => void;
+    /** Board seconds between two calls of `onProgress`, and two looks at `cancel`. Default 0.06. */
+    readonly progressEveryS?: number;
+  },
+): Promise<StreamReport & { readonly underrunCount: number }> {
+  const streamer = new Streamer(session, options);
+  let stopTicking: (() => void) | null = null;
+  const tick = (): void => {
+    if (options.cancel?.aborted && streamer.playing) streamer.cut();
+    else options.onProgress?.(streamer.place());
+    stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
+  };
+  const played = streamer.play(stream);
+  tick();
+  try {
+    const report = await played;
+    return { ...report, underrunCount: streamer.underrunCount };
+  } finally {
+    (stopTicking as (() => void) | null)?.();
+  }
+}
+
+/** `m1,m2` of `QS`. */
+export function parseSteps(reply: string): readonly [number, number] {
+  const [first, second] = reply.split(",").map(Number);
+  return [first ?? 0, second ?? 0];
+}
+
+/** Commands waiting in the board's queue, as the answers to these queries tell it; null: they do not say. */
+function waitingCount(line: string, reply: string): number | null {
+  if (line === "QU,6") return Number(reply.split(",").pop());
+  if (line === "QG") return Number.parseInt(reply, 16) & 1;
+  if (line === "QM") return reply.split(",").length === 4 ? Number(reply.split(",")[3]) : null;
+  return null;
+}
+
+const stuck = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
+  );
+
+const internal = (cause: unknown): PlotwrightError =>
+  new PlotwrightError("internal", "The stream to the board broke off for a reason of our own.", { cause });
+
+function commandLine(stream: CommandStream, index: number): string {
+  let line = "";
+  for (let i = stream.textOffsets[index]!; i < stream.textOffsets[index + 1]! - 1; i++) {
+    line += String.fromCharCode(stream.text[i]!);
+  }
+  return line;
+}

@@ -1,0 +1,256 @@
+import { describe, expect, it } from "vitest";
+import {
+  BoardSession,
+  Streamer,
+  streamCommands,
+  VirtualBoard,
+  type CommandStream,
+  type PlotwrightError,
+  type StreamOptions,
+} from "../../src/index.js";
+import { makeStream, wavyRows, type StreamRow } from "../support/make-stream.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { StallingHost } from "../support/stalling-host.js";
+
+const PEN_UP: StreamRow = { line: "SP,1,200", durationS: 0.2 };
+const PEN_DOWN: StreamRow = { line: "SP,0,200", durationS: 0.2 };
+const DEEP = { queueDepth: 32, poll: { lines: ["QU,6"], everyS: 0.25 } };
+const SHALLOW = { poll: { lines: ["QG"], everyS: 0.25 } };
+
+interface Rig {
+  readonly world: ManualClock;
+  readonly host: StallingHost;
+  readonly board: VirtualBoard;
+  readonly session: BoardSession;
+}
+
+async function newRig(
+  firmware = "2.8.1",
+  options: { speed?: number; answerDelayS?: number } = {},
+): Promise<Rig> {
+  const world = new ManualClock();
+  const host = new StallingHost(world);
+  const board = new VirtualBoard({ clock: world, firmware, speed: options.speed ?? 1 });
+  const transport = host.transport(board.transport(), options.answerDelayS ?? 0.001);
+  const session = new BoardSession(transport, { clock: host.clock });
+  await world.run(session.identify());
+  await world.run(session.send("EM,1,1"));
+  return { world, host, board, session };
+}
+
+async function play(rig: Rig, stream: CommandStream, options: Partial<StreamOptions> = {}) {
+  if ((options.queueDepth ?? 1) > 1) await rig.world.run(rig.session.send(`CU,4,${options.queueDepth}`));
+  const streamer = new Streamer(rig.session, { clock: rig.host.clock, ...options });
+  const report = await rig.world.run(streamer.play(stream));
+  return { streamer, report };
+}
+
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+describe("a stream on a healthy host", () => {
+  it.each([
+    ["2.4.4", { poll: { lines: ["QM"], everyS: 0.25 } }],
+    ["2.8.1", SHALLOW],
+    ["3.0.3", DEEP],
+  ])("ends where it was predicted, without a gap, on firmware %s", async (firmware, options) => {
+    const rig = await newRig(firmware);
+    const rows = [PEN_DOWN, ...wavyRows(400, 20), PEN_UP, ...wavyRows(50, 40, 1)];
+    const { streamer, report } = await play(rig, makeStream(rows), options);
+    expect(report).toMatchObject({ exact: true, complete: true });
+    expect(streamer.underrunCount).toBe(0);
+    expect(rig.board.statistics().underrunCount).toBe(0);
+  });
+
+  it("never has more in flight than the window and one command", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    let mostS = 0;
+    const watch = (): void => {
+      mostS = Math.max(mostS, streamer.inFlightS());
+      rig.world.after(0.01, watch);
+    };
+    watch();
+    await rig.world.run(streamer.play(makeStream(wavyRows(300, 30))));
+    expect(mostS).toBeLessThanOrEqual(0.33);
+    expect(mostS).toBeGreaterThan(0.25);
+  });
+
+  it("leaves a deep queue room, so that a stop is read at once", async () => {
+    const rig = await newRig("3.0.3");
+    await rig.world.run(rig.session.send("CU,4,32"));
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...DEEP });
+    const played = outcome(streamer.play(makeStream(wavyRows(2_000, 4))));
+    await rig.world.advance(1.5);
+    const stopped = rig.session.query("ES");
+    expect(await rig.world.run(stopped, 0.01)).toBe("1");
+    streamer.abandon(rig.session.failure ?? ({ code: "cancelled", message: "" } as PlotwrightError));
+    await played;
+  });
+
+  it("reports a place that keeps up with the pen", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = streamer.play(makeStream(wavyRows(200, 25)));
+    await rig.world.advance(2);
+    // 2 s in: a millisecond or two for the line.
+    expect(streamer.place().planS).toBeCloseTo(2, 2);
+    expect(streamer.place().commandIndex).toBe(79);
+    await rig.world.run(played);
+    expect(rig.board.state().boardS).toBeGreaterThan(5);
+  });
+});
+
+describe("a host that stops for 150 ms every second", () => {
+  const rows = [PEN_DOWN, ...wavyRows(2_000, 15)];
+
+  it.each([
+    ["2.8.1", SHALLOW],
+    ["3.0.3", DEEP],
+  ])("never lets the board run dry on firmware %s", async (firmware, options) => {
+    const rig = await newRig(firmware);
+    const stopStalling = rig.host.stallRegularly(1, 0.15);
+    const { streamer, report } = await play(rig, makeStream(rows), options);
+    stopStalling();
+    expect(report.exact).toBe(true);
+    expect(rig.board.statistics().underrunCount).toBe(0);
+    expect(streamer.underrunCount).toBe(0);
+  });
+
+  it("starves the board when it waits for acknowledgements instead, and knows it", async () => {
+    const rig = await newRig();
+    const stopStalling = rig.host.stallRegularly(1, 0.15);
+    const { streamer, report } = await play(rig, makeStream(rows), { pacing: "acks" });
+    stopStalling();
+    expect(report.exact).toBe(true);
+    const { underrunCount } = rig.board.statistics();
+    expect(underrunCount).toBeGreaterThan(20);
+    expect(streamer.underrunCount).toBeGreaterThan(20);
+  });
+});
+
+describe("a board whose seconds are not ours", () => {
+  it.each([
+    ["slower by 0.2 %, queue of 1", "2.8.1", SHALLOW, 0.998],
+    ["faster by 0.2 %, queue of 1", "2.8.1", SHALLOW, 1.002],
+    ["slower by 0.2 %, deep queue", "3.0.3", DEEP, 0.998],
+    ["faster by 0.2 %, deep queue", "3.0.3", DEEP, 1.002],
+  ])("is followed for minutes: %s", async (_, firmware, options, speed) => {
+    const rig = await newRig(firmware, { speed });
+    // Mostly long commands: with two of them in flight, the acknowledgements alone tell nothing.
+    const { report, streamer } = await play(rig, makeStream(wavyRows(1_000, 200)), options);
+    expect(report.exact).toBe(true);
+    expect(rig.board.statistics().underrunCount).toBe(0);
+    expect(streamer.underrunCount).toBe(0);
+  });
+});
+
+describe("cutting and replacing", () => {
+  it("ends early at a cut, and says where the board stands", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = streamer.play(makeStream(wavyRows(500, 20)));
+    await rig.world.advance(1);
+    const cut = streamer.cut();
+    const report = await rig.world.run(played);
+    expect(report).toMatchObject({
+      complete: false,
+      exact: true,
+      end: { commandIndex: cut.commandIndex - 1 },
+    });
+    expect(cut.planS).toBeGreaterThan(1.2);
+    expect(cut.planS).toBeLessThan(1.35);
+  });
+
+  it("goes over to another stream without a gap", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const first = makeStream(wavyRows(500, 20));
+    const played = streamer.play(first);
+    await rig.world.advance(1);
+    const { commandIndex } = streamer.cut();
+    const from = [first.steps1[commandIndex - 1]!, first.steps2[commandIndex - 1]!] as const;
+    expect(streamer.replace(makeStream(wavyRows(20, 30), from))).toBe(true);
+    const report = await rig.world.run(played);
+    expect(report).toMatchObject({ complete: true, exact: true });
+    expect(rig.board.statistics().underrunCount).toBe(0);
+  });
+
+  it("goes over at a command that is still to come, and refuses one that has gone", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const first = makeStream(wavyRows(500, 20));
+    const played = streamer.play(first);
+    await rig.world.advance(1);
+    expect(streamer.cutAt(3, makeStream([PEN_UP]))).toBe(false);
+    const from = [first.steps1[299]!, first.steps2[299]!] as const;
+    expect(streamer.cutAt(300, makeStream([PEN_UP], from))).toBe(true);
+    const report = await rig.world.run(played);
+    expect(report).toMatchObject({ complete: true, exact: true, end: { commandIndex: 0 } });
+    expect(rig.board.statistics().underrunCount).toBe(0);
+  });
+
+  it("stops at a cancellation, with the board at rest and its place known", async () => {
+    const rig = await newRig();
+    const cancel = { aborted: false };
+    const seen: number[] = [];
+    const played = streamCommands(rig.session, makeStream(wavyRows(500, 20)), {
+      clock: rig.world,
+      cancel,
+      onProgress: (place) => seen.push(place.planS),
+    });
+    rig.world.after(2, () => (cancel.aborted = true));
+    const report = await rig.world.run(played);
+    expect(report).toMatchObject({ complete: false, exact: true });
+    expect(seen.length).toBeGreaterThan(20);
+    expect(seen.every((planS, i) => i === 0 || planS >= seen[i - 1]!)).toBe(true);
+  });
+});
+
+describe("a board that fails in mid-stream", () => {
+  it("names the command that it refused", async () => {
+    const rig = await newRig();
+    const rows = [...wavyRows(20, 20), { line: "SM,0,1,1", durationS: 0.02, steps: [1, 1] as const, run: 0 }];
+    const refused = outcome(play(rig, makeStream([...rows, ...wavyRows(20, 20)]), SHALLOW));
+    expect(await refused).toMatch(/^board-error: The board refused SM,0,1,1/);
+  });
+
+  it("is noticed silent within 3 s", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = outcome(streamer.play(makeStream(wavyRows(500, 20))));
+    await rig.world.advance(1);
+    rig.board.setMute(true);
+    expect(await rig.world.run(played, 3)).toMatch(/^board-timeout/);
+  });
+
+  it("is noticed gone at once", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = outcome(streamer.play(makeStream(wavyRows(500, 20))));
+    await rig.world.advance(1);
+    rig.board.unplug();
+    expect(await rig.world.run(played, 0.1)).toMatch(/^disconnected/);
+  });
+
+  it("does not mind lost answers, and counts them", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = streamer.play(makeStream(wavyRows(500, 20)));
+    await rig.world.advance(1);
+    rig.board.loseReplies(2);
+    const report = await rig.world.run(played);
+    expect(report.exact).toBe(true);
+    expect(rig.session.lostReplyCount).toBeGreaterThanOrEqual(1);
+    expect(rig.board.statistics().underrunCount).toBe(0);
+  });
+
+  it("is told by its counters that it did something else than was said", async () => {
+    const rig = await newRig();
+    const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
+    const played = streamer.play(makeStream(wavyRows(100, 20)));
+    await rig.world.advance(1);
+    rig.session.write([{ line: "CS" }]);
+    expect(await rig.world.run(played)).toMatchObject({ complete: true, exact: false });
+  });
+});

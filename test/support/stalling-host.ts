@@ -1,0 +1,55 @@
+import type { Clock, Transport } from "../../src/index.js";
+
+/**
+ * A host that stops now and then, as a process does under SIGSTOP, a garbage collection or a busy machine:
+ * the board goes on, but no timer fires and no byte is read until the host goes on too.
+ */
+export class StallingHost {
+  private stalled = false;
+  private readonly waiting: (() => void)[] = [];
+
+  constructor(private readonly world: Clock) {}
+
+  /** Stops for `stallS` at the end of every `everyS`. Returns a function that ends this. */
+  stallRegularly(everyS: number, stallS: number): () => void {
+    let cancel = (): void => undefined;
+    const begin = (): void => {
+      this.stalled = true;
+      cancel = this.world.after(stallS, () => {
+        this.stalled = false;
+        for (const callback of this.waiting.splice(0)) callback();
+        cancel = this.world.after(everyS - stallS, begin);
+      });
+    };
+    cancel = this.world.after(everyS - stallS, begin);
+    return () => cancel();
+  }
+
+  readonly clock: Clock = {
+    nowS: () => this.world.nowS(),
+    after: (delayS, callback) => {
+      let cancelled = false;
+      const cancel = this.world.after(delayS, () => this.whenAwake(() => cancelled || callback()));
+      return () => {
+        cancelled = true;
+        cancel();
+      };
+    },
+  };
+
+  /** The same line, as the stalling host sees it; every answer comes `delayS` late on top. */
+  transport(line: Transport, delayS = 0): Transport {
+    return {
+      write: (bytes) => line.write(bytes),
+      onData: (listener) =>
+        line.onData((bytes) => void this.world.after(delayS, () => this.whenAwake(() => listener(bytes)))),
+      onClose: (listener) => line.onClose(listener),
+      close: () => line.close(),
+    };
+  }
+
+  private whenAwake(callback: () => void): void {
+    if (this.stalled) this.waiting.push(callback);
+    else callback();
+  }
+}
