@@ -16,7 +16,7 @@ interface Owner {
   readonly began: string;
 }
 
-/** Takes the lock or throws `busy`; the returned function gives it back. */
+/** Takes the lock or throws `conflict`; the returned function gives it back. */
 export function lockDataDir(dir: string): () => void {
   const path = join(dir, "server.lock");
   const mine: Owner = { pid: process.pid, began: processBegan(process.pid) };
@@ -94,7 +94,7 @@ function processBegan(pid: number): string {
 function inUse(dir: string, pid: number): PlotwrightError {
   const who = pid > 0 ? ` (process ${pid})` : "";
   return new PlotwrightError(
-    "busy",
+    "conflict",
     `Another plotwright server${who} uses the data folder ${dir}. Stop it, or choose another folder with --data.`,
   );
 }

@@ -77,12 +77,22 @@ export class JobQueue {
     return job;
   }
 
-  /** Plans the drawing to know it can be plotted, then appends it; throws what planning throws. */
+  /** Plans the drawing to know it can be plotted, then appends it. Throws what planning throws, and
+   *  then the drawing is gone. */
   async add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
+    try {
+      return await this.#add(wanted, signal);
+    } catch (error) {
+      await this.#parts.files.remove(wanted.drawing.id);
+      throw error;
+    }
+  }
+
+  async #add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
     const plotterId = wanted.plotterId ?? this.#firstPlotter();
     this.#plotter(plotterId);
     const { stats, warnings } = await this.#parts.planning.measure(
-      wanted.drawing.sha256,
+      wanted.drawing.id,
       wanted.settings,
       signal,
     );

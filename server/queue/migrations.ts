@@ -4,7 +4,7 @@ import { PlotwrightError } from "../../src/index.js";
 
 const MIGRATIONS: readonly string[] = [
   `CREATE TABLE drawings (
-     sha256     TEXT PRIMARY KEY,
+     id         TEXT PRIMARY KEY,
      bytes      INTEGER NOT NULL
    );
    CREATE TABLE jobs (
@@ -12,7 +12,7 @@ const MIGRATIONS: readonly string[] = [
      plotter_id TEXT NOT NULL,
      position   INTEGER NOT NULL,     -- order of what is not ended; of no meaning for history
      state      TEXT NOT NULL,
-     drawing    TEXT NOT NULL REFERENCES drawings (sha256),
+     drawing    TEXT NOT NULL REFERENCES drawings (id),
      name       TEXT NOT NULL,
      settings   TEXT NOT NULL,        -- JSON, as src/schema
      stats      TEXT,                 -- JSON

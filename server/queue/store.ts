@@ -31,7 +31,7 @@ export class Store {
     this.#unlock = unlock;
   }
 
-  /** Throws `busy` when another server has the folder, `bad-setting` when the database can't be used. */
+  /** Throws `conflict` when another server has the folder, `bad-setting` when the database can't be used. */
   static open(dataDir: string): Store {
     const unlock = lockDataDir(dataDir);
     const path = join(dataDir, "plotwright.db");
@@ -82,21 +82,18 @@ export class Store {
     return String((row as Row)["drawing"]);
   }
 
-  isUsed(sha256: string): boolean {
-    return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [sha256]) !== null;
+  isUsed(drawing: string): boolean {
+    return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [drawing]) !== null;
   }
 
   /** Appends to the queue. */
   addJob(job: Job, drawing: StoredDrawing): void {
     this.#transaction(() => {
-      this.#run("INSERT OR IGNORE INTO drawings (sha256, bytes) VALUES (?, ?)", [
-        drawing.sha256,
-        drawing.bytes,
-      ]);
+      this.#run("INSERT OR IGNORE INTO drawings (id, bytes) VALUES (?, ?)", [drawing.id, drawing.bytes]);
       this.#run(
         `INSERT INTO jobs (position, drawing, ${COLUMNS})
          VALUES ((SELECT COALESCE(MAX(position), 0) + 1 FROM jobs), ?, ${"?, ".repeat(13)}?)`,
-        [drawing.sha256, ...rowFromJob(job)],
+        [drawing.id, ...rowFromJob(job)],
       );
     });
   }
@@ -126,14 +123,14 @@ export class Store {
     });
   }
 
-  /** Removes the job; returns its drawing's hash when no other job needs it any more. */
+  /** Removes the job; returns its drawing's id when no other job needs it any more. */
   removeJob(id: string): string | null {
-    const sha256 = this.drawingOf(id);
+    const drawing = this.drawingOf(id);
     this.#transaction(() => {
       this.#run("DELETE FROM jobs WHERE id = ?", [id]);
-      if (!this.isUsed(sha256)) this.#run("DELETE FROM drawings WHERE sha256 = ?", [sha256]);
+      if (!this.isUsed(drawing)) this.#run("DELETE FROM drawings WHERE id = ?", [drawing]);
     });
-    return this.isUsed(sha256) ? null : sha256;
+    return this.isUsed(drawing) ? null : drawing;
   }
 
   /** A JSON value kept under a name, undefined when there is none; parse it with its schema. */

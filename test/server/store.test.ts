@@ -1,5 +1,5 @@
 import { spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -48,9 +48,9 @@ describe("a store", () => {
     store.addJob(makeJob("a"), drawing);
     store.addJob(makeJob("b"), drawing);
     expect(store.removeJob("a")).toBeNull();
-    expect(store.isUsed(drawing.sha256)).toBe(true);
-    expect(store.removeJob("b")).toBe(drawing.sha256);
-    expect(store.isUsed(drawing.sha256)).toBe(false);
+    expect(store.isUsed(drawing.id)).toBe(true);
+    expect(store.removeJob("b")).toBe(drawing.id);
+    expect(store.isUsed(drawing.id)).toBe(false);
     store.close();
   });
 
@@ -150,16 +150,15 @@ async function changeUntilKilled(seed: number, lines: number): Promise<string[]>
 }
 
 describe("drawing files", () => {
-  it("keeps the bytes as they came, under their hash, in one file for equal drawings", async () => {
+  it("keeps the bytes as they came, each upload for itself", async () => {
     const files = new DrawingFiles(dir, 1_000);
     const parts = [Buffer.from("<svg "), Buffer.from("/>\r\n\0ü")];
     const first = await files.add(parts);
     const second = await files.add([Buffer.concat(parts)]);
-    expect(second).toEqual(first);
-    expect(readdirSync(join(dir, "drawings"))).toHaveLength(1);
-    const read: Buffer[] = [];
-    for await (const chunk of files.read(first.sha256)) read.push(chunk as Buffer);
-    expect(Buffer.concat(read)).toEqual(Buffer.concat(parts));
+    await files.remove(second.id);
+    expect(first.bytes).toBe(12);
+    expect(readdirSync(join(dir, "drawings"))).toEqual([`${first.id}.svg`]);
+    expect(readFileSync(files.path(first.id))).toEqual(Buffer.concat(parts));
   });
 
   it("stops an upload at the limit and leaves nothing of it", async () => {
@@ -192,7 +191,7 @@ describe("drawing files", () => {
     await files.add([Buffer.from("unused")]);
     writeFileSync(join(dir, "drawings", "incoming-1234"), "cut off");
     writeFileSync(join(dir, "drawings", "notes.txt"), "the user's own");
-    await files.sweep((sha256) => sha256 === kept.sha256);
-    expect(readdirSync(join(dir, "drawings")).sort()).toEqual([`${kept.sha256}.svg`, "notes.txt"].sort());
+    await files.sweep((id) => id === kept.id);
+    expect(readdirSync(join(dir, "drawings")).sort()).toEqual([`${kept.id}.svg`, "notes.txt"].sort());
   });
 });

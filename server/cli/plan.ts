@@ -1,0 +1,177 @@
+/** `plotwright plan FILE.svg`: what a plot would be, without a board. */
+import { readFileSync, writeFileSync } from "node:fs";
+import {
+  PlotwrightError,
+  importSvg,
+  machineById,
+  plan,
+  compile,
+  pointCount,
+  strokeCount,
+  trajectoryStats,
+  commandLine,
+  type CommandStream,
+  type MachineProfile,
+  type Trajectory,
+} from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { BOARD_AT_HOME, prepareDrawing, type PreparedJob } from "../planning/stages.js";
+import type { CliIo } from "./io.js";
+import { withOnlyLayers } from "./layers.js";
+import { previewSvg } from "./preview-svg.js";
+
+export interface PlanCommandOptions {
+  readonly json?: boolean;
+  readonly ebb?: string;
+  readonly firmware: string;
+  readonly preview?: string;
+  readonly only?: readonly string[];
+}
+
+/** The object of `--json`: scripts depend on these keys. Lengths mm, speeds mm/s, mm/s². */
+export interface PlanReport {
+  readonly strokes: number;
+  readonly points: number;
+  readonly blocks: number;
+  readonly commands: number;
+  readonly drawMm: number;
+  readonly travelMm: number;
+  readonly travelMmUnordered: number;
+  readonly penLifts: number;
+  readonly durationS: number;
+  readonly maxSpeed: number;
+  readonly maxAccel: number;
+  readonly importMs: number;
+  readonly prepareMs: number;
+  readonly orderMs: number;
+  readonly planMs: number;
+  readonly compileMs: number;
+  readonly warnings: readonly string[];
+}
+
+interface Planned {
+  readonly report: PlanReport;
+  readonly job: PreparedJob;
+  readonly trajectory: Trajectory;
+  readonly commands: CommandStream;
+}
+
+export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
+  if (options.json === true && options.ebb === "-") {
+    throw new PlotwrightError("bad-setting", "--json and --ebb - both write to stdout: give --ebb a file.");
+  }
+  const planned = planFile(file, base, options);
+  if (options.ebb !== undefined) {
+    const text = commandText(planned.commands);
+    if (options.ebb === "-") io.out(text);
+    else writeOut(options.ebb, text);
+  }
+  if (options.preview !== undefined) {
+    writeOut(options.preview, previewSvg(planned.trajectory, planned.job.prepared));
+  }
+  if (options.json === true) io.out(`${JSON.stringify(planned.report)}\n`);
+  else if (options.ebb !== "-") io.out(words(planned.report));
+}
+
+export function readDrawing(file: string): string {
+  try {
+    return readFileSync(file, "utf8");
+  } catch (cause) {
+    const { code, message } = cause as NodeJS.ErrnoException;
+    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
+    throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`, { cause });
+  }
+}
+
+function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
+  const machine: MachineProfile = machineById(base.machine);
+  const clock = stopwatch();
+  const drawing = importSvg(readDrawing(file));
+  const importMs = clock();
+  const settings = withOnlyLayers(drawing, base, options.only);
+  clock();
+  let orderingFrom = performance.now();
+  const job = prepareDrawing(drawing, settings, machine, {
+    onProgress: (_done, step) => {
+      if (step === "ordering") orderingFrom = performance.now();
+    },
+  });
+  const orderMs = performance.now() - orderingFrom;
+  const prepareMs = clock() - orderMs;
+  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen);
+  const planMs = clock();
+  const commands = compile(trajectory, {
+    machine,
+    firmware: options.firmware,
+    pen: settings.pen,
+    start: BOARD_AT_HOME,
+  });
+  const compileMs = clock();
+  const stats = trajectoryStats(trajectory);
+  const report: PlanReport = {
+    strokes: strokeCount(job.prepared.strokes),
+    points: pointCount(job.prepared.strokes),
+    blocks: trajectory.blockCount,
+    commands: commands.count,
+    drawMm: rounded(stats.drawMm),
+    travelMm: rounded(stats.travelMm),
+    travelMmUnordered: rounded(job.prepared.travelMmUnordered),
+    penLifts: stats.penLiftCount,
+    durationS: rounded(stats.durationS),
+    maxSpeed: rounded(stats.maxSpeed),
+    maxAccel: rounded(stats.maxAccel),
+    importMs: rounded(importMs),
+    prepareMs: rounded(prepareMs),
+    orderMs: rounded(orderMs),
+    planMs: rounded(planMs),
+    compileMs: rounded(compileMs),
+    warnings: [...job.warnings, ...commands.warnings],
+  };
+  return { report, job, trajectory, commands };
+}
+
+function commandText(commands: CommandStream): string {
+  let text = "";
+  for (let index = 0; index < commands.count; index++) text += `${commandLine(commands, index)}\n`;
+  return text;
+}
+
+function writeOut(path: string, text: string): void {
+  try {
+    writeFileSync(path, text);
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
+}
+
+function words(report: PlanReport): string {
+  const lines = [
+    `${report.strokes} strokes, ${report.points} points, ${report.penLifts} pen lifts`,
+    `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
+    `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
+    ...report.warnings.map((warning) => `note: ${warning}`),
+  ];
+  return `${lines.join("\n")}\n`;
+}
+
+export function minutes(seconds: number): string {
+  const whole = Math.round(seconds);
+  const parts = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
+  return parts.map((part) => String(part).padStart(2, "0")).join(":");
+}
+
+const metres = (mm: number): string => `${(mm / 1000).toFixed(2)} m`;
+const rounded = (value: number): number => Math.round(value * 1000) / 1000;
+
+/** Milliseconds since the last call. */
+function stopwatch(): () => number {
+  let last = performance.now();
+  return () => {
+    const now = performance.now();
+    const ms = now - last;
+    last = now;
+    return ms;
+  };
+}

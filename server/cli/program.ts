@@ -1,0 +1,121 @@
+/** The command line as commander sees it: names, options, help. What the commands do is in the files beside. */
+import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
+import { ERROR_TABLE, PlotwrightError } from "../../src/index.js";
+import type { CliIo } from "./io.js";
+import { runDevices, runHome, runInfo, runPen } from "./machine-commands.js";
+import { runPlan, type PlanCommandOptions } from "./plan.js";
+import { runPlot, type PlotCommandOptions } from "./plot.js";
+import { runServe, type ServeCommandOptions } from "./serve.js";
+import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+
+/** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
+const BAD_USAGE = 2;
+const FAILED = 5;
+
+/** Runs one command; errors become one line on stderr and the exit code. `args` without node and script. */
+export async function runCli(args: readonly string[], io: CliIo, version: string): Promise<number> {
+  let exitCode = 0;
+  const program = buildProgram(io, version, (code) => (exitCode = code));
+  try {
+    await program.parseAsync([...args], { from: "user" });
+    return exitCode;
+  } catch (error) {
+    if (error instanceof CommanderError) return error.exitCode === 0 ? 0 : BAD_USAGE;
+    if (error instanceof PlotwrightError) {
+      io.err(`plotwright: ${oneLine(error.message)}\n`);
+      return ERROR_TABLE[error.code].exitCode;
+    }
+    io.err(
+      `plotwright: internal error: ${oneLine(error instanceof Error ? error.message : String(error))}\n`,
+    );
+    return FAILED;
+  }
+}
+
+function buildProgram(io: CliIo, version: string, setExitCode: (code: number) => void): Command {
+  const program = new Command("plotwright")
+    .description("Pen-plotter control for AxiDraw, NextDraw, EggBot and other EiBotBoard machines")
+    .version(version, "--version", "print the version")
+    .exitOverride()
+    .showSuggestionAfterError(false)
+    .configureOutput({
+      writeOut: (text) => io.out(text),
+      writeErr: (text) => io.err(text),
+      outputError: (text, write) => write(`plotwright: ${oneLine(text.replace(/^error: /, ""))}\n`),
+    });
+  const sub = (name: string, about: string): Command =>
+    program.command(name).description(about).copyInheritedSettings(program);
+
+  addServe(
+    program.command("serve", { isDefault: true }).description("serve the page and the queue (default)"),
+  )
+    .copyInheritedSettings(program)
+    .action((options: ServeCommandOptions) => runServe(options, io));
+
+  addSettingOptions(sub("plan", "show what a plot would be, without a board").argument("<file>", "SVG file"))
+    .option("--json", "print one JSON object")
+    .option("--ebb <out>", "write the board's commands, one a line, to a file or - for stdout")
+    .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
+    .option("--preview <out.svg>", "write a picture coloured by speed")
+    .action((file: string, options: PlanCommandOptions & OptionValues) =>
+      runPlan(file, settingsFromOptions(options), options, io),
+    );
+
+  addDevice(addSettingOptions(sub("plot", "plot a drawing").argument("<file>", "SVG file"))).action(
+    async (file: string, options: PlotCommandOptions & OptionValues) =>
+      setExitCode(await runPlot(file, settingsFromOptions(options), options, io)),
+  );
+
+  addDevice(
+    sub("pen", "lift or lower the pen").addArgument(
+      program.createArgument("<where>").choices(["up", "down"]),
+    ),
+  )
+    .option("--pen-up <percent>", "height when up", percent)
+    .option("--pen-down <percent>", "height when down", percent)
+    .action((where: "up" | "down", options: OptionValues & { device?: string }) => runPen(where, options));
+  addDevice(sub("home", "lift the pen and walk home")).action((options: { device?: string }) =>
+    runHome(options),
+  );
+  sub("devices", "list the boards that are plugged in").action(() => runDevices(io));
+  addDevice(sub("info", "tell what the board says of itself")).action((options: { device?: string }) =>
+    runInfo(options, io),
+  );
+  return program;
+}
+
+function addServe(command: Command): Command {
+  return addDevice(command)
+    .option("--port <number>", "port to listen on", port, 9080)
+    .option("--host <address>", "address to listen on", "127.0.0.1")
+    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
+    .option("--data <folder>", "folder for jobs and settings")
+    .option("--max-upload-mb <number>", "largest drawing taken", positive, 200)
+    .option("--open", "open the page in the browser");
+}
+
+function addDevice(command: Command): Command {
+  return command
+    .option("--device <path>", "serial port of the board, or virtual")
+    .addOption(new Option("--virtual-speed <factor>", "how fast the virtual board runs").argParser(positive));
+}
+
+function port(text: string): number {
+  const value = Number(text);
+  if (!/^\d+$/.test(text) || value > 65_535) throw new InvalidArgumentError("It must be 0 to 65535.");
+  return value;
+}
+
+function positive(text: string): number {
+  const value = Number(text);
+  if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
+  return value;
+}
+
+function percent(text: string): number {
+  const value = text.trim() === "" ? NaN : Number(text);
+  if (!(value >= 0 && value <= 100)) throw new InvalidArgumentError("It must be 0 to 100.");
+  return value;
+}
+
+const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");

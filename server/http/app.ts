@@ -1,0 +1,107 @@
+/** Express put together: guards first, then the API, then the page. */
+import express, { Router, type Express } from "express";
+import helmet from "helmet";
+import type { Snapshot } from "../../src/schema/index.js";
+import type { DrawingFiles } from "../queue/drawing-files.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { PlotterPort } from "../queue/plotter-port.js";
+import { errorResponder, notFound } from "./errors.js";
+import type { EventHub } from "./events.js";
+import { guardHosts } from "./guard.js";
+import { jobsRoutes } from "./jobs-routes.js";
+import { plottersRoutes } from "./plotters-routes.js";
+import { samplesRoutes } from "./samples.js";
+
+export interface AppParts {
+  readonly version: string;
+  readonly queue: JobQueue;
+  readonly files: DrawingFiles;
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly hub: EventHub;
+  readonly maxUploadBytes: number;
+  readonly allowedHosts: readonly string[];
+  /** Folders with the built page and with the samples. */
+  readonly webDir: string;
+  readonly samplesDir: string;
+  readonly log: (line: string) => void;
+}
+
+export function createApp(parts: AppParts): Express {
+  const app = express();
+  app.disable("x-powered-by");
+  app.use(securityHeaders());
+  app.use(guardHosts(parts.allowedHosts));
+  app.use("/api/v1", apiRoutes(parts));
+  app.use("/api", notFound);
+  app.use(pageRoutes(parts.webDir));
+  app.use(notFound);
+  app.use(errorResponder(parts.log));
+  return app;
+}
+
+function apiRoutes(parts: AppParts): Router {
+  const { queue, plotters } = parts;
+  const router = Router();
+  const snapshot = (): Snapshot => ({
+    version: parts.version,
+    plotters: [...plotters.values()].map((plotter) => plotter.snapshot()),
+    jobs: queue.list(),
+  });
+  router.use((_request, response, next) => {
+    response.set("Cache-Control", "no-store");
+    next();
+  });
+  router.get("/state", (_request, response) => {
+    response.json(snapshot());
+  });
+  router.get("/events", (request, response) => parts.hub.open(request, response, snapshot));
+  router.use("/jobs", jobsRoutes(queue, parts.files, parts.maxUploadBytes));
+  router.use("/plotters", plottersRoutes(plotters, queue));
+  router.use("/samples", samplesRoutes(parts.samplesDir));
+  return router;
+}
+
+/** Built files carry a hash in their name and never change; the page itself is asked for each time. */
+function pageRoutes(webDir: string): Router {
+  const router = Router();
+  router.use(
+    "/assets",
+    express.static(`${webDir}/assets`, { immutable: true, maxAge: "1y", index: false, redirect: false }),
+  );
+  router.use(
+    express.static(webDir, {
+      redirect: false,
+      setHeaders: (response) => void response.setHeader("Cache-Control", "no-cache"),
+    }),
+  );
+  return router;
+}
+
+/**
+ * Scripts, workers and connections from here only; nothing may frame the page. No upgrade to https and no
+ * HSTS: the server speaks plain http on loopback, and would lock its own users out.
+ */
+function securityHeaders(): express.RequestHandler {
+  return helmet({
+    contentSecurityPolicy: {
+      useDefaults: false,
+      directives: {
+        defaultSrc: ["'self'"],
+        scriptSrc: ["'self'"],
+        scriptSrcAttr: ["'none'"],
+        styleSrc: ["'self'"],
+        // React's style={…} becomes properties, which need no exception; attributes in markup would.
+        styleSrcAttr: ["'unsafe-inline'"],
+        imgSrc: ["'self'", "data:", "blob:"],
+        workerSrc: ["'self'", "blob:"],
+        connectSrc: ["'self'"],
+        objectSrc: ["'none'"],
+        baseUri: ["'none'"],
+        formAction: ["'self'"],
+        frameAncestors: ["'none'"],
+      },
+    },
+    strictTransportSecurity: false,
+    referrerPolicy: { policy: "no-referrer" },
+  });
+}

@@ -1,0 +1,53 @@
+/** Every failure as `{ error: { code, message } }` with the status of ERROR_TABLE. */
+import type { ErrorRequestHandler, RequestHandler } from "express";
+import type { ZodType } from "zod";
+import { ERROR_TABLE, PlotwrightError, type ErrorCode } from "../../src/index.js";
+
+/** Parses a request's body or query; throws `bad-setting` that names the first field at fault. */
+export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
+  const result = schema.safeParse(value);
+  if (result.success) return result.data;
+  const issue = result.error.issues[0];
+  const where = issue === undefined || issue.path.length === 0 ? "The request" : issue.path.join(".");
+  throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+}
+
+export const notFound: RequestHandler = (request) => {
+  throw new PlotwrightError("not-found", `There is nothing at ${request.method} ${request.path}.`);
+};
+
+export function errorResponder(log: (line: string) => void): ErrorRequestHandler {
+  return (error: unknown, request, response, next) => {
+    // The client has gone in the middle of its request: there is nobody to answer, and nothing to mend.
+    if (request.destroyed && !request.complete) return;
+    const { code, message, status } = describe(error);
+    if (code === "internal") log(`${request.method} ${request.path}: ${detail(error)}`);
+    if (response.headersSent) {
+      next(error);
+      return;
+    }
+    // The rest of a refused upload is let run past: a client reads the answer only when it has sent all.
+    request.resume();
+    response.status(status).json({ error: { code, message } });
+  };
+}
+
+function describe(error: unknown): { code: ErrorCode; message: string; status: number } {
+  if (error instanceof PlotwrightError) {
+    return { code: error.code, message: error.message, status: ERROR_TABLE[error.code].httpStatus };
+  }
+  // What express and its body parser throw: a status, and a type such as "entity.parse.failed".
+  const { status, type } = error as { status?: unknown; type?: unknown };
+  if (status === 413) {
+    return { code: "too-large", message: "The request is larger than this server takes.", status };
+  }
+  if (typeof status === "number" && status >= 400 && status < 500) {
+    const message =
+      type === "entity.parse.failed" ? "The request is not valid JSON." : "The request is not understood.";
+    return { code: "bad-setting", message, status };
+  }
+  return { code: "internal", message: "The server failed at this. Its log says more.", status: 500 };
+}
+
+const detail = (error: unknown): string =>
+  error instanceof Error ? (error.stack ?? error.message) : String(error);

@@ -1,0 +1,78 @@
+/**
+ * The live event stream (server-sent events): a snapshot first, then what changes. Every browser gets the
+ * same events in the same order. One that does not read is cut off; it comes back and gets a new snapshot.
+ */
+import type { Request, Response } from "express";
+import type { ServerEvent, Snapshot } from "../../src/schema/index.js";
+
+const HEARTBEAT_MS = 15_000;
+/** Progress is shown, not counted: the newest of each plotter is sent at this pace. */
+const PROGRESS_MS = 100;
+const MAX_UNSENT_BYTES = 4_000_000;
+
+type ProgressEvent = Extract<ServerEvent, { type: "progress" }>;
+
+export class EventHub {
+  readonly #clients = new Set<Response>();
+  readonly #progress = new Map<string, ProgressEvent>();
+  readonly #heartbeat: NodeJS.Timeout;
+  #progressTimer: NodeJS.Timeout | null = null;
+
+  constructor() {
+    this.#heartbeat = setInterval(() => this.#write(":\n\n"), HEARTBEAT_MS);
+    this.#heartbeat.unref();
+  }
+
+  get clientCount(): number {
+    return this.#clients.size;
+  }
+
+  announce(event: ServerEvent): void {
+    if (event.type === "progress") {
+      this.#progress.set(event.plotterId, event);
+      this.#progressTimer ??= setTimeout(() => this.#sendProgress(), PROGRESS_MS);
+      return;
+    }
+    // A job's end must not be followed by progress from before it.
+    if (event.type === "job") this.#sendProgress();
+    this.#write(line(event));
+  }
+
+  open(request: Request, response: Response, snapshot: () => Snapshot): void {
+    response.writeHead(200, {
+      "Content-Type": "text/event-stream; charset=utf-8",
+      "Cache-Control": "no-store",
+      "X-Accel-Buffering": "no",
+    });
+    response.write(`retry: 1000\n\n${line({ type: "snapshot", snapshot: snapshot() })}`);
+    this.#clients.add(response);
+    request.on("close", () => this.#clients.delete(response));
+  }
+
+  close(): void {
+    clearInterval(this.#heartbeat);
+    if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
+    for (const client of this.#clients) client.end();
+    this.#clients.clear();
+  }
+
+  #sendProgress(): void {
+    if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
+    this.#progressTimer = null;
+    for (const event of this.#progress.values()) this.#write(line(event));
+    this.#progress.clear();
+  }
+
+  #write(text: string): void {
+    for (const client of this.#clients) {
+      if (client.writableLength > MAX_UNSENT_BYTES) {
+        this.#clients.delete(client);
+        client.destroy();
+      } else {
+        client.write(text);
+      }
+    }
+  }
+}
+
+const line = (event: ServerEvent): string => `data: ${JSON.stringify(event)}\n\n`;

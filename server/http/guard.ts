@@ -1,0 +1,52 @@
+/**
+ * Who may speak to the server at all, before any route.
+ *
+ * Host: a page elsewhere can point its own name at 127.0.0.1 (DNS rebinding) and then is "same origin" with
+ * us, but it can't choose the Host header: it says that name. An address typed as digits can't be rebound,
+ * so addresses are let through, and of names only localhost and those given.
+ *
+ * Origin: browsers add it to every cross-site post and event stream; it must name the host it was sent to.
+ */
+import type { RequestHandler } from "express";
+import { isIP } from "node:net";
+import { PlotwrightError } from "../../src/index.js";
+
+export function guardHosts(extraNames: readonly string[]): RequestHandler {
+  const names = new Set(["localhost", ...extraNames.map((name) => name.toLowerCase())]);
+  return (request, _response, next) => {
+    const host = hostName(request.headers.host);
+    if (host === null || !(isIP(host) > 0 || names.has(host) || host.endsWith(".localhost"))) {
+      throw new PlotwrightError(
+        "not-allowed",
+        `This server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or name it with --allow-host.`,
+      );
+    }
+    const { origin } = request.headers;
+    if (origin !== undefined && !isSameOrigin(origin, request.headers.host ?? "")) {
+      throw new PlotwrightError("not-allowed", `A page of ${origin} may not use this server.`);
+    }
+    if (
+      origin === undefined &&
+      isForeign(request.headers["sec-fetch-site"]) &&
+      request.path.startsWith("/api/")
+    ) {
+      throw new PlotwrightError("not-allowed", "A page of another site may not use this server.");
+    }
+    next();
+  };
+}
+
+/** Host header without port and brackets; null when it is not one. */
+function hostName(header: string | undefined): string | null {
+  const match = /^(?:\[([0-9a-fA-F:.]+)\]|([A-Za-z0-9._-]+))(?::\d{1,5})?$/.exec(header ?? "");
+  return (match?.[1] ?? match?.[2])?.toLowerCase() ?? null;
+}
+
+function isSameOrigin(origin: string, host: string): boolean {
+  const match = /^https?:\/\/(.+)$/.exec(origin);
+  return match?.[1]?.toLowerCase() === host.toLowerCase();
+}
+
+/** Sec-Fetch-Site is set by the browser and can't be set by a page. Absent from curl and scripts. */
+const isForeign = (site: string | string[] | undefined): boolean =>
+  site === "cross-site" || site === "same-site";

@@ -1,0 +1,107 @@
+/** /api/v1/jobs: add, change, order, run and remove jobs. */
+import express, { Router, type Request } from "express";
+import { basename } from "node:path";
+import { PlotwrightError } from "../../src/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  jobPatchSchema,
+  moveJobSchema,
+  newJobSchema,
+  plotSettingsSchema,
+  type Job,
+} from "../../src/schema/index.js";
+import type { DrawingFiles } from "../queue/drawing-files.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import { parseWith } from "./errors.js";
+
+const SMALL_BODY = "1mb";
+
+export function jobsRoutes(queue: JobQueue, files: DrawingFiles, maxUploadBytes: number): Router {
+  const router = Router();
+  const small = express.json({ limit: SMALL_BODY });
+
+  router.post("/", express.json({ limit: maxUploadBytes }), async (request, response) => {
+    const job = await (request.is("json") !== false ? addFromJson(request) : addFromFile(request));
+    response.status(201).location(`/api/v1/jobs/${job.id}`).json(job);
+  });
+
+  router.get("/:id", (request, response) => {
+    response.json(queue.get(request.params.id));
+  });
+
+  // As an attachment of plain text: a browser must never run what is in an uploaded SVG.
+  router.get("/:id/drawing", (request, response, next) => {
+    const { id } = request.params;
+    response.attachment(svgName(queue.get(id).name));
+    response.type("text/plain; charset=utf-8");
+    response.sendFile(queue.drawingPath(id), { dotfiles: "allow" }, (error) => {
+      if (error !== undefined && error !== null) next(error);
+    });
+  });
+
+  router.patch("/:id", small, async (request, response) => {
+    response.json(await queue.patch(request.params.id, parseWith(jobPatchSchema, request.body)));
+  });
+
+  router.post("/:id/move", small, (request, response) => {
+    queue.move(request.params.id, parseWith(moveJobSchema, request.body).beforeId);
+    response.json({ ok: true });
+  });
+
+  const actions: Readonly<Record<string, (id: string) => Job>> = {
+    start: (id) => queue.start(id),
+    pause: (id) => queue.pause(id),
+    resume: (id) => queue.resume(id),
+    cancel: (id) => queue.cancel(id),
+    requeue: (id) => queue.requeue(id),
+  };
+  for (const [name, act] of Object.entries(actions)) {
+    router.post(`/:id/${name}`, (request, response) => {
+      response.json(act(request.params.id));
+    });
+  }
+
+  router.delete("/:id", async (request, response) => {
+    await queue.remove(request.params.id);
+    response.json({ ok: true });
+  });
+
+  return router;
+
+  async function addFromJson(request: Request): Promise<Job> {
+    const { drawing, ...rest } = parseWith(newJobSchema, request.body);
+    return queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+  }
+
+  /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */
+  async function addFromFile(request: Request): Promise<Job> {
+    const { name, settings, plotterId } = request.query;
+    const wanted = {
+      name:
+        typeof name === "string" && name.trim() !== "" ? basename(name.trim()).slice(0, 200) : "drawing.svg",
+      settings:
+        settings === undefined ? DEFAULT_PLOT_SETTINGS : parseWith(plotSettingsSchema, asJson(settings)),
+      ...(typeof plotterId === "string" ? { plotterId } : {}),
+    };
+    const drawing = await files.add(bytesOf(request));
+    if (drawing.bytes === 0) {
+      await files.remove(drawing.id);
+      throw new PlotwrightError("bad-file", "The file is empty. Send the SVG as the request's body.");
+    }
+    return queue.add({ ...wanted, drawing });
+  }
+}
+
+/** Leaves the connection open when reading stops early, so that the refusal can still be answered. */
+const bytesOf = (request: Request): AsyncIterable<Uint8Array> =>
+  request.iterator({ destroyOnReturn: false }) as AsyncIterable<Uint8Array>;
+
+function asJson(value: unknown): unknown {
+  try {
+    return JSON.parse(String(value)) as unknown;
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", "settings: not valid JSON.", { cause });
+  }
+}
+
+const svgName = (name: string): string => (/\.svg$/i.test(name) ? name : `${name}.svg`);

@@ -1,0 +1,135 @@
+/** Entry "plotwright/server": the whole server, to be embedded. */
+import { createServer as createHttpServer, type Server } from "node:http";
+import type { AddressInfo } from "node:net";
+import { PlotwrightError } from "../src/index.js";
+import type { ServerEvent } from "../src/schema/index.js";
+import { defaultDataDir, prepareDataDir } from "./data-dir.js";
+import { createApp } from "./http/app.js";
+import { EventHub } from "./http/events.js";
+import { createPlanning } from "./planning/planning.js";
+import { DrawingFiles } from "./queue/drawing-files.js";
+import { JobQueue } from "./queue/job-queue.js";
+import type { PlotterPort } from "./queue/plotter-port.js";
+import { packagePath, packageVersion } from "./package-files.js";
+import { Store } from "./queue/store.js";
+import { openPlotters } from "./plotters.js";
+
+export interface ServerOptions {
+  /** 9080 unless told; 0 takes any free one. */
+  readonly port?: number;
+  /** 127.0.0.1 unless told. */
+  readonly host?: string;
+  /** Serial path of the board, or "virtual"; without it the first EBB found, else the virtual board. */
+  readonly device?: string;
+  /** Board seconds a second on the virtual board: 1 is real time. */
+  readonly virtualSpeed?: number;
+  /** Folder for jobs and settings. */
+  readonly dataDir?: string;
+  /** Largest upload; 200 MB unless told. */
+  readonly maxUploadBytes?: number;
+  /** Host names to answer to, besides localhost and any address. */
+  readonly allowedHosts?: readonly string[];
+  /** Gets one line for each thing worth knowing; silent unless given. */
+  readonly log?: (line: string) => void;
+}
+
+export interface PlotwrightServer {
+  /** Where the page is, with the real port. */
+  readonly url: string;
+  /** Stops plotting (the pen lifts), stores, and gives port, board and data folder back. */
+  close(): Promise<void>;
+}
+
+const DEFAULT_PORT = 9080;
+const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
+
+/** Throws `conflict` (port or data folder taken), `no-board` (a named device that isn't there), `bad-setting`. */
+export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
+  const log = options.log ?? (() => undefined);
+  const dataDir = options.dataDir ?? defaultDataDir();
+  const undo: (() => Promise<void> | void)[] = [];
+  const close = async (): Promise<void> => {
+    for (const step of undo.splice(0).reverse()) await step();
+  };
+  try {
+    prepareDataDir(dataDir);
+    const store = Store.open(dataDir);
+    undo.push(() => store.close());
+    const maxUploadBytes = options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES;
+    const files = new DrawingFiles(dataDir, maxUploadBytes);
+    await files.sweep((drawing) => store.isUsed(drawing));
+
+    const hub = new EventHub();
+    const announce = (event: ServerEvent): void => hub.announce(event);
+    const plotters = openPlotters(options, log);
+    undo.push(() => closeAll(plotters));
+    for (const plotter of plotters.values()) {
+      plotter.onChange((state) => announce({ type: "plotter", plotter: state }));
+    }
+    const queue = new JobQueue({
+      store,
+      files,
+      planning: createPlanning(files),
+      plotters,
+      announce,
+      nowIso: () => new Date().toISOString(),
+    });
+    undo.push(() => queue.close());
+
+    const app = createApp({
+      version: packageVersion(),
+      queue,
+      files,
+      plotters,
+      hub,
+      maxUploadBytes,
+      allowedHosts: [...(options.allowedHosts ?? []), ...(options.host === undefined ? [] : [options.host])],
+      webDir: packagePath("dist/web"),
+      samplesDir: packagePath("samples"),
+      log,
+    });
+    const http = createHttpServer({ requestTimeout: 10 * 60_000 }, app);
+    await listen(http, options.port ?? DEFAULT_PORT, options.host ?? "127.0.0.1");
+    undo.push(() => stopListening(http, hub));
+    return { url: urlOf(http), close };
+  } catch (error) {
+    await close();
+    throw error;
+  }
+}
+
+async function closeAll(plotters: ReadonlyMap<string, PlotterPort>): Promise<void> {
+  await Promise.all([...plotters.values()].map((plotter) => plotter.close()));
+}
+
+function listen(http: Server, port: number, host: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    http.once("error", (cause: NodeJS.ErrnoException) => reject(listenFault(cause, port, host)));
+    http.listen(port, host, resolve);
+  });
+}
+
+function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): PlotwrightError {
+  if (cause.code === "EADDRINUSE") {
+    return new PlotwrightError(
+      "conflict",
+      `Port ${port} is taken by another program. Stop it, or choose another with --port.`,
+      { cause },
+    );
+  }
+  return new PlotwrightError("bad-setting", `Can't listen on ${host}:${port} (${cause.message}).`, { cause });
+}
+
+function stopListening(http: Server, hub: EventHub): Promise<void> {
+  return new Promise((resolve) => {
+    http.close(() => resolve());
+    hub.close();
+    http.closeAllConnections();
+  });
+}
+
+function urlOf(http: Server): string {
+  const { address, port, family } = http.address() as AddressInfo;
+  const host = family === "IPv6" ? `[${address}]` : address;
+  return `http://${host}:${port}`;
+}

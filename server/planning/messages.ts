@@ -1,0 +1,33 @@
+/** What passes between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
+import type { ErrorCode, MachineProfile, StrokeSet } from "../../src/index.js";
+import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
+
+/** Given to the worker when it starts: it prepares the drawing at once and answers "ready". */
+export interface WorkerInput {
+  /** The drawing's file, read by the worker so that its text never passes the main thread. */
+  readonly path: string;
+  readonly settings: PlotSettings;
+  readonly machine: MachineProfile;
+}
+
+export type ToWorker =
+  | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }
+  | { readonly type: "measure"; readonly id: number };
+
+export type FromWorker =
+  | { readonly type: "ready"; readonly strokes: StrokeSet; readonly warnings: readonly string[] }
+  | { readonly type: "planned"; readonly id: number; readonly plot: PlannedPlot }
+  | {
+      readonly type: "measured";
+      readonly id: number;
+      readonly stats: JobStats;
+      readonly warnings: readonly string[];
+    }
+  /** id null: the drawing itself could not be prepared. */
+  | {
+      readonly type: "failed";
+      readonly id: number | null;
+      readonly code: ErrorCode;
+      readonly message: string;
+    };

@@ -1,0 +1,164 @@
+/**
+ * A prepared drawing in a worker thread, ready to be planned from any place: planning a large drawing takes
+ * seconds, and the thread that streams to the board must not wait for it.
+ *
+ * A drawing that needs more memory than the worker may have ends the worker, not the server.
+ */
+import { Worker } from "node:worker_threads";
+import { PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import type { PlanRequest, PlannedPlot, PlotPlanner } from "../plotter/types.js";
+import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
+
+/** Of JavaScript heap; typed arrays come on top of it. */
+const MAX_HEAP_MB = 2_048;
+
+export interface PlannerInput {
+  readonly path: string;
+  readonly settings: PlotSettings;
+  readonly machine: MachineProfile;
+}
+
+export interface Measured {
+  readonly stats: JobStats;
+  readonly warnings: readonly string[];
+}
+
+interface Waiting {
+  readonly resolve: (message: FromWorker) => void;
+  readonly reject: (error: Error) => void;
+}
+
+export class WorkerPlanner implements PlotPlanner {
+  readonly strokes: StrokeSet;
+  /** What of the file is not drawn. */
+  readonly warnings: readonly string[];
+  readonly #thread: PlannerThread;
+
+  private constructor(thread: PlannerThread, strokes: StrokeSet, warnings: readonly string[]) {
+    this.#thread = thread;
+    this.strokes = strokes;
+    this.warnings = warnings;
+  }
+
+  /** Reads and prepares the drawing; throws what import and prepare throw, or `cancelled`. */
+  static async open(input: PlannerInput, signal?: AbortSignal): Promise<WorkerPlanner> {
+    const thread = new PlannerThread(input);
+    const stop = (): void => void thread.stop(cancelled());
+    signal?.addEventListener("abort", stop, { once: true });
+    if (signal?.aborted === true) stop();
+    const ready = await thread.ready();
+    if (ready.type !== "ready") throw new Error(`The planner answered ${ready.type} first`);
+    return new WorkerPlanner(thread, ready.strokes, ready.warnings);
+  }
+
+  async plan(request: PlanRequest): Promise<PlannedPlot> {
+    const answer = await this.#thread.ask((id) => ({ type: "plan", id, request }));
+    if (answer.type !== "planned") throw new Error(`The planner answered ${answer.type} to plan`);
+    return answer.plot;
+  }
+
+  /** Plans the whole from home and keeps only its figures. */
+  async measure(): Promise<Measured> {
+    const answer = await this.#thread.ask((id) => ({ type: "measure", id }));
+    if (answer.type !== "measured") throw new Error(`The planner answered ${answer.type} to measure`);
+    return { stats: answer.stats, warnings: answer.warnings };
+  }
+
+  async close(): Promise<void> {
+    await this.#thread.stop(cancelled());
+  }
+}
+
+/** What a job would be: its figures and warnings. Throws what import, prepare and plan throw. */
+export async function measureDrawing(input: PlannerInput, signal?: AbortSignal): Promise<Measured> {
+  const planner = await WorkerPlanner.open(input, signal);
+  try {
+    return await planner.measure();
+  } finally {
+    await planner.close();
+  }
+}
+
+/** The worker and the questions that wait for its answers. */
+class PlannerThread {
+  readonly #worker: Worker;
+  readonly #waiting = new Map<number | null, Waiting>();
+  readonly #ready: Promise<FromWorker>;
+  #nextId = 1;
+  #ended: Error | null = null;
+
+  constructor(input: WorkerInput) {
+    this.#ready = this.#wait(null);
+    // Whoever opened it may have gone before it is ready; ready() still rejects for those who ask.
+    this.#ready.catch(() => undefined);
+    const { url, execArgv } = workerEntry();
+    this.#worker = new Worker(url, {
+      workerData: input,
+      execArgv,
+      resourceLimits: { maxOldGenerationSizeMb: MAX_HEAP_MB },
+    });
+    this.#worker.on("message", (message: FromWorker) => this.#settle(message));
+    this.#worker.on("error", (error) => this.#end(workerFault(error)));
+    this.#worker.on("exit", () => this.#end(new PlotwrightError("internal", "The planning thread ended.")));
+  }
+
+  ready(): Promise<FromWorker> {
+    return this.#ready;
+  }
+
+  ask(question: (id: number) => ToWorker): Promise<FromWorker> {
+    if (this.#ended !== null) return Promise.reject(this.#ended);
+    const id = this.#nextId++;
+    const answer = this.#wait(id);
+    this.#worker.postMessage(question(id));
+    return answer;
+  }
+
+  async stop(reason: Error): Promise<void> {
+    this.#end(reason);
+    await this.#worker.terminate();
+  }
+
+  #wait(id: number | null): Promise<FromWorker> {
+    return new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
+  }
+
+  #settle(message: FromWorker): void {
+    const id = message.type === "ready" ? null : message.id;
+    const waiting = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    if (message.type === "failed") {
+      waiting?.reject(new PlotwrightError(message.code, message.message));
+    } else {
+      waiting?.resolve(message);
+    }
+  }
+
+  #end(reason: Error): void {
+    this.#ended ??= reason;
+    for (const waiting of this.#waiting.values()) waiting.reject(this.#ended);
+    this.#waiting.clear();
+  }
+}
+
+/** Beside this file: compiled (.js) in dist, or the source (.ts), which needs tsx in the thread too. */
+function workerEntry(): { url: URL; execArgv: string[] } {
+  const fromSource = import.meta.url.endsWith(".ts");
+  return fromSource
+    ? { url: new URL("./plan-worker.ts", import.meta.url), execArgv: ["--import", "tsx"] }
+    : { url: new URL("./plan-worker.js", import.meta.url), execArgv: [] };
+}
+
+function workerFault(error: Error): PlotwrightError {
+  if ((error as NodeJS.ErrnoException).code === "ERR_WORKER_OUT_OF_MEMORY") {
+    return new PlotwrightError(
+      "too-large",
+      "The drawing needs more memory than there is for planning. Simplify it, or plot it in parts.",
+      { cause: error },
+    );
+  }
+  return new PlotwrightError("internal", `The planning thread failed: ${error.message}`, { cause: error });
+}
+
+const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "Planning was cancelled.");

@@ -1,0 +1,70 @@
+/**
+ * Text to strokes to commands, as the worker and the command line run them. The machine comes in as data
+ * (a profile), so custom machines need no look-up here.
+ */
+import {
+  PlotwrightError,
+  checkBounds,
+  compile,
+  importSvg,
+  plan,
+  prepare,
+  strokeCount,
+  type BoardState,
+  type Drawing,
+  type MachineProfile,
+  type Prepared,
+  type Work,
+} from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
+
+/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
+export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
+export const BOARD_AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+
+export interface PreparedJob {
+  readonly prepared: Prepared;
+  /** The file's and the paper's. Plain text. */
+  readonly warnings: readonly string[];
+}
+
+/** Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`. */
+export function prepareText(text: string, settings: PlotSettings, machine: MachineProfile): PreparedJob {
+  return prepareDrawing(importSvg(text), settings, machine);
+}
+
+export function prepareDrawing(
+  drawing: Drawing,
+  settings: PlotSettings,
+  machine: MachineProfile,
+  work: Work = {},
+): PreparedJob {
+  const prepared = prepare(drawing, settings.prepare, work);
+  const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
+  if (strokeCount(prepared.strokes) === 0) {
+    throw new PlotwrightError("bad-file", `There is nothing to draw. ${warnings.join(" ")}`.trim());
+  }
+  checkBounds(prepared.strokes, machine);
+  return { prepared, warnings };
+}
+
+export function planAndCompile(
+  prepared: Prepared,
+  request: PlanRequest,
+  machine: MachineProfile,
+): PlannedPlot {
+  const { settings, from } = request;
+  const trajectory = plan(prepared.strokes, settings.motion, settings.pen, {
+    ...(from === null ? {} : { from }),
+    startX: request.startXMm,
+    startY: request.startYMm,
+  });
+  const commands = compile(trajectory, {
+    machine,
+    firmware: request.firmware,
+    pen: settings.pen,
+    start: request.board,
+  });
+  return { trajectory, commands };
+}
