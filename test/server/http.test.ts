@@ -281,7 +281,7 @@ describe("the guard", () => {
     }
     const streamed = await fetch(`${app.url}/api/v1/jobs`, {
       method: "POST",
-      body: ReadableStream.from(pieces()),
+      body: pieces() as unknown as BodyInit,
       duplex: "half",
     } as RequestInit);
     expect(await fault(streamed)).toMatchObject({ status: 413, code: "too-large" });

@@ -1,0 +1,91 @@
+import { Command } from "commander";
+import { describe, expect, it } from "vitest";
+import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+
+function settingsOf(...args: string[]): PlotSettings {
+  const command = addSettingOptions(new Command())
+    .exitOverride()
+    .configureOutput({ writeErr: () => undefined });
+  command.parse(args, { from: "user" });
+  return settingsFromOptions(command.opts());
+}
+
+describe("the settings' options", () => {
+  it("leave every default alone when none is given", () => {
+    expect(settingsOf()).toEqual(DEFAULT_PLOT_SETTINGS);
+  });
+
+  it("put each value where it belongs", () => {
+    const settings = settingsOf(
+      ...["--machine", "axidraw-se-a3", "--paper", "a3", "--margin", "0", "--no-fit", "--rotate", "-90"],
+      ...["--speed", "35.5", "--accel", "400", "--corner", "0.1", "--travel-speed", "200"],
+      ...["--travel-accel", "1500", "--pen-up", "70", "--pen-down", "25", "--pen-lift-ms", "100"],
+      ...[
+        "--pen-drop-ms",
+        "120",
+        "--order",
+        "none",
+        "--layers",
+        "stroke",
+        "--join",
+        "0",
+        "--simplify",
+        "0.05",
+      ],
+    );
+    expect(settings).toMatchObject({
+      machine: "axidraw-se-a3",
+      prepare: {
+        paper: { widthMm: 297, heightMm: 420 },
+        landscape: true,
+        marginMm: 0,
+        fit: false,
+        rotateDeg: -90,
+        order: "none",
+        layers: "stroke",
+        joinMm: 0,
+        simplifyMm: 0.05,
+      },
+      motion: {
+        draw: { speedMmPerS: 35.5, accelMmPerS2: 400, cornerMm: 0.1 },
+        travel: { speedMmPerS: 200, accelMmPerS2: 1500 },
+      },
+      pen: { upPct: 70, downPct: 25, liftMs: 100, dropMs: 120 },
+    });
+  });
+
+  it("take a paper's own size as it is said, wide or high", () => {
+    expect(settingsOf("--paper", "300x200").prepare.landscape).toBe(true);
+    expect(settingsOf("--paper", "200x300.5").prepare).toMatchObject({
+      paper: { widthMm: 200, heightMm: 300.5 },
+      landscape: false,
+    });
+    expect(settingsOf("--paper", "200x300", "--landscape").prepare.landscape).toBe(true);
+    expect(settingsOf("--paper", "A4", "--no-landscape").prepare.landscape).toBe(false);
+  });
+
+  it("let the last of two opposite ones win", () => {
+    expect(settingsOf("--fit", "--no-fit").prepare.fit).toBe(false);
+    expect(settingsOf("--no-fit", "--fit").prepare.fit).toBe(true);
+  });
+
+  it("name the flag when a value makes no sense", () => {
+    for (const args of [
+      ["--speed", "fast"],
+      ["--speed", ""],
+      ["--speed", "NaN"],
+      ["--speed", "-5"],
+      ["--speed", "1e300"],
+      ["--margin", "-1"],
+      ["--pen-up", "101"],
+      ["--paper", "16x10in"],
+      ["--paper", "A99"],
+      ["--paper", "0x100"],
+      ["--order", "random"],
+      ["--layers", "some"],
+    ]) {
+      expect(() => settingsOf(...args)).toThrow(args[0]);
+    }
+  });
+});
