@@ -1,0 +1,77 @@
+/** REST calls to plotwright's server. Every failure is an ApiFault whose message can be shown. */
+import { z } from "zod";
+import {
+  apiErrorSchema,
+  jobSchema,
+  plotterSchema,
+  type Job,
+  type JobPatch,
+  type NewJob,
+  type PenRequest,
+  type Plotter,
+} from "../../src/schema/index.js";
+import { text } from "../text/text.js";
+
+export class ApiFault extends Error {
+  override readonly name = "ApiFault";
+  readonly code: string;
+
+  constructor(code: string, message: string) {
+    super(message);
+    this.code = code;
+  }
+}
+
+const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
+const okSchema = z.object({ ok: z.literal(true) });
+
+export type JobAction = "start" | "pause" | "resume" | "cancel" | "requeue";
+type Fetch = (path: string, init?: RequestInit) => Promise<Response>;
+
+export type ApiClient = ReturnType<typeof createApiClient>;
+
+export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, init)) => {
+  const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
+    const init: RequestInit = { method };
+    if (body !== undefined) {
+      init.body = JSON.stringify(body);
+      init.headers = { "content-type": "application/json" };
+    }
+    let response: Response;
+    try {
+      response = await fetchPath(`/api/v1${path}`, init);
+    } catch {
+      throw new ApiFault("unreachable", text.errors.unreachable);
+    }
+    if (!response.ok) throw await faultOf(response);
+    return response;
+  };
+  const ask = async <T>(schema: z.ZodType<T>, method: string, path: string, body?: unknown): Promise<T> =>
+    schema.parse(await (await send(method, path, body)).json());
+  const job = (id: string): string => `/jobs/${encodeURIComponent(id)}`;
+  const plotter = (id: string): string => `/plotters/${encodeURIComponent(id)}`;
+
+  return {
+    addJob: (newJob: NewJob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
+    patchJob: (id: string, patch: JobPatch): Promise<Job> => ask(jobSchema, "PATCH", job(id), patch),
+    actOnJob: (id: string, action: JobAction): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/${action}`),
+    moveJob: (id: string, beforeId: string | null) => ask(okSchema, "POST", `${job(id)}/move`, { beforeId }),
+    removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
+    jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),
+    movePen: (id: string, request: PenRequest): Promise<Plotter> =>
+      ask(plotterSchema, "POST", `${plotter(id)}/pen`, request),
+    motorsOff: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/motors-off`),
+    home: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/home`),
+    samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
+    sample: async (name: string): Promise<string> =>
+      (await send("GET", `/samples/${encodeURIComponent(name)}`)).text(),
+  };
+};
+
+const faultOf = async (response: Response): Promise<ApiFault> => {
+  const parsed = apiErrorSchema.safeParse(await response.json().catch(() => null));
+  if (parsed.success) return new ApiFault(parsed.data.error.code, parsed.data.error.message);
+  // What stands between page and server (a development proxy, a sleeping machine) answers without a body.
+  const isGone = response.status === 502 || response.status === 503 || response.status === 504;
+  return new ApiFault("internal", isGone ? text.errors.unreachable : text.errors.server(response.status));
+};

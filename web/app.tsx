@@ -1,0 +1,73 @@
+import { useCallback, useState } from "react";
+import { DrawingPanel } from "./panels/drawing.js";
+import { LayersPanel } from "./panels/layers.js";
+import { LinesPanel } from "./panels/lines.js";
+import { MachinePanel } from "./panels/machine.js";
+import { MotionPanel } from "./panels/motion.js";
+import { Notices } from "./panels/notices.js";
+import { PaperPanel } from "./panels/paper.js";
+import { PenPanel } from "./panels/pen.js";
+import { PlotBar } from "./panels/plot-bar.js";
+import { HistoryPanel, QueuePanel } from "./panels/queue.js";
+import { TopBar } from "./panels/top-bar.js";
+import { Preview } from "./preview/preview.js";
+import { useActions } from "./state/use-store.js";
+import { text } from "./text/text.js";
+import { DropZone } from "./ui/drop-zone.js";
+
+const TABS = ["setup", "queue", "machine"] as const;
+type Tab = (typeof TABS)[number];
+
+/** Where the panels stand. On a narrow screen the side columns become tabs under the paper. */
+export const App = () => {
+  const [tab, setTab] = useState<Tab>("setup");
+  const { openFile, openPasted } = useActions();
+  const onFile = useCallback((file: File) => void openFile(file), [openFile]);
+  return (
+    <DropZone hint={text.drawing.dropHere} onFile={onFile} onText={openPasted}>
+      <div className="app" data-tab={tab}>
+        <TopBar />
+        <main className="centre">
+          <Preview />
+        </main>
+        <Tabs tab={tab} onChange={setTab} />
+        <aside className="column column-setup" aria-label={text.tabs.setup}>
+          <DrawingPanel />
+          <PaperPanel />
+          <LayersPanel />
+          <MotionPanel />
+          <PenPanel />
+          <LinesPanel />
+        </aside>
+        <aside className="column column-run" aria-label={text.tabs.queue}>
+          <PlotBar />
+          <div className="tab-queue">
+            <QueuePanel />
+          </div>
+          <div className="tab-machine">
+            <MachinePanel />
+          </div>
+          <div className="tab-queue">
+            <HistoryPanel />
+          </div>
+        </aside>
+      </div>
+      <Notices />
+    </DropZone>
+  );
+};
+
+const Tabs = ({ tab, onChange }: { tab: Tab; onChange(tab: Tab): void }) => (
+  <nav className="tabs" aria-label={text.tabs.label}>
+    {TABS.map((name) => (
+      <button
+        key={name}
+        type="button"
+        aria-current={name === tab ? "page" : undefined}
+        onClick={() => onChange(name)}
+      >
+        {text.tabs[name]}
+      </button>
+    ))}
+  </nav>
+);

@@ -1,0 +1,97 @@
+/** Mounts the page: the only file that does something when it is imported. */
+import { StrictMode } from "react";
+import { createRoot } from "react-dom/client";
+import { createApiClient } from "./api/client.js";
+import { openEvents } from "./api/events.js";
+import { App } from "./app.js";
+import { createActions } from "./state/actions.js";
+import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
+import { applyServerEvent } from "./state/server-events.js";
+import { activeJob, createPageStore, type PageStore } from "./state/store.js";
+import { PageContext } from "./state/use-store.js";
+import { ErrorBoundary } from "./ui/error-boundary.js";
+import { Planner } from "./worker/planner.js";
+import "./styles/index.css";
+
+const storage = ((): TextStore | null => {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
+})();
+
+const remembered = readRemembered(storage);
+const store = createPageStore(remembered);
+const planner = new Planner(
+  () => new Worker(new URL("./worker/plan.worker.ts", import.meta.url), { type: "module" }),
+  {
+    after: (delayMs, callback) => {
+      const timer = setTimeout(callback, delayMs);
+      return () => clearTimeout(timer);
+    },
+  },
+  {
+    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null }),
+    onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null }),
+  },
+);
+const actions = createActions({
+  store,
+  api: createApiClient(),
+  planner,
+  nowMs: () => performance.now(),
+  after: (delayMs, callback) => void setTimeout(callback, delayMs),
+});
+
+keepRemembered(store);
+openEvents("/api/v1/events", {
+  onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
+  onLink: (isConnected) => store.setState({ link: isConnected ? "connected" : "lost" }),
+});
+void greet(store);
+
+const root = document.getElementById("root");
+if (!root) throw new Error("index.html has no #root");
+createRoot(root).render(
+  <StrictMode>
+    <ErrorBoundary>
+      <PageContext value={{ store, actions }}>
+        <App />
+      </PageContext>
+    </ErrorBoundary>
+  </StrictMode>,
+);
+
+/** Settings and view outlive the visit; the theme is on the root element, where the style sheet reads it. */
+function keepRemembered(pageStore: PageStore): void {
+  let kept: ReturnType<typeof setTimeout> | null = null;
+  const showTheme = (): void => {
+    document.documentElement.dataset.theme = pageStore.getState().view.theme;
+  };
+  showTheme();
+  pageStore.subscribe((state, before) => {
+    if (state.view.theme !== before.view.theme) showTheme();
+    if (state.settings === before.settings && state.view === before.view) return;
+    if (kept !== null) clearTimeout(kept);
+    kept = setTimeout(() => writeRemembered(storage, pageStore.getState()), 300);
+  });
+}
+
+/** Whoever opens the page with nothing sees what is being plotted, or else the first sample. */
+async function greet(pageStore: PageStore): Promise<void> {
+  await new Promise<void>((resolve) => {
+    const stop = pageStore.subscribe(({ link }) => {
+      if (link !== "connected") return;
+      stop();
+      resolve();
+    });
+  });
+  await actions.loadSamples();
+  const state = pageStore.getState();
+  if (state.drawing !== null) return;
+  const job = activeJob(state);
+  const sample = state.samples[0];
+  if (job) await actions.openJob(job);
+  else if (sample) await actions.openSample(sample.name, sample.title);
+}

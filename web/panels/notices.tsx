@@ -1,0 +1,26 @@
+import { useActions, usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { Icon } from "../ui/icon.js";
+
+/** What has just happened, and what went wrong, in words; errors stay until they are closed. */
+export const Notices = () => {
+  const notices = usePageState((state) => state.notices);
+  const { dismiss } = useActions();
+  return (
+    <div className="notices" aria-live="polite">
+      {notices.map(({ id, kind, text: words }) => (
+        <p key={id} className="notice" data-kind={kind} role={kind === "error" ? "alert" : undefined}>
+          <span>{words}</span>
+          <button
+            type="button"
+            className="notice-close"
+            aria-label={text.errors.close}
+            onClick={() => dismiss(id)}
+          >
+            <Icon name="close" />
+          </button>
+        </p>
+      ))}
+    </div>
+  );
+};

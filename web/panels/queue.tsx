@@ -1,0 +1,223 @@
+import { useState } from "react";
+import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import type { JobAction } from "../api/client.js";
+import { ACTIVE_STATES, activeJob } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
+import { useNow } from "../ui/use-now.js";
+import { Icon, type IconName } from "../ui/icon.js";
+
+const words = text.queue;
+const SHOWN_HISTORY = 20;
+
+export const QueuePanel = () => {
+  const jobs = usePageState((state) => state.jobs);
+  const open = jobs.filter((job) => !ENDED_STATES.includes(job.state));
+  const totalS = open.reduce((sum, job) => sum + (job.remainingS ?? job.stats?.durationS ?? 0), 0);
+  const waiting = open.filter((job) => job.state === "queued");
+  return (
+    <section className="card" aria-label={words.title}>
+      <h2 className="card-title">
+        {words.title}
+        {open.length > 1 && <span className="note">{words.total(formatDuration(totalS))}</span>}
+      </h2>
+      {open.length === 0 && <p className="note">{words.empty}</p>}
+      <ul className="job-list">
+        {open.map((job) => (
+          <li key={job.id}>
+            {ACTIVE_STATES.includes(job.state) ? (
+              <ActiveJob job={job} />
+            ) : (
+              <WaitingJob job={job} queue={waiting} />
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+};
+
+const ActiveJob = ({ job }: { job: Job }) => {
+  const { actOnJob } = useActions();
+  const busy = usePageState((state) => state.busyAction);
+  const [isAsking, setAsking] = useState(false);
+  const act = (action: JobAction): void => void actOnJob(job.id, action);
+  const isPaused = job.state === "paused";
+  const nowMs = useNow();
+  return (
+    <article className="job job-active" data-state={job.state}>
+      <JobHead job={job} />
+      <Progress job={job} />
+      <p className="job-line">
+        <span className="big-figure">{formatPercent(job.progress)}</span>
+        {job.remainingS !== null && (
+          <span>
+            {words.left(formatDuration(job.remainingS))}
+            {!isPaused && `, ${words.doneAt(formatClockIn(nowMs, job.remainingS))}`}
+          </span>
+        )}
+      </p>
+      {job.message && <p className="note">{job.message}</p>}
+      {isAsking ? (
+        <div className="ask" role="alertdialog" aria-label={words.cancel}>
+          <p>{words.confirmCancel(job.name)}</p>
+          <div className="button-row">
+            <button type="button" className="button button-danger" onClick={() => act("cancel")}>
+              {words.cancel}
+            </button>
+            <button type="button" className="button" onClick={() => setAsking(false)}>
+              {words.keepPlotting}
+            </button>
+          </div>
+        </div>
+      ) : (
+        <div className="button-row">
+          <button
+            type="button"
+            className="button"
+            disabled={busy === `pause ${job.id}`}
+            onClick={() => act(isPaused ? "resume" : "pause")}
+          >
+            <Icon name={isPaused ? "play" : "pause"} />
+            {isPaused ? words.resume : words.pause}
+          </button>
+          <button type="button" className="button" onClick={() => setAsking(true)}>
+            {words.cancel}
+          </button>
+        </div>
+      )}
+    </article>
+  );
+};
+
+const Progress = ({ job }: { job: Job }) => (
+  <div
+    className="progress"
+    role="progressbar"
+    aria-label={words.progress(job.name)}
+    aria-valuemin={0}
+    aria-valuemax={100}
+    aria-valuenow={Math.floor(job.progress * 100 + 1e-9)}
+  >
+    <span style={{ width: `${Math.min(1, job.progress) * 100}%` }} />
+  </div>
+);
+
+const WaitingJob = ({ job, queue }: { job: Job; queue: readonly Job[] }) => {
+  const { actOnJob, moveJob, removeJob } = useActions();
+  const isFree = usePageState((state) => activeJob(state) === null);
+  const index = queue.indexOf(job);
+  const before = (place: number): string | null => queue[place]?.id ?? null;
+  return (
+    <article className="job" data-state={job.state}>
+      <JobHead job={job} />
+      <p className="job-line">
+        <span>{job.stats ? words.about(formatDuration(job.stats.durationS)) : words.planning}</span>
+      </p>
+      {job.message && <p className="note">{job.message}</p>}
+      <div className="button-row">
+        <button
+          type="button"
+          className="button button-small"
+          aria-label={words.startNamed(job.name)}
+          disabled={!isFree}
+          onClick={() => void actOnJob(job.id, "start")}
+        >
+          <Icon name="play" />
+          {words.start}
+        </button>
+        <span className="spacer" />
+        <IconButton
+          icon="up"
+          label={words.earlier(job.name)}
+          isOff={index <= 0}
+          onClick={() => void moveJob(job.id, before(index - 1))}
+        />
+        <IconButton
+          icon="down"
+          label={words.later(job.name)}
+          isOff={index >= queue.length - 1}
+          onClick={() => void moveJob(job.id, before(index + 2))}
+        />
+        <IconButton icon="close" label={words.removeNamed(job.name)} onClick={() => void removeJob(job.id)} />
+      </div>
+    </article>
+  );
+};
+
+export const HistoryPanel = () => {
+  const jobs = usePageState((state) => state.jobs).filter((job) => ENDED_STATES.includes(job.state));
+  const { actOnJob, removeJob } = useActions();
+  return (
+    <section className="card" aria-label={words.history}>
+      <h2 className="card-title">{words.history}</h2>
+      {jobs.length === 0 && <p className="note">{words.historyEmpty}</p>}
+      <ul className="job-list">
+        {jobs.slice(0, SHOWN_HISTORY).map((job) => (
+          <li key={job.id}>
+            <article className="job" data-state={job.state}>
+              <JobHead job={job} />
+              <p className="job-line">
+                <span>{words.took(formatDuration(job.elapsedS))}</span>
+                <span className="spacer" />
+                <IconButton
+                  icon="again"
+                  label={words.againNamed(job.name)}
+                  onClick={() => void actOnJob(job.id, "requeue")}
+                />
+                <IconButton
+                  icon="close"
+                  label={words.removeNamed(job.name)}
+                  onClick={() => void removeJob(job.id)}
+                />
+              </p>
+              {job.message && (
+                <p className={job.state === "failed" ? "note note-error" : "note"}>{job.message}</p>
+              )}
+            </article>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+};
+
+const JobHead = ({ job }: { job: Job }) => {
+  const { openJob } = useActions();
+  return (
+    <header className="job-head">
+      <button
+        type="button"
+        className="job-name"
+        title={words.openNamed(job.name)}
+        onClick={() => void openJob(job)}
+      >
+        {job.name}
+      </button>
+      <span className="badge" data-state={job.state}>
+        {words.states[job.state]}
+      </span>
+    </header>
+  );
+};
+
+interface IconButtonProps {
+  readonly icon: IconName;
+  readonly label: string;
+  readonly isOff?: boolean;
+  onClick(): void;
+}
+
+const IconButton = ({ icon, label, isOff, onClick }: IconButtonProps) => (
+  <button
+    type="button"
+    className="button button-icon button-small"
+    aria-label={label}
+    title={label}
+    disabled={isOff}
+    onClick={onClick}
+  >
+    <Icon name={icon} />
+  </button>
+);

@@ -1,0 +1,76 @@
+import { THEMES, type Theme } from "../state/persist.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { Icon, type IconName } from "../ui/icon.js";
+import { MachineState } from "./machine.js";
+
+const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
+
+export const TopBar = () => (
+  <header className="top-bar">
+    <h1 className="wordmark">
+      <Mark />
+      {text.appName}
+    </h1>
+    <MachineState />
+    <div className="top-tools">
+      <UndoButtons />
+      <ThemeButton />
+    </div>
+  </header>
+);
+
+const Mark = () => (
+  <svg className="mark" viewBox="0 0 32 32" aria-hidden="true">
+    <path d="M5 24c4.5-16 8-16 10-6.5S21 22.500 25.500 8.500" />
+    <circle cx="26" cy="7" r="3" />
+  </svg>
+);
+
+const UndoButtons = () => {
+  const canUndo = usePageState((state) => state.undoStack.length > 0);
+  const canRedo = usePageState((state) => state.redoStack.length > 0);
+  const { undo, redo } = useActions();
+  return (
+    <>
+      <button
+        type="button"
+        className="tool"
+        aria-label={text.history.undo}
+        title={text.history.undo}
+        disabled={!canUndo}
+        onClick={undo}
+      >
+        <Icon name="undo" />
+      </button>
+      <button
+        type="button"
+        className="tool"
+        aria-label={text.history.redo}
+        title={text.history.redo}
+        disabled={!canRedo}
+        onClick={redo}
+      >
+        <Icon name="redo" />
+      </button>
+    </>
+  );
+};
+
+const ThemeButton = () => {
+  const theme = usePageState((state) => state.view.theme);
+  const { changeView } = useActions();
+  const label = `${text.theme.label}: ${text.theme[theme]}`;
+  const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "auto";
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={label}
+      title={label}
+      onClick={() => changeView({ theme: next })}
+    >
+      <Icon name={THEME_ICON[theme]} />
+    </button>
+  );
+};

@@ -1,0 +1,85 @@
+/**
+ * The colour ramp for speed and order: computed, not copied.
+ *
+ * A path through OKLCH (Björn Ottosson's OKLab in polar form) whose lightness only rises, so that
+ * the order of the colours can be read in grey too, and ends dark enough to stand on white paper.
+ *
+ *   share 0  deep indigo (slow, first)  …  magenta  …  orange (fast, last)  share 1
+ */
+export type Rgb = readonly [r: number, g: number, b: number];
+
+export const RAMP_SIZE = 256;
+
+/** share, lightness, chroma, hue in degrees. */
+const KNOTS: readonly (readonly [number, number, number, number])[] = [
+  [0, 0.3, 0.15, 268],
+  [0.25, 0.42, 0.19, 292],
+  [0.5, 0.53, 0.21, 345],
+  [0.75, 0.64, 0.2, 392],
+  [1, 0.765, 0.165, 425],
+];
+
+/** sRGB 0 … 255 of a colour in OKLCH, cut to what a screen can show. */
+export const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
+  const h = (hueDeg * Math.PI) / 180;
+  const a = chroma * Math.cos(h);
+  const b = chroma * Math.sin(h);
+  const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
+  const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
+  const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;
+  return [
+    byteFromLinear(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+    byteFromLinear(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+    byteFromLinear(-0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s),
+  ];
+};
+
+const byteFromLinear = (linear: number): number => {
+  const c = Math.min(1, Math.max(0, linear));
+  const encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;
+  return Math.round(encoded * 255);
+};
+
+const rampAt = (share: number): Rgb => {
+  let k = 0;
+  while (k < KNOTS.length - 2 && share > KNOTS[k + 1]![0]) k++;
+  const [s0, l0, c0, h0] = KNOTS[k]!;
+  const [s1, l1, c1, h1] = KNOTS[k + 1]!;
+  const f = (share - s0) / (s1 - s0);
+  return rgbFromOklch(l0 + (l1 - l0) * f, c0 + (c1 - c0) * f, h0 + (h1 - h0) * f);
+};
+
+/** RAMP_SIZE × 4 bytes, RGBA. */
+export const rampBytes = (): Uint8Array => {
+  const bytes = new Uint8Array(RAMP_SIZE * 4);
+  for (let i = 0; i < RAMP_SIZE; i++) bytes.set([...rampAt(i / (RAMP_SIZE - 1)), 255], i * 4);
+  return bytes;
+};
+
+const RAMP: readonly string[] = Array.from({ length: RAMP_SIZE }, (_, i) =>
+  hexFromRgb(rampAt(i / (RAMP_SIZE - 1))),
+);
+
+export function hexFromRgb([r, g, b]: Rgb): string {
+  return `#${((r << 16) | (g << 8) | b).toString(16).padStart(6, "0")}`;
+}
+
+/** "#rrggbb" for a share of the scale, 0 … 1. */
+export const rampColor = (share: number): string =>
+  RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))]!;
+
+export interface LegendStop {
+  readonly mmPerS: number;
+  readonly color: string;
+}
+
+/** `count` stops from rest to `topMmPerS`, evenly spaced. */
+export const legendStops = (topMmPerS: number, count = 17): LegendStop[] =>
+  Array.from({ length: count }, (_, i) => {
+    const share = i / (count - 1);
+    return { mmPerS: Number((share * topMmPerS).toFixed(3)), color: rampColor(share) };
+  });
+
+/** Colours that can be told apart, for layers that name none. */
+export const layerColor = (index: number): string =>
+  hexFromRgb(rgbFromOklch(0.55, 0.15, (255 + index * 137.508) % 360));

@@ -1,0 +1,133 @@
+/** Pointer, wheel and keyboard on the preview -> changes of the view. Mouse, pen and fingers alike. */
+import { panBy, zoomAt, type View } from "./view.js";
+
+export interface GestureTarget {
+  view(): View;
+  setView(view: View): void;
+  fit(): void;
+  /** The pointer rests at (x, y) CSS px of the element, or has left (null). */
+  hover(at: { x: number; y: number } | null): void;
+  /** A press without a drag. */
+  tap(at: { x: number; y: number }): void;
+}
+
+const KEY_PAN_PX = 60;
+const KEY_ZOOM = 1.25;
+const TAP_PX = 5;
+
+/** Listens on `element`; returns a function that stops. */
+export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
+  const pointers = new Map<number, { x: number; y: number }>();
+  let travelled = 0;
+
+  const placeOf = (event: MouseEvent): { x: number; y: number } => {
+    const box = element.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+
+  const onDown = (event: PointerEvent): void => {
+    if (event.button > 1) return;
+    element.setPointerCapture(event.pointerId);
+    if (pointers.size === 0) travelled = 0;
+    pointers.set(event.pointerId, placeOf(event));
+  };
+
+  const onMove = (event: PointerEvent): void => {
+    const now = placeOf(event);
+    const before = pointers.get(event.pointerId);
+    if (!before) {
+      if (event.pointerType !== "touch") target.hover(now);
+      return;
+    }
+    travelled += Math.hypot(now.x - before.x, now.y - before.y);
+    const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
+    pointers.set(event.pointerId, now);
+    if (other) target.setView(pinched(target.view(), before, now, other));
+    else if (travelled > TAP_PX) target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
+  };
+
+  const onUp = (event: PointerEvent): void => {
+    if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") target.tap(placeOf(event));
+    pointers.delete(event.pointerId);
+  };
+
+  const onWheel = (event: WheelEvent): void => {
+    event.preventDefault();
+    const { x, y } = placeOf(event);
+    const px = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    // A trackpad's pinch arrives as a wheel with ctrl; its two-finger scroll has a sideways part: pan then.
+    const isPan = !event.ctrlKey && event.deltaMode === WheelEvent.DOM_DELTA_PIXEL && event.deltaX !== 0;
+    if (isPan || event.shiftKey) target.setView(panBy(target.view(), -event.deltaX * px, -event.deltaY * px));
+    else {
+      const factor = Math.exp(-event.deltaY * px * (event.ctrlKey ? 0.01 : 0.0016));
+      target.setView(zoomAt(target.view(), Math.min(4, Math.max(0.25, factor)), x, y));
+    }
+  };
+
+  const onKey = (event: KeyboardEvent): void => {
+    const change = keyChange(event, element);
+    if (change === null) return;
+    event.preventDefault();
+    if (change === "fit") target.fit();
+    else target.setView(change(target.view()));
+  };
+
+  const onLeave = (): void => target.hover(null);
+  element.addEventListener("pointerdown", onDown);
+  element.addEventListener("pointermove", onMove);
+  element.addEventListener("pointerup", onUp);
+  element.addEventListener("pointercancel", onUp);
+  element.addEventListener("pointerleave", onLeave);
+  element.addEventListener("wheel", onWheel, { passive: false });
+  element.addEventListener("dblclick", target.fit);
+  element.addEventListener("keydown", onKey);
+  return () => {
+    element.removeEventListener("pointerdown", onDown);
+    element.removeEventListener("pointermove", onMove);
+    element.removeEventListener("pointerup", onUp);
+    element.removeEventListener("pointercancel", onUp);
+    element.removeEventListener("pointerleave", onLeave);
+    element.removeEventListener("wheel", onWheel);
+    element.removeEventListener("dblclick", target.fit);
+    element.removeEventListener("keydown", onKey);
+  };
+};
+
+interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** One finger moves from `before` to `now`, the other rests: the paper follows both. */
+export const pinched = (view: View, before: Point, now: Point, other: Point): View => {
+  const factor =
+    Math.hypot(now.x - other.x, now.y - other.y) /
+    Math.max(1, Math.hypot(before.x - other.x, before.y - other.y));
+  const moved = panBy(view, (now.x - before.x) / 2, (now.y - before.y) / 2);
+  return zoomAt(moved, factor, (now.x + other.x) / 2, (now.y + other.y) / 2);
+};
+
+const keyChange = (event: KeyboardEvent, element: HTMLElement): "fit" | ((view: View) => View) | null => {
+  if (event.ctrlKey || event.metaKey || event.altKey) return null;
+  const middleX = element.clientWidth / 2;
+  const middleY = element.clientHeight / 2;
+  switch (event.key) {
+    case "ArrowLeft":
+      return (view) => panBy(view, KEY_PAN_PX, 0);
+    case "ArrowRight":
+      return (view) => panBy(view, -KEY_PAN_PX, 0);
+    case "ArrowUp":
+      return (view) => panBy(view, 0, KEY_PAN_PX);
+    case "ArrowDown":
+      return (view) => panBy(view, 0, -KEY_PAN_PX);
+    case "+":
+    case "=":
+      return (view) => zoomAt(view, KEY_ZOOM, middleX, middleY);
+    case "-":
+      return (view) => zoomAt(view, 1 / KEY_ZOOM, middleX, middleY);
+    case "0":
+      return "fit";
+    default:
+      return null;
+  }
+};

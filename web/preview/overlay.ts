@@ -1,0 +1,115 @@
+/** What lies over the strokes: rulers in mm along the edges, and where the pen is. */
+import type { DeskColors } from "./backdrop.js";
+import { rulerStepMm, type Size, type View } from "./view.js";
+
+export const RULER_PX = 22;
+
+export interface Marker {
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+}
+
+export const drawRulers = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  size: Size,
+  colors: DeskColors,
+): void => {
+  context.fillStyle = colors.ruler;
+  context.fillRect(0, 0, size.width, RULER_PX);
+  context.fillRect(0, RULER_PX, RULER_PX, size.height - RULER_PX);
+  drawTicks(context, view.offsetX, view.scale, size.width, colors, false);
+  context.save();
+  // The left ruler is the top one turned: its numbers read upwards.
+  context.rotate(-Math.PI / 2);
+  context.scale(-1, 1);
+  drawTicks(context, view.offsetY, view.scale, size.height, colors, true);
+  context.restore();
+  context.fillStyle = colors.ruler;
+  context.fillRect(0, 0, RULER_PX, RULER_PX);
+  context.fillStyle = colors.rulerText;
+  context.font = "9px Helvetica, Arial, sans-serif";
+  context.textAlign = "center";
+  context.fillText("mm", RULER_PX / 2, RULER_PX / 2 + 3);
+  context.strokeStyle = colors.rulerLine;
+  context.lineWidth = 1;
+  context.beginPath();
+  context.moveTo(0, RULER_PX + 0.5);
+  context.lineTo(size.width, RULER_PX + 0.5);
+  context.moveTo(RULER_PX + 0.5, 0);
+  context.lineTo(RULER_PX + 0.5, size.height);
+  context.stroke();
+};
+
+const drawTicks = (
+  context: CanvasRenderingContext2D,
+  offset: number,
+  scale: number,
+  lengthPx: number,
+  colors: DeskColors,
+  isMirrored: boolean,
+): void => {
+  const step = rulerStepMm(scale, 64);
+  const parts = 10;
+  const first = Math.floor((RULER_PX - offset) / scale / step) * step;
+  const last = (lengthPx - offset) / scale;
+  context.strokeStyle = colors.rulerText;
+  context.lineWidth = 1;
+  context.beginPath();
+  for (let k = 0; first + (k * step) / parts <= last; k++) {
+    const px = Math.round(offset + (first + (k * step) / parts) * scale) + 0.5;
+    if (px < RULER_PX) continue;
+    const height = k % parts === 0 ? 8 : k % (parts / 2) === 0 ? 5 : 3;
+    context.moveTo(px, RULER_PX - height);
+    context.lineTo(px, RULER_PX);
+  }
+  context.globalAlpha = 0.55;
+  context.stroke();
+  context.globalAlpha = 1;
+  context.fillStyle = colors.rulerText;
+  context.font = "10px Helvetica, Arial, sans-serif";
+  context.textAlign = isMirrored ? "right" : "left";
+  for (let mm = first; mm <= last; mm += step) {
+    const px = offset + mm * scale;
+    if (px < RULER_PX + 2) continue;
+    const label = String(Number(mm.toFixed(6)));
+    if (isMirrored) {
+      context.save();
+      context.translate(px, 0);
+      context.scale(-1, 1);
+      context.fillText(label, -3, 10);
+      context.restore();
+    } else {
+      context.fillText(label, px + 3, 10);
+    }
+  }
+};
+
+/** A pen's nib on the paper: filled while it draws, hollow while it is up. */
+export const drawMarker = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  marker: Marker,
+  colors: DeskColors,
+): void => {
+  const x = view.offsetX + marker.xMm * view.scale;
+  const y = view.offsetY + marker.yMm * view.scale;
+  context.lineWidth = 1;
+  context.strokeStyle = colors.accent;
+  context.globalAlpha = 0.45;
+  context.beginPath();
+  context.moveTo(x - 26, y);
+  context.lineTo(x + 26, y);
+  context.moveTo(x, y - 26);
+  context.lineTo(x, y + 26);
+  context.stroke();
+  context.globalAlpha = 1;
+  context.beginPath();
+  context.arc(x, y, 7, 0, 2 * Math.PI);
+  context.fillStyle = marker.penUp ? colors.halo : colors.accent;
+  context.fill();
+  context.lineWidth = 2;
+  context.strokeStyle = marker.penUp ? colors.accent : colors.halo;
+  context.stroke();
+};

@@ -1,0 +1,72 @@
+import type { RefObject } from "react";
+import { COLOR_MODES, type ColorMode } from "../state/persist.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { Icon, type IconName } from "../ui/icon.js";
+import type { Stage } from "./stage.js";
+
+const words = text.preview;
+const ZOOM_STEP = 1.5;
+
+const COLOR_WORDS: Record<ColorMode, string> = {
+  speed: words.colorBySpeed,
+  order: words.colorByOrder,
+  layer: words.colorByLayer,
+  ink: words.colorByInk,
+};
+
+/** The few controls that lie on the desk beside the paper. */
+export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
+  const { colorBy, showTravel } = usePageState((state) => state.view);
+  const { changeView } = useActions();
+  return (
+    <div className="preview-tools">
+      <label className="tool-select">
+        <span className="visually-hidden">{words.colorBy}</span>
+        <select
+          value={colorBy}
+          title={words.colorBy}
+          onChange={(event) => changeView({ colorBy: event.target.value as ColorMode })}
+        >
+          {COLOR_MODES.map((mode) => (
+            <option key={mode} value={mode}>
+              {COLOR_WORDS[mode]}
+            </option>
+          ))}
+        </select>
+      </label>
+      <button
+        type="button"
+        className="tool tool-wide"
+        aria-pressed={showTravel}
+        onClick={() => changeView({ showTravel: !showTravel })}
+      >
+        <Icon name="travel" />
+        {words.travel}
+      </button>
+      <span className="tool-gap" />
+      <Tool icon="minus" isZoom label={words.zoomOut} onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)} />
+      <Tool icon="plus" isZoom label={words.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
+      <Tool icon="fit" label={words.fitPaper} onClick={() => stage.current?.fit()} />
+    </div>
+  );
+};
+
+interface ToolProps {
+  readonly icon: IconName;
+  readonly label: string;
+  readonly isZoom?: boolean;
+  onClick(): void;
+}
+
+const Tool = ({ icon, label, isZoom, onClick }: ToolProps) => (
+  <button
+    type="button"
+    className={isZoom ? "tool tool-zoom" : "tool"}
+    aria-label={label}
+    title={label}
+    onClick={onClick}
+  >
+    <Icon name={icon} />
+  </button>
+);

@@ -1,0 +1,163 @@
+import { useEffect, useRef, type RefObject } from "react";
+import type { StrokeLayer } from "../../src/index.js";
+import { activeJob, currentPlotter, type PageState } from "../state/store.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { layerColor } from "./color-map.js";
+import type { Desk } from "./backdrop.js";
+import { listenForGestures } from "./gestures.js";
+import { Legend } from "./legend.js";
+import type { Marker } from "./overlay.js";
+import { PreviewTools } from "./preview-tools.js";
+import { Stage, type FrameLook } from "./stage.js";
+
+const words = text.preview;
+const DEFAULT_LINE_MM = 0.35;
+
+/** The paper with the drawing on it, as it will be plotted. */
+export const Preview = () => {
+  const box = useRef<HTMLDivElement>(null);
+  const desk = useRef<HTMLCanvasElement>(null);
+  const strokes = useRef<HTMLCanvasElement>(null);
+  const overlay = useRef<HTMLCanvasElement>(null);
+  const stage = useStage(box, desk, strokes, overlay);
+  return (
+    <section className="preview" aria-label={words.title}>
+      <div className="stage" ref={box} tabIndex={0} role="group" aria-label={words.hint}>
+        <canvas ref={desk} aria-hidden="true" />
+        <canvas ref={strokes} role="img" aria-label={words.canvas} />
+        <canvas ref={overlay} aria-hidden="true" />
+      </div>
+      <Legend />
+      <PreviewTools stage={stage} />
+      <PaperMessage />
+    </section>
+  );
+};
+
+/** Makes the stage once, and hands it whatever of the state it shows. */
+const useStage = (
+  box: RefObject<HTMLDivElement | null>,
+  desk: RefObject<HTMLCanvasElement | null>,
+  strokes: RefObject<HTMLCanvasElement | null>,
+  overlay: RefObject<HTMLCanvasElement | null>,
+): RefObject<Stage | null> => {
+  const store = usePageStore();
+  const stage = useRef<Stage | null>(null);
+  useEffect(() => {
+    if (!box.current || !desk.current || !strokes.current || !overlay.current) return;
+    const canvases = {
+      box: box.current,
+      desk: desk.current,
+      strokes: strokes.current,
+      overlay: overlay.current,
+    };
+    const made = new Stage(canvases, deskOf(store.getState()), lookOf(store.getState()));
+    const stopShowing = showState(made, store);
+    const stopGestures = listenForGestures(box.current, {
+      view: () => made.view,
+      setView: (view) => made.setView(view),
+      fit: () => made.fit(),
+      hover: () => undefined,
+      tap: () => undefined,
+    });
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    const recolor = (): void => made.recolor();
+    scheme.addEventListener("change", recolor);
+    stage.current = made;
+    return () => {
+      scheme.removeEventListener("change", recolor);
+      stopGestures();
+      stopShowing();
+      made.close();
+      stage.current = null;
+    };
+  }, [store, box, desk, strokes, overlay]);
+  return stage;
+};
+
+const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() => void) => {
+  const show = (state: PageState, before: PageState | null): void => {
+    if (state.planned !== before?.planned) stage.setScene(state.planned?.scene ?? null);
+    if (state.settings.prepare !== before?.settings.prepare) stage.setDesk(deskOf(state));
+    if (
+      state.view !== before?.view ||
+      state.planned !== before?.planned ||
+      state.live !== before?.live ||
+      state.drawing !== before?.drawing
+    ) {
+      stage.setLook(lookOf(state));
+    }
+    if (state.view.theme !== before?.view.theme) stage.recolor();
+    stage.setMarker(markerOf(state));
+  };
+  show(store.getState(), null);
+  return store.subscribe(show);
+};
+
+const deskOf = ({ settings: { prepare } }: PageState): Desk => {
+  const { widthMm, heightMm } = prepare.paper;
+  return {
+    paperMm: prepare.landscape ? { width: heightMm, height: widthMm } : { width: widthMm, height: heightMm },
+    marginMm: prepare.marginMm,
+    reachMm: null,
+  };
+};
+
+const lookOf = (state: PageState): FrameLook => ({
+  colorBy: state.view.colorBy,
+  showTravel: state.view.showTravel,
+  lineMm: DEFAULT_LINE_MM,
+  layerColors: state.planned ? layerColorsOf(state.planned.drawnLayers) : [],
+  // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
+  untilS: state.live && state.live.jobId === state.drawing?.jobId ? state.live.planS : null,
+});
+
+export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
+  layers.map(({ color }, index) => color ?? layerColor(index));
+
+const markerOf = (state: PageState): Marker | null => {
+  const plotter = currentPlotter(state);
+  if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
+  return { xMm: plotter.xMm, yMm: plotter.yMm, penUp: plotter.penUp ?? true };
+};
+
+/** What stands on the paper when no drawing does: how to begin, or what is wrong with the file. */
+const PaperMessage = () => {
+  const drawing = usePageState((state) => state.drawing);
+  const fault = usePageState((state) => state.fault);
+  const planned = usePageState((state) => state.planned);
+  const isPlanning = usePageState((state) => state.isPlanning);
+  const isWorking = usePageState((state) => activeJob(state) !== null);
+  if (fault) {
+    return (
+      <div className="paper-message paper-message-error" role="alert">
+        <strong>{text.drawing.cannotRead(drawing?.name ?? "")}</strong>
+        <p>{fault.message}</p>
+      </div>
+    );
+  }
+  if (!drawing) {
+    if (isWorking) return null;
+    return (
+      <div className="paper-message">
+        <strong>{text.drawing.none}</strong>
+        <p>{text.drawing.noneHint}</p>
+      </div>
+    );
+  }
+  if (!planned && isPlanning) {
+    return (
+      <div className="paper-message" role="status">
+        <p>{text.drawing.reading(drawing.name)}</p>
+      </div>
+    );
+  }
+  if (planned?.strokeCount !== 0) return null;
+  return (
+    <div className="paper-message">
+      <strong>{text.drawing.nothingToDraw}</strong>
+      <p>{text.drawing.nothingToDrawHint}</p>
+    </div>
+  );
+};

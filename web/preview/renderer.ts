@@ -1,0 +1,41 @@
+/** What draws the strokes: WebGL2 where there is a graphics card, Canvas 2D elsewhere. */
+import type { ColorMode } from "../state/persist.js";
+import type { Scene } from "./scene.js";
+import type { View } from "./view.js";
+
+export interface Frame {
+  readonly view: View;
+  /** CSS px. */
+  readonly width: number;
+  readonly height: number;
+  /** Device px a CSS px. */
+  readonly ratio: number;
+  readonly colorBy: ColorMode;
+  readonly showTravel: boolean;
+  readonly lineMm: number;
+  /** "#rrggbb" by layer index. */
+  readonly layerColors: readonly string[];
+  /** What lies later than this many seconds is shown pale; null shows the whole plot as drawn. */
+  readonly untilS: number | null;
+}
+
+export interface SceneRenderer {
+  readonly kind: "webgl" | "canvas";
+  setScene(scene: Scene | null): void;
+  /** False where the last frame is still being drawn and this one was not begun. */
+  draw(frame: Frame): boolean;
+  close(): void;
+}
+
+/** Narrowest line, CSS px: thinner ones flicker when zoomed out. */
+export const MIN_LINE_PX = 1.15;
+export const GHOST_COLOR = "#dcdad4";
+export const TRAVEL_COLOR = "#5b8fa8";
+export const INK_COLOR = "#22242c";
+
+export const lineWidthPx = (frame: Frame): number => Math.max(MIN_LINE_PX, frame.lineMm * frame.view.scale);
+
+export const bytesFromHex = (hex: string): [number, number, number] => {
+  const n = Number.parseInt(hex.slice(1), 16);
+  return [(n >> 16) & 255, (n >> 8) & 255, n & 255];
+};

@@ -1,0 +1,197 @@
+/**
+ * The preview's machine: three canvases in a stack (desk, strokes, rulers and pen), one view, and at most
+ * one frame of strokes in the making.
+ *
+ * Where a frame of strokes takes the graphics card longer than the screen's beat, the last one is moved and
+ * scaled as a picture until the next is ready: the paper stays under the finger whatever the drawing's size.
+ */
+import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
+import { createCanvasRenderer } from "./canvas-renderer.js";
+import { createGlRenderer } from "./gl-renderer.js";
+import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
+import type { Frame, SceneRenderer } from "./renderer.js";
+import type { Scene } from "./scene.js";
+import { fitView, zoomAt, type Size, type View } from "./view.js";
+
+export interface StageCanvases {
+  readonly box: HTMLElement;
+  readonly desk: HTMLCanvasElement;
+  readonly strokes: HTMLCanvasElement;
+  readonly overlay: HTMLCanvasElement;
+}
+
+export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
+
+const INSET_PX = 26;
+const MAX_RATIO = 2;
+
+export class Stage {
+  readonly #canvases: StageCanvases;
+  readonly #observer: ResizeObserver;
+  #renderer: SceneRenderer | null;
+  #scene: Scene | null = null;
+  #look: FrameLook;
+  #desk: Desk;
+  #marker: Marker | null = null;
+  #paint: ((context: CanvasRenderingContext2D, view: View) => void) | null = null;
+  #colors: DeskColors;
+  #size: Size = { width: 0, height: 0 };
+  #view: View = { scale: 1, offsetX: 0, offsetY: 0 };
+  /** The view that the strokes canvas shows. */
+  #drawnView: View | null = null;
+  /** Until the user pans or zooms, the paper is kept whole in sight. */
+  #isFitted = true;
+  #areStrokesStale = true;
+  #request = 0;
+
+  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook) {
+    this.#canvases = canvases;
+    this.#desk = desk;
+    this.#look = look;
+    this.#colors = deskColors(canvases.box);
+    this.#renderer = createGlRenderer(canvases.strokes) ?? createCanvasRenderer(canvases.strokes);
+    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer.observe(canvases.box);
+    canvases.strokes.addEventListener("webglcontextlost", this.#onLost);
+    canvases.strokes.addEventListener("webglcontextrestored", this.#onRestored);
+    this.#resize();
+  }
+
+  get rendererKind(): SceneRenderer["kind"] | null {
+    return this.#renderer?.kind ?? null;
+  }
+
+  get view(): View {
+    return this.#view;
+  }
+
+  setView(view: View): void {
+    this.#view = view;
+    this.#isFitted = false;
+    this.#refresh(true);
+  }
+
+  fit(): void {
+    this.#isFitted = true;
+    this.#fitNow();
+    this.#refresh(true);
+  }
+
+  zoomBy(factor: number): void {
+    this.setView(zoomAt(this.#view, factor, this.#size.width / 2, this.#size.height / 2));
+  }
+
+  setScene(scene: Scene | null): void {
+    if (scene === this.#scene) return;
+    this.#scene = scene;
+    this.#renderer?.setScene(scene);
+    this.#refresh(true);
+  }
+
+  setLook(look: FrameLook): void {
+    this.#look = look;
+    this.#refresh(true);
+  }
+
+  setDesk(desk: Desk): void {
+    const { width, height } = this.#desk.paperMm;
+    const isOther = desk.paperMm.width !== width || desk.paperMm.height !== height;
+    this.#desk = desk;
+    if (isOther) this.fit();
+    else this.#refresh(false);
+  }
+
+  setMarker(marker: Marker | null): void {
+    this.#marker = marker;
+    this.#refresh(false);
+  }
+
+  /** A painter for what lies over the strokes (highlights, handles), called with every frame. */
+  setPainter(paint: ((context: CanvasRenderingContext2D, view: View) => void) | null): void {
+    this.#paint = paint;
+    this.#refresh(false);
+  }
+
+  /** The theme has changed: the colours are read again. */
+  recolor(): void {
+    this.#colors = deskColors(this.#canvases.box);
+    this.#refresh(false);
+  }
+
+  close(): void {
+    cancelAnimationFrame(this.#request);
+    this.#observer.disconnect();
+    this.#canvases.strokes.removeEventListener("webglcontextlost", this.#onLost);
+    this.#canvases.strokes.removeEventListener("webglcontextrestored", this.#onRestored);
+    this.#renderer?.close();
+    this.#renderer = null;
+  }
+
+  readonly #onLost = (event: Event): void => {
+    event.preventDefault();
+    this.#renderer = null;
+  };
+
+  readonly #onRestored = (): void => {
+    this.#renderer = createGlRenderer(this.#canvases.strokes);
+    this.#renderer?.setScene(this.#scene);
+    this.#refresh(true);
+  };
+
+  #resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.#canvases.box;
+    this.#size = { width, height };
+    if (this.#isFitted) this.#fitNow();
+    this.#refresh(true);
+  }
+
+  #fitNow(): void {
+    const insets = {
+      top: RULER_PX + INSET_PX,
+      left: RULER_PX + INSET_PX,
+      right: INSET_PX,
+      bottom: INSET_PX + 14,
+    };
+    this.#view = fitView(this.#desk.paperMm, this.#size, insets);
+  }
+
+  #refresh(areStrokesStale: boolean): void {
+    this.#areStrokesStale ||= areStrokesStale;
+    if (this.#request === 0) this.#request = requestAnimationFrame(this.#frame);
+  }
+
+  readonly #frame = (): void => {
+    this.#request = 0;
+    const { desk, overlay } = this.#canvases;
+    if (this.#size.width === 0 || this.#size.height === 0) return;
+    const ratio = Math.min(MAX_RATIO, window.devicePixelRatio || 1);
+    const deskContext = beginCanvas(desk, this.#size, ratio);
+    if (deskContext) drawBackdrop(deskContext, this.#view, this.#desk, this.#colors);
+    const overlayContext = beginCanvas(overlay, this.#size, ratio);
+    if (overlayContext) {
+      this.#paint?.(overlayContext, this.#view);
+      if (this.#marker) drawMarker(overlayContext, this.#view, this.#marker, this.#colors);
+      drawRulers(overlayContext, this.#view, this.#size, this.#colors);
+    }
+    if (this.#areStrokesStale) this.#drawStrokes(ratio);
+  };
+
+  #drawStrokes(ratio: number): void {
+    const { strokes } = this.#canvases;
+    const frame: Frame = { ...this.#look, ...this.#size, ratio, view: this.#view };
+    if (this.#renderer && !this.#renderer.draw(frame)) {
+      strokes.style.transform = this.#drawnView ? transformBetween(this.#drawnView, this.#view) : "";
+      this.#refresh(true);
+      return;
+    }
+    strokes.style.transform = "";
+    this.#drawnView = this.#view;
+    this.#areStrokesStale = false;
+  }
+}
+
+/** Shows a picture drawn for `from` as it would lie under `to`. */
+const transformBetween = (from: View, to: View): string => {
+  const f = to.scale / from.scale;
+  return `translate(${to.offsetX - from.offsetX * f}px, ${to.offsetY - from.offsetY * f}px) scale(${f})`;
+};

@@ -1,0 +1,188 @@
+/** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
+import type { JobAction, ApiClient } from "../api/client.js";
+import type { Job, PlotSettings } from "../../src/schema/index.js";
+import { text } from "../text/text.js";
+import type { Planner } from "../worker/planner.js";
+import type { ViewSettings } from "./persist.js";
+import { currentPlotter, type Notice, type PageStore } from "./store.js";
+
+export type Actions = ReturnType<typeof createActions>;
+
+const UNDO_DEPTH = 100;
+/** Changes of the same thing within this time are one step of undo: a slider's way is one change. */
+const COALESCE_MS = 800;
+const INFO_MS = 5_000;
+
+export interface ActionDeps {
+  readonly store: PageStore;
+  readonly api: ApiClient;
+  readonly planner: Pick<Planner, "request">;
+  nowMs(): number;
+  after(delayMs: number, callback: () => void): void;
+}
+
+export const createActions = (deps: ActionDeps) => {
+  const { store, api, planner } = deps;
+  let nextNotice = 1;
+  let nextDrawing = 1;
+  let lastChange = { what: "", atMs: -Infinity };
+
+  const notify = (kind: Notice["kind"], words: string): void => {
+    const notice = { id: nextNotice++, kind, text: words };
+    store.setState(({ notices }) => ({
+      notices: [...notices.filter((n) => n.text !== words), notice].slice(-4),
+    }));
+    if (kind === "info") deps.after(INFO_MS, () => dismiss(notice.id));
+  };
+  const dismiss = (id: number): void =>
+    store.setState(({ notices }) => ({ notices: notices.filter((notice) => notice.id !== id) }));
+
+  /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
+  const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
+    store.setState({ busyAction: name });
+    try {
+      return await request();
+    } catch (error) {
+      notify("error", error instanceof Error ? error.message : String(error));
+      return null;
+    } finally {
+      store.setState(({ busyAction }) => (busyAction === name ? { busyAction: null } : {}));
+    }
+  };
+
+  const replan = (): void => {
+    const { drawing, settings } = store.getState();
+    if (!drawing) return;
+    store.setState({ isPlanning: true });
+    planner.request(drawing, { prepare: settings.prepare, motion: settings.motion, pen: settings.pen });
+  };
+
+  const setSettings = (settings: PlotSettings): void => {
+    store.setState(({ drawing }) => ({ settings, drawing: drawing && { ...drawing, jobId: null } }));
+    replan();
+  };
+
+  /** `what` names the thing changed, for undo. */
+  const changeSettings = (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
+    const { settings, undoStack } = store.getState();
+    const isSame = what === lastChange.what && deps.nowMs() - lastChange.atMs < COALESCE_MS;
+    lastChange = { what, atMs: deps.nowMs() };
+    store.setState({
+      undoStack: isSame ? undoStack : [...undoStack, settings].slice(-UNDO_DEPTH),
+      redoStack: [],
+    });
+    setSettings(change(settings));
+  };
+
+  const step = (from: "undoStack" | "redoStack", to: "undoStack" | "redoStack"): void => {
+    const state = store.getState();
+    const target = state[from].at(-1);
+    if (!target) return;
+    lastChange = { what: "", atMs: -Infinity };
+    store.setState({ [from]: state[from].slice(0, -1), [to]: [...state[to], state.settings] });
+    setSettings(target);
+  };
+
+  const openDrawing = (name: string, svg: string, jobId: string | null = null): void => {
+    store.setState(({ settings }) => ({
+      drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId },
+      settings: jobId === null ? withoutHidden(settings) : settings,
+      planned: null,
+      fault: null,
+    }));
+    replan();
+  };
+
+  const openFile = async (file: File): Promise<void> => {
+    const svg = await file.text();
+    if (svg.slice(0, 4_096).includes("\0")) notify("error", text.drawing.notText(file.name));
+    else openDrawing(file.name.replace(/\.svgz?$/i, ""), svg);
+  };
+
+  const openPasted = (svg: string): void => {
+    if (/<svg[\s>]/i.test(svg)) openDrawing(text.drawing.pastedName, svg);
+    else notify("error", text.drawing.pasteNothing);
+  };
+
+  const openSample = async (name: string, title: string): Promise<void> => {
+    const svg = await attempt("sample", () => api.sample(name));
+    if (svg !== null) openDrawing(title, svg);
+  };
+
+  const openJob = async (job: Job): Promise<void> => {
+    const svg = await attempt(`open ${job.id}`, () => api.jobDrawing(job.id));
+    if (svg === null) return;
+    store.setState({ settings: job.settings, undoStack: [], redoStack: [] });
+    openDrawing(job.name, svg, job.id);
+  };
+
+  const addToQueue = async (): Promise<Job | null> => {
+    const state = store.getState();
+    const { drawing, settings } = state;
+    if (!drawing) return null;
+    const plotterId = currentPlotter(state)?.id;
+    const newJob = {
+      name: drawing.name,
+      drawing: drawing.text,
+      settings,
+      ...(plotterId ? { plotterId } : {}),
+    };
+    const job = await attempt("add", () => api.addJob(newJob));
+    if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
+      store.setState({ drawing: { ...drawing, jobId: job.id } });
+    }
+    return job;
+  };
+
+  return {
+    notify,
+    dismiss,
+    replan,
+    changeSettings,
+    undo: () => step("undoStack", "redoStack"),
+    redo: () => step("redoStack", "undoStack"),
+    changeView: (change: Partial<ViewSettings>): void =>
+      store.setState(({ view }) => ({ view: { ...view, ...change } })),
+    openDrawing,
+    openFile,
+    openPasted,
+    openSample,
+    openJob,
+    queueDrawing: async (): Promise<void> => {
+      const job = await addToQueue();
+      if (job) notify("info", text.plot.added(job.name));
+    },
+    plotDrawing: async (): Promise<void> => {
+      const job = await addToQueue();
+      if (job && (await attempt("plot", () => api.actOnJob(job.id, "start")))) {
+        notify("info", text.plot.started(job.name));
+      }
+    },
+    actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => api.actOnJob(id, action)),
+    moveJob: (id: string, beforeId: string | null) => attempt(`move ${id}`, () => api.moveJob(id, beforeId)),
+    removeJob: (id: string) => attempt(`remove ${id}`, () => api.removeJob(id)),
+    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (!id) return notify("error", text.plot.needsServer);
+      await attempt("pen", () => api.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
+    },
+    motorsOff: async (): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("motors-off", () => api.motorsOff(id));
+    },
+    home: async (): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("home", () => api.home(id));
+    },
+    loadSamples: async (): Promise<void> => {
+      const samples = await attempt("samples", () => api.samples());
+      if (samples) store.setState({ samples });
+    },
+  };
+};
+
+/** Layer switches belong to the drawing that was on the paper. */
+const withoutHidden = (settings: PlotSettings): PlotSettings =>
+  settings.prepare.hiddenLayers.length === 0
+    ? settings
+    : { ...settings, prepare: { ...settings.prepare, hiddenLayers: [] } };

@@ -1,0 +1,105 @@
+/**
+ * What the page remembers between visits, parsed by the same schema as everything that crosses a wire:
+ * a stored value from an older version that no longer fits is replaced by the default, part by part.
+ */
+import { z } from "zod";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  motionSettingsSchema,
+  penSettingsSchema,
+  prepareSettingsSchema,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+
+const KEY = "plotwright.page.v1";
+
+export const COLOR_MODES = ["speed", "order", "layer", "ink"] as const;
+export type ColorMode = (typeof COLOR_MODES)[number];
+export const THEMES = ["auto", "light", "dark"] as const;
+export type Theme = (typeof THEMES)[number];
+
+export interface ViewSettings {
+  readonly showTravel: boolean;
+  readonly colorBy: ColorMode;
+  readonly theme: Theme;
+  /** Ids of the groups of settings that are folded open. */
+  readonly openGroups: readonly string[];
+}
+
+export const DEFAULT_VIEW: ViewSettings = {
+  showTravel: false,
+  colorBy: "speed",
+  theme: "auto",
+  openGroups: ["drawing", "paper", "layers", "motion"],
+};
+
+const viewSchema = z.object({
+  showTravel: z.boolean(),
+  colorBy: z.enum(COLOR_MODES),
+  theme: z.enum(THEMES),
+  openGroups: z.array(z.string().max(50)).max(50),
+}) satisfies z.ZodType<ViewSettings>;
+
+export interface Remembered {
+  readonly settings: PlotSettings;
+  readonly view: ViewSettings;
+}
+
+/** What of localStorage is used; a private window may refuse it. */
+export interface TextStore {
+  getItem(key: string): string | null;
+  setItem(key: string, value: string): void;
+}
+
+/** Never throws: each part that does not parse is the default. */
+export const parseRemembered = (stored: string | null): Remembered => {
+  const root = recordOf(parseJson(stored));
+  const settings = recordOf(root.settings);
+  return {
+    settings: {
+      machine: z.string().min(1).max(100).catch(DEFAULT_PLOT_SETTINGS.machine).parse(settings.machine),
+      prepare: partOr(prepareSettingsSchema, DEFAULT_PLOT_SETTINGS.prepare, settings.prepare),
+      motion: partOr(motionSettingsSchema, DEFAULT_PLOT_SETTINGS.motion, settings.motion),
+      pen: partOr(penSettingsSchema, DEFAULT_PLOT_SETTINGS.pen, settings.pen),
+    },
+    view: partOr(viewSchema, DEFAULT_VIEW, root.view),
+  };
+};
+
+/** Fields that a newer version added come from the default; a part that still does not fit is the default. */
+const partOr = <T extends object>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
+  const result = schema.safeParse({ ...whole, ...recordOf(stored) });
+  return result.success ? result.data : whole;
+};
+
+const parseJson = (stored: string | null): unknown => {
+  if (stored === null) return null;
+  try {
+    return JSON.parse(stored);
+  } catch {
+    return null;
+  }
+};
+
+const recordOf = (value: unknown): Record<string, unknown> =>
+  typeof value === "object" && value !== null && !Array.isArray(value)
+    ? (value as Record<string, unknown>)
+    : {};
+
+export const readRemembered = (store: TextStore | null): Remembered => {
+  try {
+    return parseRemembered(store?.getItem(KEY) ?? null);
+  } catch {
+    return parseRemembered(null);
+  }
+};
+
+/** Layer switches belong to one drawing, so they are not kept. */
+export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
+  const kept = { settings: { ...settings, prepare: { ...settings.prepare, hiddenLayers: [] } }, view };
+  try {
+    store?.setItem(KEY, JSON.stringify(kept));
+  } catch {
+    // A full or refused store only means that the next visit begins with the defaults.
+  }
+};

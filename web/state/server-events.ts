@@ -1,0 +1,60 @@
+/** What each event of the server changes in the page's state. Pure. */
+import { ENDED_STATES, type ServerEvent } from "../../src/schema/index.js";
+import type { PageState } from "./store.js";
+
+type Change = Partial<PageState>;
+
+export const applyServerEvent = (state: PageState, event: ServerEvent): Change => {
+  switch (event.type) {
+    case "snapshot":
+      return {
+        ...event.snapshot,
+        ...keepPlotter(
+          state,
+          event.snapshot.plotters.map((plotter) => plotter.id),
+        ),
+      };
+    case "job":
+      return applyJob(state, event.job);
+    case "job-removed":
+      return { jobs: state.jobs.filter((job) => job.id !== event.id) };
+    case "order":
+      return { jobs: ordered(state, event.ids) };
+    case "plotter":
+      return { plotters: upserted(state.plotters, event.plotter) };
+    case "progress":
+      return applyProgress(state, event);
+  }
+};
+
+const keepPlotter = (state: PageState, ids: readonly string[]): Change => ({
+  plotterId: state.plotterId !== null && ids.includes(state.plotterId) ? state.plotterId : (ids[0] ?? null),
+});
+
+const applyJob = (state: PageState, job: PageState["jobs"][number]): Change => {
+  const isOver = ENDED_STATES.includes(job.state) && state.live?.jobId === job.id;
+  return { jobs: upserted(state.jobs, job), ...(isOver ? { live: null } : {}) };
+};
+
+const upserted = <T extends { readonly id: string }>(list: readonly T[], item: T): readonly T[] =>
+  list.some((other) => other.id === item.id)
+    ? list.map((other) => (other.id === item.id ? item : other))
+    : [...list, item];
+
+/** In the given order; ids that the page has not heard of yet are skipped, jobs not named go last. */
+const ordered = ({ jobs }: PageState, ids: readonly string[]): PageState["jobs"] => {
+  const place = new Map(ids.map((id, index) => [id, index]));
+  const placeOf = (id: string): number => place.get(id) ?? ids.length;
+  return [...jobs].sort((a, b) => placeOf(a.id) - placeOf(b.id));
+};
+
+const applyProgress = (state: PageState, event: Extract<ServerEvent, { type: "progress" }>): Change => {
+  const { jobId, plotterId, progress, elapsedS, remainingS, planS, xMm, yMm, penUp } = event;
+  return {
+    live: { jobId, plotterId, planS, xMm, yMm, penUp },
+    jobs: state.jobs.map((job) => (job.id === jobId ? { ...job, progress, elapsedS, remainingS } : job)),
+    plotters: state.plotters.map((plotter) =>
+      plotter.id === plotterId ? { ...plotter, xMm, yMm, penUp } : plotter,
+    ),
+  };
+};

@@ -1,0 +1,96 @@
+/** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
+import { createStore } from "zustand/vanilla";
+import type { Job, PlotSettings, Plotter } from "../../src/schema/index.js";
+import type { PlanFault, Planned } from "../worker/protocol.js";
+import type { Remembered, ViewSettings } from "./persist.js";
+
+/** The drawing on the paper. */
+export interface OpenDrawing {
+  readonly key: string;
+  readonly name: string;
+  readonly text: string;
+  /** The job that it was opened from or sent as, while the settings are still that job's. */
+  readonly jobId: string | null;
+}
+
+export type ServerLink = "connecting" | "connected" | "lost";
+
+/** The latest live report of a plot. */
+export interface LivePlot {
+  readonly jobId: string;
+  readonly plotterId: string;
+  readonly planS: number;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+}
+
+export interface Notice {
+  readonly id: number;
+  readonly kind: "info" | "error";
+  readonly text: string;
+}
+
+export interface SampleInfo {
+  readonly name: string;
+  readonly title: string;
+}
+
+export interface PageState {
+  readonly settings: PlotSettings;
+  readonly undoStack: readonly PlotSettings[];
+  readonly redoStack: readonly PlotSettings[];
+  readonly view: ViewSettings;
+
+  readonly drawing: OpenDrawing | null;
+  readonly planned: Planned | null;
+  readonly isPlanning: boolean;
+  readonly fault: PlanFault | null;
+
+  readonly link: ServerLink;
+  readonly version: string | null;
+  readonly plotters: readonly Plotter[];
+  readonly plotterId: string | null;
+  readonly jobs: readonly Job[];
+  readonly live: LivePlot | null;
+  readonly samples: readonly SampleInfo[];
+
+  readonly notices: readonly Notice[];
+  /** The button whose request is under way, by name: it is disabled meanwhile. */
+  readonly busyAction: string | null;
+}
+
+export const createPageStore = ({ settings, view }: Remembered) =>
+  createStore<PageState>()(() => ({
+    settings,
+    undoStack: [],
+    redoStack: [],
+    view,
+    drawing: null,
+    planned: null,
+    isPlanning: false,
+    fault: null,
+    link: "connecting",
+    version: null,
+    plotters: [],
+    plotterId: null,
+    jobs: [],
+    live: null,
+    samples: [],
+    notices: [],
+    busyAction: null,
+  }));
+
+export type PageStore = ReturnType<typeof createPageStore>;
+
+/** The plotter that the page shows and sends to. */
+export const currentPlotter = (state: PageState): Plotter | null =>
+  state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
+
+export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused"];
+
+/** The job that the current plotter is at, if any. */
+export const activeJob = (state: PageState): Job | null => {
+  const plotterId = currentPlotter(state)?.id;
+  return state.jobs.find((job) => ACTIVE_STATES.includes(job.state) && job.plotterId === plotterId) ?? null;
+};

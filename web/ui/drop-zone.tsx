@@ -1,0 +1,66 @@
+import { useEffect, useState, type ReactNode } from "react";
+
+interface DropZoneProps {
+  readonly hint: string;
+  onFile(file: File): void;
+  onText(text: string): void;
+  readonly children: ReactNode;
+}
+
+/** Takes files dropped anywhere on the page, and text pasted anywhere but into a field. */
+export const DropZone = ({ hint, onFile, onText, children }: DropZoneProps) => {
+  const [isOver, setOver] = useState(false);
+  useEffect(() => {
+    // Drag events come from every element on the way: entering counts up, leaving counts down.
+    let depth = 0;
+    const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+    const enter = (event: DragEvent): void => {
+      if (!hasFiles(event)) return;
+      depth++;
+      setOver(true);
+    };
+    const leave = (event: DragEvent): void => {
+      if (hasFiles(event) && --depth <= 0) setOver(false);
+    };
+    const over = (event: DragEvent): void => {
+      if (hasFiles(event)) event.preventDefault();
+    };
+    const drop = (event: DragEvent): void => {
+      depth = 0;
+      setOver(false);
+      const file = event.dataTransfer?.files[0];
+      if (!file) return;
+      event.preventDefault();
+      onFile(file);
+    };
+    const paste = (event: ClipboardEvent): void => {
+      if (event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement) return;
+      const file = event.clipboardData?.files[0];
+      const text = event.clipboardData?.getData("text/plain") ?? "";
+      if (file) onFile(file);
+      else if (text !== "") onText(text);
+    };
+    document.addEventListener("dragenter", enter);
+    document.addEventListener("dragleave", leave);
+    document.addEventListener("dragover", over);
+    document.addEventListener("drop", drop);
+    document.addEventListener("paste", paste);
+    return () => {
+      document.removeEventListener("dragenter", enter);
+      document.removeEventListener("dragleave", leave);
+      document.removeEventListener("dragover", over);
+      document.removeEventListener("drop", drop);
+      document.removeEventListener("paste", paste);
+    };
+  }, [onFile, onText]);
+  return (
+    <>
+      {children}
+      {isOver && (
+        <div className="drop-hint" aria-hidden="true">
+          <p>{hint}</p>
+        </div>
+      )}
+    </>
+  );
+};

@@ -1,0 +1,29 @@
+import { Component, type ReactNode } from "react";
+import { text } from "../text/text.js";
+
+interface State {
+  readonly message: string | null;
+}
+
+/** A fault in drawing the page itself: said in words instead of an empty window. */
+export class ErrorBoundary extends Component<{ readonly children: ReactNode }, State> {
+  override state: State = { message: null };
+
+  static getDerivedStateFromError(error: unknown): State {
+    return { message: error instanceof Error ? error.message : String(error) };
+  }
+
+  override render(): ReactNode {
+    if (this.state.message === null) return this.props.children;
+    return (
+      <main className="crash" role="alert">
+        <h1>{text.errors.title}</h1>
+        <p>{text.errors.unexpected}</p>
+        <p className="note">{this.state.message}</p>
+        <button type="button" className="button button-primary" onClick={() => location.reload()}>
+          {text.errors.reload}
+        </button>
+      </main>
+    );
+  }
+}

@@ -1,0 +1,33 @@
+/** Line icons on a 20 × 20 grid, drawn with the text's colour. Decoration: the button has the words. */
+const PATHS = {
+  plus: "M10 4v12M4 10h12",
+  minus: "M4 10h12",
+  fit: "M4 8V4h4M12 4h4v4M16 12v4h-4M8 16H4v-4",
+  chevron: "M6 8l4 4 4-4",
+  up: "M5 12l5-5 5 5",
+  down: "M5 8l5 5 5-5",
+  close: "M5 5l10 10M15 5L5 15",
+  play: "M7 4.5v11l8.5-5.5z",
+  pause: "M7 4.5v11M13 4.5v11",
+  again: "M15.5 10a5.5 5.5 0 1 1-1.8-4.1M15.5 3v3.4h-3.4",
+  eye: "M2.5 10S5.5 5 10 5s7.5 5 7.5 5-3 5-7.5 5-7.5-5-7.5-5zM10 12a2 2 0 1 0 0-4 2 2 0 0 0 0 4z",
+  file: "M5 3h7l3.5 3.5V17H5zM12 3v3.5h3.5",
+  turn: "M4 11a6 6 0 1 0 2-4.5M4 3v4h4",
+  sun: "M10 13.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7zM10 2v2M10 16v2M2 10h2M16 10h2M4.3 4.3l1.4 1.4M14.3 14.3l1.4 1.4M15.7 4.3l-1.4 1.4M5.7 14.3l-1.4 1.4",
+  moon: "M16 11.5A6.5 6.5 0 1 1 8.5 4a5 5 0 0 0 7.5 7.5z",
+  auto: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
+  travel: "M3 15l4-9 4 8 5-10",
+  warning: "M10 3l7.5 13h-15zM10 8.5v3.5M10 14v.5",
+  undo: "M7 5L4 8l3 3M4 8h7a4.5 4.5 0 0 1 0 9H8",
+  redo: "M13 5l3 3-3 3M16 8H9a4.5 4.5 0 0 0 0 9h3",
+  help: "M7.5 7.5a2.5 2.5 0 1 1 3.6 2.3c-.8.4-1.1.9-1.1 1.7M10 14.3v.4",
+  home: "M3.5 9.5L10 4l6.5 5.5M5.5 8.5V16h9V8.5",
+} as const;
+
+export type IconName = keyof typeof PATHS;
+
+export const Icon = ({ name }: { name: IconName }) => (
+  <svg className="icon" viewBox="0 0 20 20" aria-hidden="true">
+    <path d={PATHS[name]} />
+  </svg>
+);

@@ -1,0 +1,130 @@
+/**
+ * Text -> drawing -> strokes -> trajectory -> scene, away from the page's thread.
+ *
+ * Only the newest request counts: between two stages the worker lets messages in, and drops what it is
+ * doing when a newer request is there. Each stage keeps its last result, so a change of speed does not
+ * import the file again, and a change of margin does not either.
+ */
+import {
+  importSvg,
+  plan,
+  pointCount,
+  prepare,
+  strokeCount,
+  trajectoryStats,
+  type Drawing,
+  type Trajectory,
+} from "../../src/index.js";
+import { buildScene } from "../preview/scene.js";
+import type { Planned, PlanFault, PlanRequest, WorkerReply, WorkerRequest } from "./protocol.js";
+
+interface WorkerScope {
+  onmessage: ((event: MessageEvent<WorkerRequest>) => void) | null;
+  postMessage(reply: WorkerReply, transfer: Transferable[]): void;
+}
+const scope = self as unknown as WorkerScope;
+
+let newest: PlanRequest | null = null;
+let isRunning = false;
+/** The last text that came, until it has been read. */
+let received: { key: string; text: string } | null = null;
+let imported: { key: string; drawing: Drawing } | null = null;
+let prepared: { key: string; result: ReturnType<typeof prepare> } | null = null;
+
+scope.onmessage = (event) => {
+  newest = event.data;
+  if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
+  if (!isRunning) void run();
+};
+
+async function run(): Promise<void> {
+  isRunning = true;
+  while (newest) {
+    const request = newest;
+    newest = null;
+    scope.postMessage({ type: "started", id: request.id }, []);
+    const reply = await answer(request);
+    if (reply) scope.postMessage(reply, reply.type === "planned" ? transferables(reply.planned) : []);
+  }
+  isRunning = false;
+}
+
+/** Null where a newer request has come in between. */
+async function answer(request: PlanRequest): Promise<WorkerReply | null> {
+  const { id, drawingKey, settings } = request;
+  let stage: PlanFault["stage"] = "import";
+  try {
+    const t0 = performance.now();
+    const drawing = drawingOf(request);
+    const t1 = performance.now();
+    if (await isSuperseded()) return null;
+    stage = "plan";
+    const ready = preparedOf(drawingKey, drawing, request);
+    const t2 = performance.now();
+    if (await isSuperseded()) return null;
+    const trajectory = plan(ready.strokes, settings.motion, settings.pen);
+    const t3 = performance.now();
+    if (await isSuperseded()) return null;
+    const scene = buildScene(trajectory, ready.strokes.layer);
+    const t4 = performance.now();
+    const planned: Planned = {
+      drawingKey,
+      settings,
+      pageWidthMm: drawing.widthMm,
+      pageHeightMm: drawing.heightMm,
+      layers: ready.layers,
+      drawnLayers: ready.strokes.layers,
+      fileWarnings: drawing.warnings,
+      layoutWarnings: ready.warnings,
+      strokeCount: strokeCount(ready.strokes),
+      pointCount: pointCount(ready.strokes),
+      stats: trajectoryStats(trajectory),
+      trajectory,
+      scene,
+      tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
+    };
+    return { type: "planned", id, planned };
+  } catch (error) {
+    return { type: "fault", id, fault: faultOf(error, stage) };
+  }
+}
+
+function drawingOf({ drawingKey }: PlanRequest): Drawing {
+  if (imported?.key !== drawingKey) {
+    if (received?.key !== drawingKey)
+      throw new Error("the worker was asked for a drawing it was never given");
+    imported = { key: drawingKey, drawing: importSvg(received.text) };
+  }
+  if (received?.key === drawingKey) received = null;
+  return imported.drawing;
+}
+
+function preparedOf(drawingKey: string, drawing: Drawing, request: PlanRequest): ReturnType<typeof prepare> {
+  const key = `${drawingKey} ${JSON.stringify(request.settings.prepare)}`;
+  if (prepared?.key !== key) prepared = { key, result: prepare(drawing, request.settings.prepare) };
+  return prepared.result;
+}
+
+/** Lets waiting messages in, then tells whether one of them is a newer request. */
+const isSuperseded = async (): Promise<boolean> => {
+  await new Promise((resolve) => setTimeout(resolve, 0));
+  return newest !== null;
+};
+
+const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
+  code: error instanceof Error && "code" in error ? String(error.code) : "internal",
+  message: error instanceof Error ? error.message : String(error),
+  stage,
+});
+
+/** The trajectory's columns and the scene's buffers, each once. */
+function transferables({ trajectory, scene }: Planned): Transferable[] {
+  const buffers = new Set<ArrayBufferLike>([scene.draw.bytes, scene.travel.bytes]);
+  for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
+  return [...buffers] as ArrayBuffer[];
+}
+
+const columnsOf = (trajectory: Trajectory): ArrayBufferView[] =>
+  [...Object.values(trajectory), ...Object.values(trajectory.runs)].filter((value) =>
+    ArrayBuffer.isView(value),
+  );

@@ -1,0 +1,108 @@
+/**
+ * The page's end of the planning worker: the latest request wins.
+ *
+ * A request that overtakes another one lets the worker finish the stage it is in; a worker that has not
+ * turned to the new one PATIENCE_MS later is ended and started afresh, so that a huge drawing that was
+ * dropped by mistake never stands in the way of the next one.
+ */
+import type { PlanFault, Planned, PlanSettings, WorkerReply, WorkerRequest } from "./protocol.js";
+
+const PATIENCE_MS = 1_500;
+
+/** What this needs of a Worker; tests give their own. */
+export interface WorkerLike {
+  postMessage(message: WorkerRequest): void;
+  terminate(): void;
+  onmessage: ((event: MessageEvent<WorkerReply>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+}
+
+export interface PlannerTimer {
+  after(delayMs: number, callback: () => void): () => void;
+}
+
+export interface PlannerListener {
+  onPlanned(planned: Planned): void;
+  onFault(fault: PlanFault): void;
+}
+
+export interface PlannerDrawing {
+  /** Names the text: another text has another key. */
+  readonly key: string;
+  readonly text: string;
+}
+
+export class Planner {
+  readonly #start: () => WorkerLike;
+  readonly #timer: PlannerTimer;
+  readonly #listener: PlannerListener;
+  #worker: WorkerLike | null = null;
+  /** The drawing whose text the running worker has. */
+  #sentKey: string | null = null;
+  #newestId = 0;
+  #latest: { drawing: PlannerDrawing; settings: PlanSettings } | null = null;
+  #isBusy = false;
+  #stopWaiting: (() => void) | null = null;
+
+  constructor(start: () => WorkerLike, timer: PlannerTimer, listener: PlannerListener) {
+    this.#start = start;
+    this.#timer = timer;
+    this.#listener = listener;
+  }
+
+  /** Asks for a plan; whatever was asked before and has not come yet will not come. */
+  request(drawing: PlannerDrawing, settings: PlanSettings): void {
+    this.#latest = { drawing, settings };
+    if (this.#isBusy) this.#stopWaiting ??= this.#timer.after(PATIENCE_MS, () => this.#restart());
+    this.#newestId++;
+    this.#send(drawing, settings);
+  }
+
+  /** Ends the worker. */
+  close(): void {
+    this.#stopWaiting?.();
+    this.#stopWaiting = null;
+    this.#worker?.terminate();
+    this.#worker = null;
+    this.#isBusy = false;
+  }
+
+  #send(drawing: PlannerDrawing, settings: PlanSettings): void {
+    const worker = (this.#worker ??= this.#open());
+    const text = this.#sentKey === drawing.key ? null : drawing.text;
+    this.#sentKey = drawing.key;
+    this.#isBusy = true;
+    worker.postMessage({ type: "plan", id: this.#newestId, drawingKey: drawing.key, text, settings });
+  }
+
+  #open(): WorkerLike {
+    const worker = this.#start();
+    this.#sentKey = null;
+    worker.onmessage = ({ data }) => this.#take(data);
+    worker.onerror = (event) => {
+      this.close();
+      this.#listener.onFault({
+        code: "internal",
+        message:
+          event.message || "The planner stopped. The drawing may be too large for this device's memory.",
+        stage: "plan",
+      });
+    };
+    return worker;
+  }
+
+  #take(reply: WorkerReply): void {
+    if (reply.id !== this.#newestId) return;
+    this.#stopWaiting?.();
+    this.#stopWaiting = null;
+    if (reply.type === "started") return;
+    this.#isBusy = false;
+    if (reply.type === "planned") this.#listener.onPlanned(reply.planned);
+    else this.#listener.onFault(reply.fault);
+  }
+
+  #restart(): void {
+    this.close();
+    if (this.#latest) this.#send(this.#latest.drawing, this.#latest.settings);
+  }
+}

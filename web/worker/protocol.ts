@@ -1,0 +1,69 @@
+/** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
+import type {
+  DrawingWarning,
+  MotionSettings,
+  PenSettings,
+  PreparedLayer,
+  PrepareSettings,
+  StrokeLayer,
+  Trajectory,
+  TrajectoryStats,
+} from "../../src/index.js";
+import type { Scene } from "../preview/scene.js";
+
+export interface PlanSettings {
+  readonly prepare: PrepareSettings;
+  readonly motion: MotionSettings;
+  readonly pen: PenSettings;
+}
+
+/** `drawingKey` names the text; the worker keeps the last drawing, so the text is sent once. */
+export interface PlanRequest {
+  readonly type: "plan";
+  readonly id: number;
+  readonly drawingKey: string;
+  readonly text: string | null;
+  readonly settings: PlanSettings;
+}
+
+export type WorkerRequest = PlanRequest;
+
+/** Everything the page shows of one drawing under one set of settings. */
+export interface Planned {
+  readonly drawingKey: string;
+  readonly settings: PlanSettings;
+  readonly pageWidthMm: number;
+  readonly pageHeightMm: number;
+  /** All of the file's, switched-off ones too. */
+  readonly layers: readonly PreparedLayer[];
+  /** Names and colours of the layers that piece and stroke indices mean. */
+  readonly drawnLayers: readonly StrokeLayer[];
+  /** What of the file can't be drawn, with places on its page. */
+  readonly fileWarnings: readonly DrawingWarning[];
+  /** What this paper and these settings leave out. */
+  readonly layoutWarnings: readonly string[];
+  readonly strokeCount: number;
+  readonly pointCount: number;
+  readonly stats: TrajectoryStats;
+  readonly trajectory: Trajectory;
+  readonly scene: Scene;
+  /** How long the worker took, ms, by stage. */
+  readonly tookMs: {
+    readonly import: number;
+    readonly prepare: number;
+    readonly plan: number;
+    readonly scene: number;
+  };
+}
+
+export interface PlanFault {
+  readonly code: string;
+  readonly message: string;
+  /** What failed: reading the file, or laying it out and planning it. */
+  readonly stage: "import" | "plan";
+}
+
+export type WorkerReply =
+  | { readonly type: "started"; readonly id: number }
+  | { readonly type: "planned"; readonly id: number; readonly planned: Planned }
+  | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
