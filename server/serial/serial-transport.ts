@@ -69,7 +69,7 @@ function lostError(path: string, cause?: Error): PlotwrightError {
 }
 
 /** The system's words, which differ by platform, turned into ours. */
-function openError(path: string, error: Error): PlotwrightError {
+export function openError(path: string, error: Error): PlotwrightError {
   const words = error.message;
   if (/permission denied|EACCES/i.test(words)) {
     return new PlotwrightError("not-allowed", permissionWords(path), { cause: error });
@@ -93,7 +93,7 @@ function openError(path: string, error: Error): PlotwrightError {
   });
 }
 
-export function permissionWords(path: string): string {
+function permissionWords(path: string): string {
   return (
     `This account may not open ${path}. On Linux add it to the port's group (sudo usermod -aG dialout $USER, ` +
     `on Arch: uucp) and log in again, or add the udev rule ` +

@@ -1,0 +1,68 @@
+import { afterEach, describe, expect, it } from "vitest";
+import { openSerial, openError } from "../../server/serial/serial-transport.js";
+import { nodeClock } from "../../server/serial/node-clock.js";
+import { BoardSession, type PlotwrightError } from "../../src/index.js";
+import { PtyBoard } from "../support/pty-board.js";
+
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+const open: { close(): Promise<void> }[] = [];
+const keep = <T extends { close(): Promise<void> }>(thing: T): T => {
+  open.push(thing);
+  return thing;
+};
+afterEach(async () => {
+  for (const thing of open.splice(0).reverse()) await thing.close();
+});
+
+describe("a serial port", () => {
+  it("carries a conversation with a board in another process", async () => {
+    const board = keep(await PtyBoard.open({ firmware: "3.0.3" }));
+    const session = keep(new BoardSession(await openSerial(board.path), { clock: nodeClock }));
+    expect((await session.identify()).firmware).toBe("3.0.3");
+    expect(await session.query("QS")).toBe("0,0");
+  });
+
+  it("brings back a board that answers in its other syntax", async () => {
+    const board = keep(await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true }));
+    const session = keep(new BoardSession(await openSerial(board.path), { clock: nodeClock }));
+    expect((await session.identify()).firmware).toBe("3.0.3");
+    expect(await session.query("QS")).toBe("0,0");
+    expect(session.log.text()).toContain("> CU,10,0");
+  });
+
+  it("is told lost when the cable comes out, with what to do", async () => {
+    const board = keep(await PtyBoard.open());
+    const session = keep(new BoardSession(await openSerial(board.path), { clock: nodeClock }));
+    await session.identify();
+    const lost = new Promise<PlotwrightError>((resolve) => session.onFault(resolve));
+    board.tell({ type: "unplug" });
+    expect(await lost).toMatchObject({ code: "disconnected", message: expect.stringContaining("USB cable") });
+  });
+
+  it("is refused to a second program", async () => {
+    const board = keep(await PtyBoard.open());
+    keep(await openSerial(board.path));
+    expect(await outcome(openSerial(board.path))).toMatch(/^busy: Another program is using \/dev\//);
+  });
+
+  it("says of a path where nothing is how to find the right one", async () => {
+    expect(await outcome(openSerial("/dev/no-such-port"))).toMatch(/^no-board: .*plotwright devices/);
+  });
+
+  it("says of a file that is no port that it is none", async () => {
+    expect(await outcome(openSerial(import.meta.filename))).toMatch(/^no-board: .*cannot be opened/);
+  });
+
+  it.each([
+    ["Linux", "Error: Permission denied, cannot open /dev/ttyACM0", "not-allowed", "udev rule"],
+    ["macOS", "Error: Resource busy, cannot open /dev/tty.usbmodem1", "busy", "Another program"],
+    ["Windows", "Opening COM3: Access denied", "busy", "Another program"],
+    ["Windows", "Opening COM9: File not found", "no-board", "no device"],
+  ])("puts what %s says (%s) into words to act on", (_, words, code, advice) => {
+    const error = openError("PORT", new Error(words));
+    expect(error.code).toBe(code);
+    expect(error.message).toContain(advice);
+  });
+});

@@ -1,0 +1,77 @@
+/** Starts virtual boards behind pseudo-terminals, in other processes, and ends them. */
+import { fork, type ChildProcess } from "node:child_process";
+import { fileURLToPath } from "node:url";
+import type { BoardStatistics, VirtualBoardState } from "../../src/index.js";
+
+export type ToBoard =
+  | { readonly type: "unplug" | "button" | "report" }
+  | { readonly type: "mute"; readonly mute: boolean }
+  | { readonly type: "garbage"; readonly bytes: readonly number[] }
+  | { readonly type: "lose"; readonly count: number }
+  | { readonly type: "volts"; readonly volts: number }
+  | { readonly type: "slow"; readonly bytesPerS: number }
+  | { readonly type: "send"; readonly line: string };
+
+export interface BoardReport {
+  readonly type: "report";
+  readonly state: VirtualBoardState;
+  readonly statistics: BoardStatistics;
+  /** mm from home: x, y, x, y … */
+  readonly drawn: readonly { readonly penDown: boolean; readonly xy: readonly number[] }[];
+}
+
+export type FromBoard = { readonly type: "open"; readonly path: string } | BoardReport;
+
+export class PtyBoard {
+  private constructor(
+    /** The terminal that a driver opens. */
+    readonly path: string,
+    private readonly child: ChildProcess,
+  ) {}
+
+  static async open(
+    options: { firmware?: string; speed?: number; futureSyntax?: boolean } = {},
+  ): Promise<PtyBoard> {
+    const { firmware = "2.8.1", speed = 1, futureSyntax = false } = options;
+    const file = fileURLToPath(new URL("./pty-board-child.ts", import.meta.url));
+    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax })], {
+      execArgv: ["--import", "tsx"],
+    });
+    const opened = await answer(child, "open");
+    return new PtyBoard(opened.path, child);
+  }
+
+  tell(message: ToBoard): void {
+    this.child.send(message);
+  }
+
+  async report(): Promise<BoardReport> {
+    const report = answer(this.child, "report");
+    this.tell({ type: "report" });
+    return report;
+  }
+
+  async close(): Promise<void> {
+    if (this.child.exitCode !== null) return;
+    const gone = new Promise((resolve) => this.child.once("exit", resolve));
+    this.child.disconnect();
+    await gone;
+  }
+}
+
+function answer<T extends FromBoard["type"]>(
+  child: ChildProcess,
+  type: T,
+): Promise<Extract<FromBoard, { type: T }>> {
+  return new Promise((resolve, reject) => {
+    const onExit = (): void => reject(new Error(`the board's process ended before its ${type}`));
+    const onMessage = (message: FromBoard): void => {
+      if (message.type !== type) return;
+      child.off("message", onMessage);
+      child.off("exit", onExit);
+      resolve(message as Extract<FromBoard, { type: T }>);
+    };
+    child.on("message", onMessage);
+    child.once("exit", onExit);
+  });
+}
