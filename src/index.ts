@@ -18,6 +18,13 @@ export { strokeCount, pointCount, type StrokeSet, type StrokeLayer } from "./dra
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
+export {
+  importSvg,
+  importSvgSteps,
+  importSvgWithPauses,
+  type ImportOptions,
+  type Pause,
+} from "./import/import-svg.js";
 
 // prepare
 export { prepare, type Prepared, type PreparedLayer } from "./prepare/prepare.js";
@@ -27,10 +34,18 @@ export { NO_CODES, formatLayerName, parseLayerName, type LayerCodes } from "./pr
 export {
   DEFAULT_PREPARE,
   LAYER_MODES,
+  MIRROR_MODES,
   ORDER_MODES,
+  SPREAD_MODES,
+  type FourMargins,
+  type HatchSettings,
+  type LayerHatch,
   type LayerMode,
+  type MirrorMode,
   type OrderMode,
+  type PlacedBox,
   type PrepareSettings,
+  type SpreadMode,
 } from "./prepare/settings.js";
 
 // plan

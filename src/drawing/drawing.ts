@@ -69,6 +69,11 @@ export interface ClipRegion {
   readonly coords: Float64Array;
   /** One rule for each subpath, in order of VERB_MOVE: RULE_NONZERO or RULE_EVENODD. */
   readonly rule: Uint8Array;
+  /**
+   * For each subpath the shape that it belongs to, 0, 0, 1 …: subpaths of one shape are filled together
+   * under their rule, then the shapes are united. Absent: all subpaths of one rule are one shape.
+   */
+  readonly shape?: Uint32Array;
   readonly parent: number;
 }
 

@@ -1,0 +1,193 @@
+/** Gathers shapes into the columns of a Drawing. Coordinates become page mm here and only here. */
+import {
+  RULE_EVENODD,
+  RULE_NONZERO,
+  type ClipRegion,
+  type DashPattern,
+  type Drawing,
+  type DrawingGroup,
+} from "../drawing/drawing.js";
+import type { Affine } from "../geometry/affine.js";
+import { boxOfPoints, EMPTY_BOX, type Box } from "../geometry/box.js";
+import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
+import { clipIndexFor, type ClipNode } from "./clip-node.js";
+import type { ShapeBuffer } from "./shape-buffer.js";
+import type { Warnings } from "./warnings.js";
+
+/** A kilometre: far beyond any plotter, near enough that µm survive in single arithmetic steps. */
+export const MAX_COORDINATE_MM = 1e6;
+
+/** How a shape is painted. Colours "#rrggbb" or null for none; lengths in page mm. */
+export interface Look {
+  readonly stroke: string | null;
+  readonly fill: string | null;
+  readonly evenOdd: boolean;
+  readonly strokeWidth: number;
+  readonly dash: DashPattern | null;
+}
+
+export class DrawingBuilder {
+  readonly groups: DrawingGroup[] = [];
+  readonly clips: ClipRegion[] = [];
+  private readonly colors: string[] = [];
+  private readonly colorIndex = new Map<string, number>();
+  private readonly dashes: DashPattern[] = [];
+  private readonly dashIndex = new Map<string, number>();
+  private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
+  private readonly coords = new PointBuffer(1024);
+  private readonly verbOffsets = new ColumnBuffer(Uint32Array, 256);
+  private readonly coordOffsets = new ColumnBuffer(Uint32Array, 256);
+  private readonly group = new ColumnBuffer(Uint32Array, 256);
+  private readonly stroke = new ColumnBuffer(Int32Array, 256);
+  private readonly fill = new ColumnBuffer(Int32Array, 256);
+  private readonly fillRule = new ColumnBuffer(Uint8Array, 256);
+  private readonly strokeWidth = new ColumnBuffer(Float32Array, 256);
+  private readonly dash = new ColumnBuffer(Int32Array, 256);
+  private readonly clip = new ColumnBuffer(Int32Array, 256);
+
+  constructor(private readonly warnings: Warnings) {
+    this.verbOffsets.push(0);
+    this.coordOffsets.push(0);
+  }
+
+  get shapeCount(): number {
+    return this.group.length;
+  }
+
+  /** Numbers held so far: what memory and time go by. */
+  get coordCount(): number {
+    return this.coords.length;
+  }
+
+  /** Adds a group; ids already taken get a number, so that they stay distinct. */
+  addGroup(id: string, name: string, hidden: boolean): number {
+    const taken = new Set(this.groups.map((group) => group.id));
+    let unique = id;
+    for (let n = 2; taken.has(unique); n++) unique = `${id}-${n}`;
+    this.groups.push({ id: unique, name, hidden });
+    return this.groups.length - 1;
+  }
+
+  /** Adds `shape`, mapped to page mm. Returns its box, or null where it is out of range and left out. */
+  addShape(
+    shape: ShapeBuffer,
+    map: Affine,
+    look: Look,
+    group: number,
+    clip: ClipNode | null,
+    where: string,
+  ): Box | null {
+    const start = this.coords.length;
+    if (!this.appendMapped(shape.coords, map)) {
+      this.coords.length = start;
+      this.warnings.add("coordinates-out-of-range", undefined, where);
+      return null;
+    }
+    const { verbs } = this;
+    const count = shape.verbs.length;
+    verbs.reserve(count);
+    for (let i = 0; i < count; i++) verbs.data[verbs.length + i] = shape.verbs.data[i];
+    verbs.length += count;
+    this.verbOffsets.push(verbs.length);
+    this.coordOffsets.push(this.coords.length);
+    this.group.push(group);
+    this.stroke.push(this.colorOf(look.stroke));
+    this.fill.push(this.colorOf(look.fill));
+    this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
+    this.strokeWidth.push(look.strokeWidth);
+    this.dash.push(look.dash === null ? -1 : this.dashOf(look.dash));
+    const box = boxOfPoints(this.coords.data, start, this.coords.length);
+    this.clip.push(clip === null ? -1 : clipIndexFor(clip, box, this.clips));
+    return box;
+  }
+
+  /** The box of shapes [from, to). */
+  boxOfShapes(from: number, to: number): Box {
+    if (from >= to) return EMPTY_BOX;
+    return boxOfPoints(this.coords.data, this.coordOffsets.data[from], this.coordOffsets.data[to]);
+  }
+
+  /** Moves everything: for files that do not say where their page is. */
+  translate(dx: number, dy: number): void {
+    const { data, length } = this.coords;
+    for (let i = 0; i < length; i += 2) {
+      data[i] += dx;
+      data[i + 1] += dy;
+    }
+    for (const clip of this.clips) {
+      for (let i = 0; i < clip.coords.length; i += 2) {
+        clip.coords[i] += dx;
+        clip.coords[i + 1] += dy;
+      }
+    }
+  }
+
+  finish(widthMm: number, heightMm: number): Drawing {
+    if (this.shapeCount === 0) this.warnings.add("empty-drawing");
+    return {
+      widthMm,
+      heightMm,
+      groups: this.groups,
+      colors: this.colors,
+      dashes: this.dashes,
+      clips: this.clips,
+      paths: {
+        count: this.shapeCount,
+        verbs: this.verbs.toArray(),
+        coords: this.coords.toArray(),
+        verbOffsets: this.verbOffsets.toArray(),
+        coordOffsets: this.coordOffsets.toArray(),
+        group: this.group.toArray(),
+        stroke: this.stroke.toArray(),
+        fill: this.fill.toArray(),
+        fillRule: this.fillRule.toArray(),
+        strokeWidth: this.strokeWidth.toArray(),
+        dash: this.dash.toArray(),
+        clip: this.clip.toArray(),
+      },
+      warnings: this.warnings.toArray(),
+    };
+  }
+
+  private appendMapped(source: PointBuffer, map: Affine): boolean {
+    const { coords } = this;
+    coords.reserve(source.pointCount);
+    const from = source.data;
+    const to = coords.data;
+    const { a, b, c, d, e, f } = map;
+    let at = coords.length;
+    let inRange = true;
+    for (let i = 0; i < source.length; i += 2) {
+      const x = a * from[i] + c * from[i + 1] + e;
+      const y = b * from[i] + d * from[i + 1] + f;
+      to[at++] = x;
+      to[at++] = y;
+      // Written so that NaN is out of range.
+      if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) inRange = false;
+    }
+    coords.length = at;
+    return inRange;
+  }
+
+  private colorOf(color: string | null): number {
+    if (color === null) return -1;
+    let index = this.colorIndex.get(color);
+    if (index === undefined) {
+      index = this.colors.length;
+      this.colors.push(color);
+      this.colorIndex.set(color, index);
+    }
+    return index;
+  }
+
+  private dashOf(dash: DashPattern): number {
+    const key = `${dash.lengths.join(" ")}@${dash.offset}`;
+    let index = this.dashIndex.get(key);
+    if (index === undefined) {
+      index = this.dashes.length;
+      this.dashes.push(dash);
+      this.dashIndex.set(key, index);
+    }
+    return index;
+  }
+}

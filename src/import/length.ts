@@ -1,0 +1,87 @@
+/** CSS and SVG lengths to user units (CSS px). */
+import { MM_PER_INCH, MM_PER_PX } from "../units.js";
+
+/** What relative units are relative to. */
+export interface LengthBasis {
+  /** px */
+  readonly fontSize: number;
+  /** Size of the nearest viewport in user units: what % means. */
+  readonly viewportWidth: number;
+  readonly viewportHeight: number;
+  /** px; what `rem` means. */
+  readonly rootFontSize: number;
+}
+
+/** Which side of the viewport a percentage is of; "both" is the diagonal / √2, for radii and widths. */
+export type Side = "width" | "height" | "both";
+
+const NUMBER_AND_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;
+
+const PX_PER_MM = 1 / MM_PER_PX;
+const ABSOLUTE: Readonly<Record<string, number>> = {
+  "": 1,
+  px: 1,
+  mm: PX_PER_MM,
+  cm: 10 * PX_PER_MM,
+  q: PX_PER_MM / 4,
+  in: MM_PER_INCH * PX_PER_MM,
+  pt: (MM_PER_INCH * PX_PER_MM) / 72,
+  pc: (MM_PER_INCH * PX_PER_MM) / 6,
+};
+
+/** Number and lower-case unit ("" for none), or null where the text is no length. */
+export function splitLength(text: string): { value: number; unit: string } | null {
+  const match = NUMBER_AND_UNIT.exec(text);
+  if (match === null) return null;
+  const value = Number(match[1]);
+  return Number.isFinite(value) ? { value, unit: match[2].toLowerCase() } : null;
+}
+
+/** px of an absolute length; null for relative, unknown and malformed ones. */
+export function absolutePx(text: string): number | null {
+  const parts = splitLength(text);
+  if (parts === null) return null;
+  const factor = ABSOLUTE[parts.unit];
+  return factor === undefined ? null : parts.value * factor;
+}
+
+/** User units of any length; null where it is malformed or its unit unknown. */
+export function lengthPx(text: string, basis: LengthBasis, side: Side): number | null {
+  // Plain numbers are by far the most common.
+  const plain = Number(text);
+  if (plain === plain && text.length > 0) {
+    return Number.isFinite(plain) && text.trim() !== "" && !/[xX]/.test(text) ? plain : null;
+  }
+  const parts = splitLength(text);
+  if (parts === null) return null;
+  const { value, unit } = parts;
+  const absolute = ABSOLUTE[unit];
+  if (absolute !== undefined) return value * absolute;
+  switch (unit) {
+    case "%":
+      return (value / 100) * percentBasis(basis, side);
+    case "em":
+      return value * basis.fontSize;
+    case "ex":
+    case "ch":
+      return (value * basis.fontSize) / 2;
+    case "rem":
+      return value * basis.rootFontSize;
+    case "vw":
+      return (value / 100) * basis.viewportWidth;
+    case "vh":
+      return (value / 100) * basis.viewportHeight;
+    case "vmin":
+      return (value / 100) * Math.min(basis.viewportWidth, basis.viewportHeight);
+    case "vmax":
+      return (value / 100) * Math.max(basis.viewportWidth, basis.viewportHeight);
+    default:
+      return null;
+  }
+}
+
+function percentBasis(basis: LengthBasis, side: Side): number {
+  if (side === "width") return basis.viewportWidth;
+  if (side === "height") return basis.viewportHeight;
+  return Math.hypot(basis.viewportWidth, basis.viewportHeight) / Math.SQRT2;
+}

@@ -1,0 +1,104 @@
+/**
+ * One shape under construction: verbs and coordinates as in `DrawingPaths`, in whatever units it is drawn in.
+ *
+ * Invariants: every subpath begins with VERB_MOVE and has at least one more verb; a lone move is
+ * taken back when the next begins. A dot is a move and a line to the same place.
+ */
+import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
+import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
+
+export class ShapeBuffer {
+  readonly verbs = new ColumnBuffer(Uint8Array, 256);
+  readonly coords = new PointBuffer(256);
+  /** Where the pen is, and where the open subpath began. */
+  x = 0;
+  y = 0;
+  startX = 0;
+  startY = 0;
+  /** Subpaths of a lone move: nothing of them is drawn. */
+  lonePoints = 0;
+
+  clear(): void {
+    this.verbs.length = 0;
+    this.coords.length = 0;
+    this.lonePoints = 0;
+    this.x = this.y = this.startX = this.startY = 0;
+  }
+
+  get isEmpty(): boolean {
+    return this.verbs.length === 0;
+  }
+
+  moveTo(x: number, y: number): void {
+    this.dropLoneMove();
+    this.verbs.push(VERB_MOVE);
+    this.coords.push(x, y);
+    this.x = this.startX = x;
+    this.y = this.startY = y;
+  }
+
+  lineTo(x: number, y: number): void {
+    this.reopen();
+    this.verbs.push(VERB_LINE);
+    this.coords.push(x, y);
+    this.x = x;
+    this.y = y;
+  }
+
+  cubicTo(x1: number, y1: number, x2: number, y2: number, x: number, y: number): void {
+    this.reopen();
+    this.verbs.push(VERB_CUBIC);
+    this.coords.push(x1, y1);
+    this.coords.push(x2, y2);
+    this.coords.push(x, y);
+    this.x = x;
+    this.y = y;
+  }
+
+  /** The same curve raised to a cubic, exactly. */
+  quadraticTo(qx: number, qy: number, x: number, y: number): void {
+    const x0 = this.x;
+    const y0 = this.y;
+    this.cubicTo(
+      x0 + (2 / 3) * (qx - x0),
+      y0 + (2 / 3) * (qy - y0),
+      x + (2 / 3) * (qx - x),
+      y + (2 / 3) * (qy - y),
+      x,
+      y,
+    );
+  }
+
+  close(): void {
+    const verbs = this.verbs;
+    if (verbs.length === 0) return;
+    const last = verbs.data[verbs.length - 1];
+    if (last === VERB_CLOSE) return;
+    if (last === VERB_MOVE) this.lineTo(this.startX, this.startY);
+    verbs.push(VERB_CLOSE);
+    this.x = this.startX;
+    this.y = this.startY;
+  }
+
+  /** Call once when the shape is complete. */
+  finish(): void {
+    this.dropLoneMove();
+  }
+
+  private dropLoneMove(): void {
+    const verbs = this.verbs;
+    if (verbs.length === 0 || verbs.data[verbs.length - 1] !== VERB_MOVE) return;
+    verbs.length--;
+    this.coords.length -= 2;
+    this.lonePoints++;
+  }
+
+  /** After a close the next segment starts a new subpath at the same start. */
+  private reopen(): void {
+    const verbs = this.verbs;
+    if (verbs.length > 0 && verbs.data[verbs.length - 1] === VERB_CLOSE) {
+      verbs.push(VERB_MOVE);
+      this.coords.push(this.startX, this.startY);
+    }
+  }
+}

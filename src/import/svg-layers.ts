@@ -1,0 +1,108 @@
+/**
+ * Which groups are the file's layers, and what they are called.
+ *
+ * Layers are the groups at the top. One single outer group (or switch, link or nested svg) around
+ * them is looked through, since many programs and scripts wrap everything once.
+ */
+import { attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+
+/** More groups at the top than this are data, not layers: charts have one for each point. */
+const MAX_LAYERS = 200;
+
+/** Wrapping deeper than any program's is not looked through. */
+const MAX_WRAPPERS = 32;
+
+/** Elements that draw nothing where they stand. */
+const NOT_CONTENT = new Set([
+  TEXT_NODE,
+  "defs",
+  "style",
+  "title",
+  "desc",
+  "metadata",
+  "symbol",
+  "clipPath",
+  "mask",
+  "marker",
+  "pattern",
+  "linearGradient",
+  "radialGradient",
+  "filter",
+  "view",
+  "script",
+]);
+const WRAPPERS = new Set(["g", "switch", "a", "svg"]);
+
+export interface LayerPlan {
+  /** The element whose children are layers. */
+  readonly parent: number;
+  /** Whether groups below it are layers of their own; if not, everything is one. */
+  readonly isSplit: boolean;
+  /** Inkscape's own layers are in the file: other groups beside them are no layers. */
+  readonly onlyMarked: boolean;
+  readonly groupCount: number;
+}
+
+export function planLayers(tree: SvgTree): LayerPlan {
+  let parent = 0;
+  for (let depth = 0; depth < MAX_WRAPPERS; depth++) {
+    const content = contentOf(tree, parent);
+    if (content.length !== 1 || !WRAPPERS.has(tagOf(tree, content[0]))) break;
+    const inner = contentOf(tree, content[0]).filter((element) => tagOf(tree, element) === "g");
+    const isLayer = isMarkedLayer(tree, content[0]);
+    if (isLayer ? !inner.some((element) => isMarkedLayer(tree, element)) : !leadsToGroups(tree, content[0])) {
+      break;
+    }
+    parent = content[0];
+  }
+  const groups = contentOf(tree, parent).filter((element) => tagOf(tree, element) === "g");
+  const marked = groups.filter((element) => isMarkedLayer(tree, element));
+  const layers = marked.length > 0 ? marked : groups;
+  return {
+    parent,
+    isSplit: layers.length <= MAX_LAYERS,
+    onlyMarked: marked.length > 0,
+    groupCount: layers.length,
+  };
+}
+
+/** Whether a wrapper holds groups, perhaps inside one more single wrapper. */
+function leadsToGroups(tree: SvgTree, element: number): boolean {
+  for (let at = element; ;) {
+    const content = contentOf(tree, at);
+    if (content.length === 1 && WRAPPERS.has(tagOf(tree, content[0])) && tagOf(tree, at) !== "g") {
+      if (tagOf(tree, content[0]) === "g") return true;
+      at = content[0];
+      continue;
+    }
+    return content.some((child) => tagOf(tree, child) === "g");
+  }
+}
+
+function contentOf(tree: SvgTree, parent: number): number[] {
+  const content: number[] = [];
+  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
+    if (!NOT_CONTENT.has(tagOf(tree, child))) content.push(child);
+  }
+  return content;
+}
+
+export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
+  attribute(tree, element, "inkscape:groupmode") === "layer";
+
+/** inkscape:label, else data-name (Illustrator's original), else the id; null where it has none. */
+export function layerName(tree: SvgTree, element: number): string | null {
+  const label = attribute(tree, element, "inkscape:label") ?? attribute(tree, element, "data-name");
+  if (label !== undefined && label.trim() !== "") return label.trim();
+  const id = attribute(tree, element, "id");
+  return id === undefined || id.trim() === "" ? null : decodeId(id.trim());
+}
+
+/** Illustrator writes characters that an id cannot hold as _xHEX_: "Layer_x5F_1", "_x31_0". */
+const decodeId = (id: string): string =>
+  id.replace(/_x([0-9A-Fa-f]{2,5})_/g, (whole, hex: string) => {
+    const code = parseInt(hex, 16);
+    return code >= 0x20 && code <= 0x10ffff && !(code >= 0xd800 && code <= 0xdfff)
+      ? String.fromCodePoint(code)
+      : whole;
+  });

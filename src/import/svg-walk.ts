@@ -1,0 +1,399 @@
+/**
+ * The walk over the tree: every rendered element in paint order, each with what it inherits.
+ *
+ * Frames are kept on a stack of our own, so that depth costs memory and never the call stack.
+ * `use` is followed as a frame with one child; the chain of targets we are inside of stops circles,
+ * and a budget of visits stops copies of copies from growing without end.
+ */
+import { PlotwrightError } from "../errors.js";
+import { determinant, IDENTITY, isFiniteAffine, translation, type Affine } from "../geometry/affine.js";
+import { compose } from "../geometry/affine.js";
+import { SHAPE_TAGS } from "./basic-shapes.js";
+import { Cascade, type Declared, type Property } from "./cascade.js";
+import { lengthPx, type Side } from "./length.js";
+import { isInsideUseOf, withStyle, withViewport, type Context } from "./svg-context.js";
+import type { SvgDefinitions } from "./svg-definitions.js";
+import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
+import type { SvgPainter } from "./svg-painter.js";
+import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { parseTransform } from "./transform.js";
+import { parseViewBox, viewBoxMap } from "./view-box.js";
+import type { WarningCode, Warnings } from "./warnings.js";
+import type { DrawingBuilder } from "./drawing-builder.js";
+
+/** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
+const MAX_COPIED_ELEMENTS = 1_000_000;
+const MAX_COPIED_COORDS = 50_000_000;
+const MAX_COPY_DEPTH = 200;
+const ELEMENTS_PER_YIELD = 1000;
+const COORDS_PER_YIELD = 100_000;
+
+const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
+const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
+  image: "image-not-drawn",
+  video: "not-supported",
+  audio: "not-supported",
+  canvas: "not-supported",
+  iframe: "not-supported",
+  mesh: "not-supported",
+  flowRoot: "not-supported",
+};
+const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
+
+interface Frame {
+  readonly context: Context;
+  next: number;
+  /** Only `next` itself, not its siblings. */
+  readonly isSingle: boolean;
+  /** A warning about everything drawn inside, placed when the frame ends. */
+  readonly warning: WarningCode | null;
+  readonly firstShape: number;
+}
+
+export class SvgWalk {
+  private readonly declared: Declared = new Map();
+  private readonly stack: Frame[] = [];
+  private copiedElements = 0;
+  private copiedCoords = 0;
+  /** The group of what is drawn outside of every layer; −1 until needed. */
+  private looseGroup = -1;
+  private subtreeEnds: Uint32Array | null = null;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+    private readonly layers: LayerPlan,
+    private readonly definitions: SvgDefinitions,
+    private readonly painter: SvgPainter,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+    private readonly languages: readonly string[],
+  ) {}
+
+  /** Draws everything below the root. Yields often enough for a page to stay responsive. */
+  *run(rootContext: Context): Generator<void, void> {
+    const { tree, stack } = this;
+    this.push(rootContext, tree.firstChildren[0], false, null);
+    let visited = 0;
+    let coordsAtYield = 0;
+    while (stack.length > 0) {
+      const frame = stack[stack.length - 1];
+      const element = frame.next;
+      if (element < 0) {
+        stack.pop();
+        this.leave(frame);
+        continue;
+      }
+      frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
+      this.visit(element, frame.context);
+      visited++;
+      if (visited % ELEMENTS_PER_YIELD === 0 || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+        coordsAtYield = this.builder.coordCount;
+        yield;
+      }
+    }
+  }
+
+  private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
+    this.stack.push({ context, next, isSingle, warning, firstShape: this.builder.shapeCount });
+  }
+
+  private leave(frame: Frame): void {
+    if (frame.warning === null) return;
+    const { builder } = this;
+    if (builder.shapeCount === frame.firstShape) return;
+    this.warnings.add(frame.warning, builder.boxOfShapes(frame.firstShape, builder.shapeCount));
+  }
+
+  private visit(element: number, outer: Context): void {
+    const tag = tagOf(this.tree, element);
+    if (tag === TEXT_NODE) return;
+    const isContainer = CONTAINERS.has(tag);
+    if (!isContainer && !SHAPE_TAGS.has(tag) && tag !== "text") {
+      this.visitOther(element, tag, outer);
+      return;
+    }
+    if (tag === "symbol" && outer.uses?.target !== element) return;
+    if (!this.meetsConditions(element)) return;
+    this.spendCopy(outer);
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const style = computeStyle(outer.style, declared, outer.basis);
+    const group = this.groupOf(element, tag, outer);
+    if (declaredValue(style, declared, "display") === "none") {
+      if (group !== outer.group) this.hideGroup(group);
+      return;
+    }
+    const opacity = declaredValue(style, declared, "opacity");
+    if (opacity !== undefined && parseOpacity(opacity) === 0) return;
+    const transform = this.transformOf(element, style, outer);
+    if (determinant(transform) === 0) return;
+    let context = withStyle(group === outer.group ? outer : { ...outer, group }, style, transform);
+    const warning = this.effectOf(style);
+    const clip = this.definitions.clipOf(element, declaredValue(style, declared, "clip-path"), context);
+    if (clip === "empty") return;
+    if (clip !== context.clip) context = { ...context, clip };
+    if (!isContainer) this.visitLeaf(element, tag, context, warning);
+    else this.enter(element, tag, context, warning);
+  }
+
+  private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+    const before = this.builder.shapeCount;
+    const coordsBefore = this.builder.coordCount;
+    if (tag === "text") this.painter.drawText(element, context);
+    else this.painter.drawShape(element, tag, this.declared, context);
+    if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
+    if (warning !== null && this.builder.shapeCount > before) {
+      this.warnings.add(warning, this.builder.boxOfShapes(before, this.builder.shapeCount));
+    }
+  }
+
+  private enter(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+    const { tree } = this;
+    switch (tag) {
+      case "use":
+        this.enterUse(element, context, warning);
+        return;
+      case "svg":
+      case "symbol": {
+        const inner = this.viewportInside(element, tag, context, outerSizeOf(context, element));
+        if (inner !== null) this.push(inner, tree.firstChildren[element], false, warning);
+        return;
+      }
+      case "switch": {
+        const child = this.chosenChild(element);
+        if (child >= 0) this.push(context, child, true, warning);
+        return;
+      }
+      default:
+        this.push(context, tree.firstChildren[element], false, warning);
+    }
+  }
+
+  private enterUse(element: number, context: Context, warning: WarningCode | null): void {
+    const { tree, warnings } = this;
+    const href = attribute(tree, element, HREF)?.trim() ?? "";
+    const line = `line ${tree.lines[element]}`;
+    if (!href.startsWith("#")) {
+      if (href === "") warnings.add("reference-missing", undefined, line);
+      else warnings.add("reference-external", undefined, href.slice(0, 60));
+      return;
+    }
+    const target = tree.elementById.get(decodeFragment(href.slice(1)));
+    if (target === undefined) {
+      warnings.add("reference-missing", undefined, href.slice(0, 60));
+      return;
+    }
+    const depth = (context.uses?.depth ?? 0) + 1;
+    if (depth > MAX_COPY_DEPTH || isInsideUseOf(context.uses, target) || this.isAncestor(target, element)) {
+      warnings.add("circular-use", undefined, href.slice(0, 60));
+      return;
+    }
+    const x = this.geometry(context, element, "x", "width") ?? 0;
+    const y = this.geometry(context, element, "y", "height") ?? 0;
+    const size = {
+      width: this.geometry(context, element, "width", "width"),
+      height: this.geometry(context, element, "height", "height"),
+    };
+    const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
+    this.push(
+      { ...context, map, uses: { element, target, size, outer: context.uses, depth } },
+      target,
+      true,
+      warning,
+    );
+  }
+
+  private isAncestor(candidate: number, element: number): boolean {
+    this.subtreeEnds ??= subtreeEndsOf(this.tree);
+    return candidate <= element && element < this.subtreeEnds[candidate];
+  }
+
+  /** The context inside a nested svg or a symbol; null where it has no size. */
+  private viewportInside(
+    element: number,
+    tag: string,
+    context: Context,
+    useSize: { readonly width: number | null; readonly height: number | null } | null,
+  ): Context | null {
+    const { tree, declared } = this;
+    const { viewportWidth, viewportHeight } = context.basis;
+    const isSvg = tag === "svg";
+    const x = isSvg ? (this.geometry(context, element, "x", "width") ?? 0) : 0;
+    const y = isSvg ? (this.geometry(context, element, "y", "height") ?? 0) : 0;
+    const ownWidth = this.geometry(context, element, "width", "width");
+    const ownHeight = this.geometry(context, element, "height", "height");
+    const width = useSize?.width ?? ownWidth ?? viewportWidth;
+    const height = useSize?.height ?? ownHeight ?? viewportHeight;
+    if (!(width > 0 && height > 0)) return null;
+    const box = parseViewBox(attribute(tree, element, "viewBox"));
+    const inner =
+      box === null
+        ? IDENTITY
+        : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
+    const overflow = declaredValue(context.style, declared, "overflow");
+    const isCut = overflow !== "visible" && overflow !== "auto";
+    const clip = isCut ? this.definitions.rectangleClip(context, x, y, width, height) : context.clip;
+    const map = compose(translation(x, y), inner);
+    return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
+  }
+
+  private visitOther(element: number, tag: string, outer: Context): void {
+    if (ANIMATIONS.has(tag)) {
+      this.warnings.add("animation-ignored");
+      return;
+    }
+    const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
+    if (code === undefined || !this.meetsConditions(element)) return;
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const style = computeStyle(outer.style, declared, outer.basis);
+    if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
+    const opacity = declaredValue(style, declared, "opacity");
+    if (opacity !== undefined && parseOpacity(opacity) === 0) return;
+    const context = withStyle(outer, style, this.transformOf(element, style, outer));
+    const box = this.painter.placeOf(
+      context,
+      this.geometry(context, element, "x", "width") ?? 0,
+      this.geometry(context, element, "y", "height") ?? 0,
+      this.geometry(context, element, "width", "width") ?? 0,
+      this.geometry(context, element, "height", "height") ?? 0,
+    );
+    this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
+  }
+
+  /** A length that CSS or an attribute may give. Valid while `declared` is of this element. */
+  private geometry(
+    context: Context,
+    element: number,
+    name: "x" | "y" | "width" | "height",
+    side: Side,
+  ): number | null {
+    const text =
+      declaredValue(context.style, this.declared, name as Property) ?? attribute(this.tree, element, name);
+    if (text === undefined || text === "auto") return null;
+    return lengthPx(text, context.basis, side);
+  }
+
+  private transformOf(element: number, style: Context["style"], outer: Context): Affine {
+    const text = declaredValue(style, this.declared, "transform");
+    if (text === undefined) return IDENTITY;
+    const map = parseTransform(text);
+    if (map === null) {
+      this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
+      return IDENTITY;
+    }
+    const origin = declaredValue(style, this.declared, "transform-origin");
+    return origin === undefined ? map : this.aroundOrigin(map, origin, outer);
+  }
+
+  private aroundOrigin(map: Affine, origin: string, context: Context): Affine {
+    const words: Readonly<Record<string, string>> = {
+      left: "0%",
+      top: "0%",
+      center: "50%",
+      right: "100%",
+      bottom: "100%",
+    };
+    const parts = origin.split(/\s+/).map((part) => words[part] ?? part);
+    const x = lengthPx(parts[0], context.basis, "width");
+    const y = lengthPx(parts[1] ?? "50%", context.basis, "height");
+    if (x === null || y === null) return map;
+    const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
+    return isFiniteAffine(moved) ? moved : map;
+  }
+
+  /** A filter or mask that will be missing from what the element draws. */
+  private effectOf(style: Context["style"]): WarningCode | null {
+    for (const [property, code] of [
+      ["mask", "mask-ignored"],
+      ["filter", "filter-ignored"],
+    ] as const) {
+      const value = declaredValue(style, this.declared, property);
+      if (value !== undefined && value !== "none") return code;
+    }
+    return null;
+  }
+
+  /** requiredExtensions and systemLanguage, as `switch` and all elements heed them. */
+  private meetsConditions(element: number): boolean {
+    const extensions = attribute(this.tree, element, "requiredExtensions");
+    if (extensions !== undefined && extensions.trim() !== "") return false;
+    const language = attribute(this.tree, element, "systemLanguage");
+    if (language === undefined) return true;
+    const wanted = language.split(",").map((part) => part.trim().toLowerCase());
+    return this.languages.some((own) => wanted.some((tag) => tag === own || tag.startsWith(`${own}-`)));
+  }
+
+  private chosenChild(element: number): number {
+    const { tree } = this;
+    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+      const tag = tagOf(tree, child);
+      const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
+      if (isDrawn && this.meetsConditions(child)) return child;
+    }
+    return -1;
+  }
+
+  private groupOf(element: number, tag: string, outer: Context): number {
+    const { tree, layers, builder } = this;
+    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
+    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
+    if (isLayer) {
+      const number = builder.groups.length + 1;
+      const name = layerName(tree, element) ?? `Layer ${number}`;
+      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
+    }
+    if (this.looseGroup < 0) {
+      const number = builder.groups.length + 1;
+      this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    }
+    return this.looseGroup;
+  }
+
+  private hideGroup(group: number): void {
+    const { groups } = this.builder;
+    groups[group] = { ...groups[group], hidden: true };
+    this.warnings.add("hidden-layer", undefined, groups[group].name);
+  }
+
+  private spendCopy(context: Context): void {
+    if (context.uses === null) return;
+    this.copiedElements++;
+    if (this.copiedElements <= MAX_COPIED_ELEMENTS && this.copiedCoords <= MAX_COPIED_COORDS) return;
+    throw new PlotwrightError(
+      "bad-file",
+      `The copies (<use>) in this SVG come to more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
+        this.tree.lines[context.uses.element]
+      }). Remove copies of copies, or export with copies resolved.`,
+    );
+  }
+}
+
+/** The size that a `use` gives to the svg or symbol it refers to. */
+function outerSizeOf(
+  context: Context,
+  element: number,
+): { readonly width: number | null; readonly height: number | null } | null {
+  return context.uses?.target === element ? context.uses.size : null;
+}
+
+/** One past the last element inside each element; elements stand in document order. */
+function subtreeEndsOf(tree: SvgTree): Uint32Array {
+  const ends = new Uint32Array(tree.count);
+  for (let element = tree.count - 1; element >= 0; element--) {
+    ends[element] = Math.max(ends[element], element + 1);
+    const parent = tree.parents[element];
+    if (parent >= 0) ends[parent] = Math.max(ends[parent], ends[element]);
+  }
+  return ends;
+}
+
+function decodeFragment(fragment: string): string {
+  try {
+    return decodeURIComponent(fragment);
+  } catch {
+    return fragment;
+  }
+}

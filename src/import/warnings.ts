@@ -1,0 +1,107 @@
+/** Gathers what will not be drawn as the eye sees it: counted by kind, with the first few places. */
+import type { DrawingWarning } from "../drawing/drawing.js";
+import { isEmptyBox, type Box } from "../geometry/box.js";
+
+const MAX_BOXES = 20;
+const MAX_DETAILS = 3;
+
+const many = (count: number, one: string, more: string): string =>
+  count === 1 ? `1 ${one}` : `${count} ${more}`;
+
+/** The words for each kind: how many, what it means on paper, what to do. `details` names the first few. */
+const WORDS = {
+  "text-not-drawn": (n: number) =>
+    `${many(n, "text is", "texts are")} not drawn. Choose single-stroke letters, give a font file, or convert text to paths in your drawing program.`,
+  "text-substituted": (n: number) =>
+    `${many(n, "text is", "texts are")} drawn in single-stroke letters instead of the file's font. Give the font file for its outlines, or convert text to paths.`,
+  "glyphs-missing": (n: number, details: string) =>
+    `${many(n, "character is", "characters are")} not in the font and left out${details}. Use another font, or convert text to paths.`,
+  "image-not-drawn": (n: number) =>
+    `${many(n, "picture is", "pictures are")} not drawn: a pen draws lines. Trace pictures to paths first.`,
+  "foreign-object": (n: number) =>
+    `${many(n, "embedded web page", "embedded web pages")} (foreignObject) not drawn. Export without HTML labels, or convert to paths.`,
+  "filter-ignored": (n: number) =>
+    `${many(n, "filter effect is", "filter effects are")} ignored: the lines are drawn as they are.`,
+  "mask-ignored": (n: number) =>
+    `${many(n, "mask is", "masks are")} ignored, so what they hide is drawn. Use a clip path, or cut the shapes.`,
+  "gradient-stroke": (n: number) =>
+    `${many(n, "line", "lines")} with a gradient or pattern as colour: drawn in one colour.`,
+  "gradient-fill": (n: number) =>
+    `${many(n, "fill", "fills")} with a gradient or pattern: taken as one colour.`,
+  "paint-missing": (n: number, details: string) =>
+    `${many(n, "colour refers", "colours refer")} to something that is not in the file${details}.`,
+  "path-data": (n: number, details: string) =>
+    `${many(n, "path has", "paths have")} a fault and end there${details}. Check them in your drawing program.`,
+  "attribute-fault": (n: number, details: string) =>
+    `${many(n, "attribute is", "attributes are")} malformed and ignored${details}.`,
+  "coordinates-out-of-range": (n: number, details: string) =>
+    `${many(n, "shape has", "shapes have")} coordinates beyond a kilometre and ${n === 1 ? "is" : "are"} left out${details}.`,
+  "single-point": (n: number) =>
+    `${many(n, "path is", "paths are")} a single point and ${n === 1 ? "draws" : "draw"} nothing. Make it a short line for a dot.`,
+  "zero-width-stroke": (n: number) =>
+    `${many(n, "shape has", "shapes have")} a line of width 0, invisible on screen, and ${n === 1 ? "is" : "are"} not drawn. Give it a width.`,
+  "reference-missing": (n: number, details: string) =>
+    `${many(n, "copy refers", "copies refer")} to something that is not in the file${details}.`,
+  "reference-external": (n: number, details: string) =>
+    `${many(n, "copy refers", "copies refer")} to another file and ${n === 1 ? "is" : "are"} not drawn${details}. Embed it.`,
+  "circular-use": (n: number, details: string) =>
+    `${many(n, "copy contains", "copies contain")} itself and ${n === 1 ? "is" : "are"} not drawn${details}.`,
+  "clip-ignored": (n: number, details: string) =>
+    `${many(n, "clip is", "clips are")} of a kind that is ignored${details}: what it hides is drawn. Use a clip path of shapes.`,
+  "style-fault": (n: number, details: string) =>
+    `${many(n, "style rule", "style rules")} could not be read${details}.`,
+  "style-external": (n: number) =>
+    `${many(n, "style sheet is", "style sheets are")} in another file and ignored. Embed the styles.`,
+  "hidden-layer": (n: number, details: string) =>
+    `${many(n, "layer is", "layers are")} hidden in the file and not drawn${details}. Show it in your drawing program to plot it.`,
+  "xml-repaired": (n: number, details: string) =>
+    `${many(n, "fault", "faults")} in the file ${n === 1 ? "was" : "were"} read over${details}.`,
+  "too-many-layers": (n: number) =>
+    `The file has ${n} groups at the top: taken as one layer. Group them into layers.`,
+  "page-size": (_n: number, details: string) =>
+    `The file does not say how large its page is${details}. Check the size on the paper, or export with a width and height in mm.`,
+  "animation-ignored": (n: number) =>
+    `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
+  "not-supported": (n: number, details: string) =>
+    `${many(n, "object is", "objects are")} of a kind that is not drawn${details}. Convert to plain lines and curves.`,
+  "empty-drawing": () =>
+    "There is nothing to draw in this file: no visible line or filled shape. See the other notes, or check that its layers are shown.",
+} satisfies Record<string, (count: number, details: string) => string>;
+
+export type WarningCode = keyof typeof WORDS;
+
+interface Entry {
+  count: number;
+  readonly boxes: (readonly [number, number, number, number])[];
+  readonly details: string[];
+}
+
+export class Warnings {
+  private readonly entries = new Map<WarningCode, Entry>();
+
+  /** `box` in page mm; `detail` is named in the message for the first few. */
+  add(code: WarningCode, box?: Box, detail?: string, count = 1): void {
+    let entry = this.entries.get(code);
+    if (entry === undefined) {
+      entry = { count: 0, boxes: [], details: [] };
+      this.entries.set(code, entry);
+    }
+    entry.count += count;
+    if (box !== undefined && entry.boxes.length < MAX_BOXES && isUsable(box))
+      entry.boxes.push([box.x0, box.y0, box.x1, box.y1]);
+    if (detail !== undefined && entry.details.length < MAX_DETAILS && !entry.details.includes(detail)) {
+      entry.details.push(detail);
+    }
+  }
+
+  toArray(): DrawingWarning[] {
+    return Array.from(this.entries, ([code, { count, boxes, details }]) => {
+      const more = details.length < count && details.length === MAX_DETAILS ? " …" : "";
+      const named = details.length === 0 ? "" : ` (${details.join("; ")}${more})`;
+      return { code, message: WORDS[code](count, named), count, boxes };
+    });
+  }
+}
+
+const isUsable = (box: Box): boolean =>
+  !isEmptyBox(box) && Number.isFinite(box.x0 + box.y0 + box.x1 + box.y1);

@@ -1,0 +1,155 @@
+import { describe, expect, it } from "vitest";
+import { PlotwrightError } from "../../../src/errors.js";
+import { importSvg } from "../../../src/import/import-svg.js";
+
+/** The error that importing `text` throws. */
+function failure(text: string): PlotwrightError {
+  try {
+    importSvg(text);
+  } catch (error) {
+    expect(error).toBeInstanceOf(PlotwrightError);
+    const known = error as PlotwrightError;
+    expect(known.code).toBe("bad-file");
+    return known;
+  }
+  throw new Error("expected the import to fail");
+}
+
+const codes = (text: string): string[] => importSvg(text).warnings.map((warning) => warning.code);
+const isFinite = (text: string): boolean => importSvg(text).paths.coords.every(Number.isFinite);
+
+describe("importSvg on bad files", () => {
+  it.each([
+    ["", "empty"],
+    ["   \n", "empty"],
+    ["hello", "does not begin with <"],
+    ["%PDF-1.7", "PDF"],
+    ["\u0089PNG\r\n", "PNG"],
+    ["\u001f\u008b\u0008", "compressed"],
+    ["<html><body/></html>", "outermost element is <html>"],
+    ['<?xml version="1.0"?><gpx/>', "outermost element is <gpx>"],
+    ["<!DOCTYPE html><html></html>", "<html>"],
+  ])("says that %j is not an SVG, and what it is", (text, words) => {
+    const { message } = failure(text);
+    expect(message).toContain("not an SVG");
+    expect(message).toContain(words);
+  });
+
+  it.each([
+    ["<svg>\n<g>\n<path d='M0 0", 3],
+    ["<svg>\n<g>\n<path d='M0 0'/>", 3],
+    ["\n\n<svg>\n<g></svg>", 4],
+    ["<svg>\n<path d='M0 0' <g/></svg>", 2],
+  ])("names the line where %j is damaged", (text, line) => {
+    expect(failure(text).message).toMatch(new RegExp(`line ${line}, column \\d+`));
+  });
+
+  it("says of a cut-off file that it is cut off", () => {
+    expect(failure("<svg><g><path d='M0 0h1'/>").message).toContain("cut off");
+  });
+
+  it("warns that an empty drawing is empty", () => {
+    const drawing = importSvg('<svg width="10mm" height="10mm"/>');
+    expect(drawing.paths.count).toBe(0);
+    expect(drawing.warnings.map((warning) => warning.code)).toEqual(["empty-drawing"]);
+  });
+
+  it("ends a path at a coordinate that is no number, keeps what came before and says where", () => {
+    const drawing = importSvg(
+      '<svg width="96" height="96">\n<path id="p" stroke="red" d="M0 0L9 9L NaN 4"/></svg>',
+    );
+    expect(drawing.paths.coords.length).toBe(4);
+    const [warning] = drawing.warnings;
+    expect(warning.code).toBe("path-data");
+    expect(warning.message).toContain("line 2, id p");
+    expect(warning.message).toContain("NaN");
+  });
+
+  it.each(["1e300", "-1e300", "1e999", "1e8"])("leaves out a shape that reaches to %s", (far) => {
+    const text = `<svg width="96" height="96"><path stroke="red" d="M0 0L${far} 9"/><path stroke="red" d="M0 0L1 1"/></svg>`;
+    const drawing = importSvg(text);
+    expect(drawing.paths.count).toBe(1);
+    expect(codes(text)).toEqual(["coordinates-out-of-range"]);
+    expect(isFinite(text)).toBe(true);
+  });
+
+  it("stays finite whatever transforms multiply up to", () => {
+    const text = `<svg width="96" height="96">${'<g transform="scale(1e9)">'.repeat(60)}<path stroke="red" d="M0 0L1 1"/>${"</g>".repeat(60)}</svg>`;
+    expect(isFinite(text)).toBe(true);
+    expect(codes(text)).toContain("coordinates-out-of-range");
+  });
+
+  it("refuses a page that no paper could be", () => {
+    expect(failure('<svg width="1e300" height="5"/>').message).toContain("page");
+    expect(failure('<svg viewBox="0 0 1e20 5"/>').message).toContain("page");
+  });
+
+  it("reads 100 000 nested groups", () => {
+    const depth = 100_000;
+    const drawing = importSvg(
+      `<svg width="96" height="96">${"<g>".repeat(depth)}<path stroke="red" d="M0 0L96 96"/>${"</g>".repeat(depth)}</svg>`,
+    );
+    expect(drawing.paths.count).toBe(1);
+    expect(drawing.paths.coords[2]).toBeCloseTo(25.4, 9);
+  });
+
+  it("does not expand entities of the file, so a bomb stays small", () => {
+    const lines = Array.from({ length: 30 }, (_, i) => `<!ENTITY e${i + 1} "${`&e${i};`.repeat(10)}">`).join(
+      "\n",
+    );
+    const text = `<!DOCTYPE svg [<!ENTITY e0 "boom">${lines}]><svg width="9" height="9"><path stroke="red" d="M0 0h5"/><text>&e30;</text></svg>`;
+    const drawing = importSvg(text);
+    expect(drawing.paths.count).toBe(1);
+    expect(drawing.warnings.find((warning) => warning.code === "xml-repaired")?.message).toContain("entity");
+  });
+
+  it("expands the five entities of XML and numeric ones", () => {
+    const drawing = importSvg(
+      '<svg width="9" height="9"><g id="a &amp; b &#x263A;&lt;"><path stroke="red" d="M0&#32;0h5"/></g></svg>',
+    );
+    expect(drawing.groups[0].name).toBe("a & b ☺<");
+    expect(drawing.paths.count).toBe(1);
+  });
+
+  it("stops at copies that contain themselves, near and far", () => {
+    const text = `<svg width="9" height="9"><g id="a"><path stroke="red" d="M0 0h5"/><use href="#b"/></g><g id="b"><use href="#a"/></g><use id="c" href="#c"/></svg>`;
+    expect(codes(text)).toContain("circular-use");
+    expect(importSvg(text).paths.count).toBeLessThan(10);
+  });
+
+  it("refuses copies of copies that grow without end", () => {
+    const levels = Array.from(
+      { length: 40 },
+      (_, i) => `<g id="l${i + 1}">${`<use href="#l${i}"/>`.repeat(10)}</g>`,
+    ).join("");
+    const text = `<svg width="9" height="9"><defs><path id="l0" stroke="red" d="M0 0h5"/>${levels}</defs><use href="#l40"/></svg>`;
+    expect(failure(text).message).toContain("copies");
+  });
+
+  it("survives a chain of 100 000 copies of one another", () => {
+    const chain = Array.from({ length: 100_000 }, (_, i) => `<use id="u${i + 1}" href="#u${i}"/>`).join("");
+    const text = `<svg width="9" height="9"><defs><path id="u0" stroke="red" d="M0 0h5"/>${chain}</defs><use href="#u100000"/></svg>`;
+    expect(codes(text)).toContain("circular-use");
+  });
+
+  it("warns that a path of one point draws nothing, and keeps a dot", () => {
+    expect(codes('<svg width="9" height="9"><path stroke="red" d="M5 5"/></svg>')).toContain("single-point");
+    const dot = importSvg('<svg width="96" height="96"><path stroke="red" d="M48 48z"/></svg>');
+    expect(dot.paths.count).toBe(1);
+    expect([...dot.paths.coords].map((v) => Math.round(v * 1e6) / 1e6)).toEqual([12.7, 12.7, 12.7, 12.7]);
+  });
+
+  it("forgives what browsers forgive in pages, and says so", () => {
+    const drawing = importSvg('<svg width=96 height="96"><path stroke="red" d="M0 0h5"/></svg>');
+    expect(drawing.paths.count).toBe(1);
+    expect(drawing.warnings.map((warning) => warning.code)).toEqual(["xml-repaired"]);
+  });
+
+  it("reads a file of 50 MB", () => {
+    const line = '<path fill="none" stroke="#000" d="M12.5 20.25L30.125 44.5 61 7.75"/>\n';
+    const count = Math.ceil(50_000_000 / line.length);
+    const drawing = importSvg(`<svg width="100mm" height="100mm">${line.repeat(count)}</svg>`);
+    expect(drawing.paths.count).toBe(count);
+    expect(drawing.warnings).toEqual([]);
+  });
+});
