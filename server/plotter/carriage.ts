@@ -1,0 +1,208 @@
+/**
+ * The carriage and pen of one connected board: where they are, and the few ways to move them.
+ *
+ * Places are absolute steps from home. The board's own counters start at 0 whenever its motors are switched
+ * on; `origin` is what they stood for then. An AxiDraw has no end switches: where the carriage stands when
+ * the motors are switched on after a pause by hand *is* home.
+ */
+import {
+  compile,
+  DEFAULT_MOTION,
+  parseSteps,
+  plan,
+  PlotwrightError,
+  servoPosFromPct,
+  Streamer,
+  type BoardState,
+  type MachineProfile,
+  type StreamReport,
+  type Trajectory,
+} from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { Connection } from "./connection.js";
+import { boardStateBefore, machineOf, placeOfSteps } from "./plan-places.js";
+import type { PlannedPlot } from "./types.js";
+
+/** Motion kept ahead of the pen, seconds of ours. */
+const WINDOW_S = 0.3;
+/** How often the board is asked for button and queue while it plays. */
+const POLL_S = 0.25;
+/** Overrun of the planned time that still is no fault, seconds of ours. */
+const STUCK_S = 2;
+
+const EMPTY = {
+  xy: new Float64Array(0),
+  offsets: new Uint32Array(1),
+  layer: new Uint16Array(0),
+  layers: [],
+};
+
+export interface CarriageEvents {
+  /** Pen, motors or place have changed. */
+  changed(): void;
+  /** An answer to one of the queries sent while a stream plays. */
+  polled(line: string, reply: string): void;
+}
+
+export class Carriage {
+  penUp: boolean | null = null;
+  motorsOn: boolean | null = null;
+  /** Underruns of the streams played so far on this connection. */
+  underrunCount = 0;
+
+  private origin: readonly [number, number] = [0, 0];
+  private state: BoardState | null = null;
+  private readonly queueDepth: number;
+
+  constructor(
+    readonly connection: Connection,
+    private readonly events: CarriageEvents,
+  ) {
+    // Without QU,6 (3.0.0) nobody can tell how full a deep queue is.
+    this.queueDepth = connection.features.hasImmediateLift ? connection.features.maxFifoDepth : 1;
+  }
+
+  /** After connecting: a board that kept its counters still knows where the carriage is. */
+  async takeOver(): Promise<void> {
+    const { session, features } = this.connection;
+    if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
+    if (!features.hasStepQuery) return;
+    const [steps1, steps2] = parseSteps(await session.query("QS"));
+    if (steps1 === 0 && steps2 === 0) return;
+    // The accumulators cannot be read: clear them, and the counters with them.
+    await session.send("CS");
+    this.origin = [steps1, steps2];
+    this.state = { steps1, steps2, acc1: 0, acc2: 0 };
+  }
+
+  /** Switches the motors on where they are off. Returns where the carriage stands. */
+  async ready(machine: MachineProfile): Promise<BoardState> {
+    if (this.state) return this.state;
+    const { session, features } = this.connection;
+    await session.send(`EM,${machine.microstepMode},${machine.microstepMode}`);
+    // Before 2.7 EM leaves the accumulators as they were.
+    if (features.hasStepQuery) await session.send("CS");
+    this.origin = [0, 0];
+    this.motorsOn = true;
+    this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+    this.events.changed();
+    return this.state;
+  }
+
+  /** mm from home; null when nobody knows. */
+  place(machine: MachineProfile): { x: number; y: number } | null {
+    return this.state ? placeOfSteps(machine, this.state.steps1, this.state.steps2) : null;
+  }
+
+  /** What a stream that begins now has to be compiled from. */
+  get boardState(): BoardState | null {
+    return this.state;
+  }
+
+  streamer(): Streamer {
+    const { session, boardClock, speed } = this.connection;
+    return new Streamer(session, {
+      clock: boardClock,
+      windowS: WINDOW_S * speed,
+      queueDepth: this.queueDepth,
+      poll: { lines: this.pollLines(), everyS: POLL_S * speed },
+      stuckS: STUCK_S * speed,
+      origin: this.origin,
+      onPoll: (line, reply) => this.events.polled(line, reply),
+    });
+  }
+
+  /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
+  async play(streamer: Streamer, plot: PlannedPlot): Promise<StreamReport> {
+    const start = this.state!;
+    this.motorsOn = true;
+    this.penUp = null;
+    try {
+      const report = await streamer.play(plot.commands);
+      this.state = boardStateBefore(report.end.stream, report.end.commandIndex + 1, start);
+      if (!report.exact) this.misplaced(report);
+      return report;
+    } catch (error) {
+      if (!(error instanceof PlotwrightError && error.code === "conflict")) this.state = null;
+      throw error;
+    } finally {
+      this.underrunCount += streamer.underrunCount;
+      this.events.changed();
+    }
+  }
+
+  /** Pen up, in a straight line to a place, at travel speed. */
+  async walk(x: number, y: number, settings: PlotSettings): Promise<void> {
+    const machine = machineOf(settings);
+    await this.ready(machine);
+    if (this.penUp !== true) await this.movePen(true, settings);
+    const from = this.place(machine)!;
+    const trajectory = planWalk(from.x, from.y, x, y, settings);
+    if (trajectory.blockCount === 0) return;
+    const commands = compile(trajectory, {
+      machine,
+      firmware: this.connection.features.version,
+      pen: settings.pen,
+      start: this.state!,
+    });
+    await this.play(this.streamer(), { trajectory, commands });
+    this.penUp = true;
+    this.events.changed();
+  }
+
+  /** Lifts or drops the pen by hand; resolves when it is there. */
+  async movePen(up: boolean, settings: PlotSettings, heightPct?: number): Promise<void> {
+    const { session, boardClock } = this.connection;
+    const machine = machineOf(settings);
+    const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
+    const waitMs = up ? settings.pen.liftMs : settings.pen.dropMs;
+    await session.send(`SC,${up ? 4 : 5},${servoPosFromPct(machine, pct)}`);
+    await session.send(`SP,${up ? 1 : 0},${Math.round(waitMs)}`, waitMs / 1000);
+    await new Promise<void>((resolve) => void boardClock.after(waitMs / 1000, resolve));
+    this.penUp = up;
+    this.events.changed();
+  }
+
+  /** Lets the carriage be moved by hand; where it is after that, only the user knows. */
+  async motorsOff(): Promise<void> {
+    await this.connection.session.send("EM,0,0");
+    this.motorsOn = false;
+    this.state = null;
+    this.events.changed();
+  }
+
+  /** What keeps the stream's time true and tells of the button. */
+  private pollLines(): readonly string[] {
+    if (this.queueDepth > 1) return ["QU,6", "QG"];
+    return this.connection.features.hasGeneralQuery ? ["QG"] : ["QM"];
+  }
+
+  private misplaced(report: StreamReport): never {
+    const end = report.end;
+    const expected = `${end.stream.steps1[end.commandIndex]}, ${end.stream.steps2[end.commandIndex]}`;
+    throw new PlotwrightError(
+      "board-error",
+      `The board's motors stand at ${report.steps1}, ${report.steps2} steps instead of ${expected}: it was reset ` +
+        "or moved by another program. Set home again before the next plot.",
+    );
+  }
+}
+
+/** A plan to home of nothing, moved so that home is the goal. */
+function planWalk(
+  fromX: number,
+  fromY: number,
+  toX: number,
+  toY: number,
+  settings: PlotSettings,
+): Trajectory {
+  const motion = settings.motion ?? DEFAULT_MOTION;
+  const trajectory = plan(EMPTY, motion, settings.pen, { startX: fromX - toX, startY: fromY - toY });
+  return {
+    ...trajectory,
+    x: trajectory.x.map((x) => x + toX),
+    y: trajectory.y.map((y) => y + toY),
+    endX: trajectory.endX + toX,
+    endY: trajectory.endY + toY,
+  };
+}

@@ -1,0 +1,100 @@
+/** Finds and opens a board, real or virtual, and learns what it can do. */
+import {
+  BoardSession,
+  firmwareFeatures,
+  PlotwrightError,
+  VirtualBoard,
+  type Clock,
+  type FirmwareFeatures,
+  type Transport,
+} from "../../src/index.js";
+import { findBoards } from "../serial/find-boards.js";
+import { scaledClock } from "../serial/node-clock.js";
+import { openSerial } from "../serial/serial-transport.js";
+
+export interface ConnectOptions {
+  /** "auto": the first EiBotBoard on USB, else the virtual board. "virtual", or a serial port's path. */
+  readonly device: string;
+  /** "auto" with no board on USB: true for the virtual board, false to reject with `no-board`. */
+  readonly virtualIfNone: boolean;
+  readonly clock: Clock;
+  /** How many times faster than real time the board runs; only a virtual board is ever not 1. */
+  readonly speed: number;
+  /** Firmware that the built-in virtual board shows. */
+  readonly virtualFirmware: string;
+}
+
+export interface Connection {
+  readonly session: BoardSession;
+  readonly kind: "virtual" | "serial";
+  /** Serial path; null for the built-in virtual board. */
+  readonly device: string | null;
+  readonly features: FirmwareFeatures;
+  /** Counts board seconds. */
+  readonly boardClock: Clock;
+  /** Board seconds in one of ours. */
+  readonly speed: number;
+  /** Present for the built-in virtual board. */
+  readonly virtualBoard: VirtualBoard | null;
+}
+
+/** Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, in words for the user. */
+export async function connect(options: ConnectOptions): Promise<Connection> {
+  const path = options.device === "auto" ? await firstBoard() : options.device;
+  if (path === null && !options.virtualIfNone) throw unplugged();
+  if (path === null || path === "virtual") return connectVirtual(options);
+  return identified(await openSerial(path), "serial", path, options, null);
+}
+
+async function firstBoard(): Promise<string | null> {
+  const boards = await findBoards();
+  return boards[0]?.path ?? null;
+}
+
+function connectVirtual(options: ConnectOptions): Promise<Connection> {
+  const board = new VirtualBoard({
+    clock: options.clock,
+    firmware: options.virtualFirmware,
+    speed: options.speed,
+  });
+  return identified(board.transport(), "virtual", null, options, board);
+}
+
+async function identified(
+  transport: Transport,
+  kind: Connection["kind"],
+  device: string | null,
+  options: ConnectOptions,
+  virtualBoard: VirtualBoard | null,
+): Promise<Connection> {
+  const { clock, speed } = options;
+  const session = new BoardSession(transport, { clock });
+  try {
+    const identity = await session.identify();
+    const features = firmwareFeatures(identity.firmware);
+    return {
+      session,
+      kind,
+      device,
+      features,
+      boardClock: scaledClock(clock, speed),
+      speed,
+      virtualBoard,
+    };
+  } catch (error) {
+    await session.close();
+    throw device === null ? error : atDevice(error, device);
+  }
+}
+
+/** The same failure, saying where. */
+function atDevice(error: unknown, device: string): unknown {
+  if (!(error instanceof PlotwrightError)) return error;
+  return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
+}
+
+const unplugged = (): PlotwrightError =>
+  new PlotwrightError(
+    "no-board",
+    "The plotter is not plugged in any more: check its USB cable and its power.",
+  );

@@ -1,0 +1,247 @@
+/**
+ * One plotter as the queue, the command line and an embedding program see it: connects, plots, moves by hand,
+ * and always says in `state` how it stands and what to do when something is wrong.
+ *
+ *   absent ──connect──> connecting ──> idle <──> busy
+ *      ^                    │            │         │
+ *      └── nothing there ───┴── fault <──┴─────────┘   (tried again every 2 s while a device path is known)
+ */
+import { PlotwrightError, type Clock } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Plotter, type PlotSettings } from "../../src/schema/index.js";
+import { nodeClock } from "../serial/node-clock.js";
+import { Carriage } from "./carriage.js";
+import { connect, type Connection } from "./connection.js";
+import { machineOf } from "./plan-places.js";
+import { CarriageRun } from "./plot-run.js";
+import type { PlotPlanner, PlotRun } from "./types.js";
+
+export interface PlotterOptions {
+  /** "auto" (an EiBotBoard where one is plugged in, else the virtual board), "virtual", or a serial port's path. */
+  readonly device: string;
+  /** How many times faster than real time a virtual board runs; the one behind `device` too. Default 1. */
+  readonly virtualSpeed?: number | undefined;
+  /** Firmware that the built-in virtual board shows. Default 2.8.1. */
+  readonly firmware?: string | undefined;
+  /** Used for moves by hand before the first job. */
+  readonly settings?: PlotSettings | undefined;
+  readonly clock?: Clock | undefined;
+}
+
+export type PlotterState = Omit<Plotter, "id" | "name">;
+
+const RECONNECT_S = 2;
+
+export class PlotterDriver {
+  private readonly clock: Clock;
+  private settings: PlotSettings;
+  private current: PlotterState;
+  private readonly listeners: ((state: PlotterState) => void)[] = [];
+  private connection: Connection | null = null;
+  private carriage: Carriage | null = null;
+  /** Why there is no connection. */
+  private trouble: PlotwrightError | null = null;
+  private connecting: Promise<void> | null = null;
+  private cancelRetry: (() => void) | null = null;
+  private run: CarriageRun | null = null;
+  private movingByHand = false;
+  private closed = false;
+  /** Once a real board was there, the virtual one never takes its place. */
+  private hadSerial = false;
+
+  constructor(private readonly options: PlotterOptions) {
+    this.clock = options.clock ?? nodeClock;
+    this.settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
+    const isVirtual = options.device === "virtual";
+    this.current = {
+      kind: isVirtual || options.device === "auto" ? "virtual" : "serial",
+      device: isVirtual || options.device === "auto" ? null : options.device,
+      connection: "connecting",
+      firmware: null,
+      message: null,
+      penUp: null,
+      motorsOn: null,
+      xMm: null,
+      yMm: null,
+    };
+  }
+
+  get state(): PlotterState {
+    return this.current;
+  }
+
+  onChange(listener: (state: PlotterState) => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** Connects. Never rejects: what is wrong stands in `state`, and is thrown by whatever needs the board. */
+  start(): Promise<void> {
+    this.tell({ connection: "connecting", message: null });
+    return this.startConnecting();
+  }
+
+  /** Commands and replies of the present connection, as text to be downloaded. */
+  log(): string {
+    return this.connection?.session.log.text() ?? "";
+  }
+
+  /** Begins a plot. Rejects with `busy`, or with what keeps the board from being there. */
+  async plot(planner: PlotPlanner, settings: PlotSettings): Promise<PlotRun> {
+    const carriage = await this.idleCarriage();
+    this.settings = settings;
+    const run = new CarriageRun(carriage, planner, settings);
+    this.run = run;
+    this.tell({ connection: "busy" });
+    run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));
+    run.finished.then(
+      () => this.runEnded(),
+      () => this.runEnded(),
+    );
+    return run;
+  }
+
+  async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
+    await this.byHand((carriage) => carriage.movePen(request.up, this.settings, request.heightPct));
+  }
+
+  async motorsOff(): Promise<void> {
+    await this.byHand((carriage) => carriage.motorsOff());
+  }
+
+  /** Lifts the pen and walks to where the carriage stood when the motors were switched on. */
+  async home(): Promise<void> {
+    await this.byHand((carriage) => carriage.walk(0, 0, this.settings));
+  }
+
+  async close(): Promise<void> {
+    this.closed = true;
+    this.cancelRetry?.();
+    await this.connecting;
+    await this.connection?.session.close();
+  }
+
+  private startConnecting(): Promise<void> {
+    this.connecting ??= this.connect().finally(() => {
+      this.connecting = null;
+    });
+    return this.connecting;
+  }
+
+  private async connect(): Promise<void> {
+    this.cancelRetry?.();
+    try {
+      const connection = await connect({
+        device: this.options.device,
+        virtualIfNone: !this.hadSerial,
+        clock: this.clock,
+        speed: this.options.virtualSpeed ?? 1,
+        virtualFirmware: this.options.firmware ?? "2.8.1",
+      });
+      await this.adopt(connection);
+    } catch (error) {
+      this.lost(error instanceof PlotwrightError ? error : internal(error));
+    }
+  }
+
+  private async adopt(connection: Connection): Promise<void> {
+    if (this.closed) {
+      await connection.session.close();
+      return;
+    }
+    this.connection = connection;
+    this.hadSerial ||= connection.kind === "serial";
+    connection.session.onFault((error) => this.lost(error));
+    const carriage = new Carriage(connection, {
+      changed: () => this.carriageChanged(),
+      polled: () => undefined,
+    });
+    await carriage.takeOver();
+    this.carriage = carriage;
+    this.trouble = null;
+    this.tell({
+      kind: connection.kind,
+      device: connection.device,
+      connection: "idle",
+      firmware: connection.features.version,
+      message: this.welcome(connection),
+    });
+    this.carriageChanged();
+  }
+
+  private welcome(connection: Connection): string | null {
+    if (connection.kind === "serial") return null;
+    return this.options.device === "auto"
+      ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
+      : "This is the virtual board: nothing is drawn on paper.";
+  }
+
+  private lost(error: PlotwrightError): void {
+    if (this.closed) return;
+    this.trouble = error;
+    this.carriage = null;
+    void this.connection?.session.close();
+    this.connection = null;
+    const connection = error.code === "no-board" ? "absent" : "fault";
+    this.tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    this.cancelRetry = this.clock.after(RECONNECT_S, () => void this.startConnecting());
+  }
+
+  private runEnded(): void {
+    this.run = null;
+    if (this.carriage) this.tell({ connection: "idle" });
+    this.carriageChanged();
+  }
+
+  private async byHand(action: (carriage: Carriage) => Promise<void>): Promise<void> {
+    const carriage = await this.idleCarriage();
+    this.movingByHand = true;
+    this.tell({ connection: "busy" });
+    try {
+      await action(carriage);
+    } finally {
+      this.movingByHand = false;
+      if (this.carriage) this.tell({ connection: "idle" });
+    }
+  }
+
+  private async idleCarriage(): Promise<Carriage> {
+    await this.connecting;
+    if (this.run) {
+      throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait for its end.");
+    }
+    if (this.movingByHand) {
+      throw new PlotwrightError("busy", "The plotter is still moving: wait until it rests.");
+    }
+    if (!this.carriage) throw this.trouble ?? notStarted();
+    return this.carriage;
+  }
+
+  private carriageChanged(): void {
+    const carriage = this.carriage;
+    if (!carriage) return;
+    const place = carriage.place(machineOf(this.settings));
+    this.tell({
+      penUp: carriage.penUp,
+      motorsOn: carriage.motorsOn,
+      xMm: place?.x ?? null,
+      yMm: place?.y ?? null,
+    });
+  }
+
+  /** While plotting, the run's listeners carry the place to the pages; here it only is kept up to date. */
+  private movedTo(xMm: number, yMm: number, penUp: boolean): void {
+    this.current = { ...this.current, xMm, yMm, penUp };
+  }
+
+  private tell(change: Partial<PlotterState>): void {
+    const keys = Object.keys(change) as (keyof PlotterState)[];
+    if (keys.every((key) => this.current[key] === change[key])) return;
+    this.current = { ...this.current, ...change };
+    for (const listener of this.listeners) listener(this.current);
+  }
+}
+
+const notStarted = (): PlotwrightError =>
+  new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
+
+const internal = (cause: unknown): PlotwrightError =>
+  new PlotwrightError("internal", "Connecting to the board failed for a reason of our own.", { cause });
