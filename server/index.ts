@@ -82,7 +82,6 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       files,
       plotters,
       hub,
-      maxUploadBytes,
       allowedHosts: [...(options.allowedHosts ?? []), ...(options.host === undefined ? [] : [options.host])],
       webDir: packagePath("dist/web"),
       samplesDir: packagePath("samples"),

@@ -18,7 +18,6 @@ export interface AppParts {
   readonly files: DrawingFiles;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly hub: EventHub;
-  readonly maxUploadBytes: number;
   readonly allowedHosts: readonly string[];
   /** Folders with the built page and with the samples. */
   readonly webDir: string;
@@ -55,7 +54,7 @@ function apiRoutes(parts: AppParts): Router {
     response.json(snapshot());
   });
   router.get("/events", (request, response) => parts.hub.open(request, response, snapshot));
-  router.use("/jobs", jobsRoutes(queue, parts.files, parts.maxUploadBytes));
+  router.use("/jobs", jobsRoutes(queue, parts.files));
   router.use("/plotters", plottersRoutes(plotters, queue));
   router.use("/samples", samplesRoutes(parts.samplesDir));
   return router;

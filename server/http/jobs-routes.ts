@@ -14,13 +14,18 @@ import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import { parseWith } from "./errors.js";
 
-const SMALL_BODY = "1mb";
+/** Parsed here at once; larger ones go to disk and are taken apart in a thread. */
+const SMALL_BYTES = 1_000_000;
 
-export function jobsRoutes(queue: JobQueue, files: DrawingFiles, maxUploadBytes: number): Router {
+export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
   const router = Router();
-  const small = express.json({ limit: SMALL_BODY });
+  const small = express.json({ limit: SMALL_BYTES });
 
-  router.post("/", express.json({ limit: maxUploadBytes }), async (request, response) => {
+  router.post("/", (request, response, next) => {
+    if (isSmall(request)) small(request, response, next);
+    else next();
+  });
+  router.post("/", async (request, response) => {
     const job = await (request.is("json") !== false ? addFromJson(request) : addFromFile(request));
     response.status(201).location(`/api/v1/jobs/${job.id}`).json(job);
   });
@@ -69,8 +74,17 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, maxUploadBytes:
   return router;
 
   async function addFromJson(request: Request): Promise<Job> {
-    const { drawing, ...rest } = parseWith(newJobSchema, request.body);
-    return queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+    if (isSmall(request)) {
+      const { drawing, ...rest } = parseWith(newJobSchema, request.body);
+      return queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+    }
+    const { drawing, rest } = await files.addFromJson(bytesOf(request));
+    try {
+      return await queue.add({ ...parseWith(newJobSchema.omit({ drawing: true }), rest), drawing });
+    } catch (error) {
+      await files.remove(drawing.id);
+      throw error;
+    }
   }
 
   /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */
@@ -90,6 +104,11 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, maxUploadBytes:
     }
     return queue.add({ ...wanted, drawing });
   }
+}
+
+function isSmall(request: Request): boolean {
+  const bytes = request.headers["content-length"];
+  return bytes !== undefined && Number(bytes) <= SMALL_BYTES;
 }
 
 /** Leaves the connection open when reading stops early, so that the refusal can still be answered. */

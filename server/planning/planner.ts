@@ -4,11 +4,12 @@
  *
  * A drawing that needs more memory than the worker may have ends the worker, not the server.
  */
-import { Worker } from "node:worker_threads";
+import type { Worker } from "node:worker_threads";
 import { PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot, PlotPlanner } from "../plotter/types.js";
 import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
+import { startWorker } from "./worker-entry.js";
 
 /** Of JavaScript heap; typed arrays come on top of it. */
 const MAX_HEAP_MB = 2_048;
@@ -92,10 +93,8 @@ class PlannerThread {
     this.#ready = this.#wait(null);
     // Whoever opened it may have gone before it is ready; ready() still rejects for those who ask.
     this.#ready.catch(() => undefined);
-    const { url, execArgv } = workerEntry();
-    this.#worker = new Worker(url, {
+    this.#worker = startWorker("plan-worker", import.meta.url, {
       workerData: input,
-      execArgv,
       resourceLimits: { maxOldGenerationSizeMb: MAX_HEAP_MB },
     });
     this.#worker.on("message", (message: FromWorker) => this.#settle(message));
@@ -140,14 +139,6 @@ class PlannerThread {
     for (const waiting of this.#waiting.values()) waiting.reject(this.#ended);
     this.#waiting.clear();
   }
-}
-
-/** Beside this file: compiled (.js) in dist, or the source (.ts), which needs tsx in the thread too. */
-function workerEntry(): { url: URL; execArgv: string[] } {
-  const fromSource = import.meta.url.endsWith(".ts");
-  return fromSource
-    ? { url: new URL("./plan-worker.ts", import.meta.url), execArgv: ["--import", "tsx"] }
-    : { url: new URL("./plan-worker.js", import.meta.url), execArgv: [] };
 }
 
 function workerFault(error: Error): PlotwrightError {

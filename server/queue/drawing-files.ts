@@ -6,6 +6,7 @@ import { randomBytes } from "node:crypto";
 import { open, readdir, rename, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
+import { unpackUpload } from "../planning/unpack.js";
 
 export interface StoredDrawing {
   readonly id: string;
@@ -28,7 +29,7 @@ export class DrawingFiles {
 
   /** Writes a stream to disk as it comes in; throws `too-large` past the limit and leaves nothing behind. */
   async add(chunks: AsyncIterable<Uint8Array> | Iterable<Uint8Array>): Promise<StoredDrawing> {
-    const id = randomBytes(16).toString("hex");
+    const id = newId();
     const draft = join(this.#dir, `incoming-${id}`);
     let bytes = 0;
     const file = await open(draft, "wx", 0o600);
@@ -52,6 +53,24 @@ export class DrawingFiles {
     }
   }
 
+  /** The same for a JSON object with the drawing's text in it: gives back the rest of the object too. */
+  async addFromJson(
+    chunks: AsyncIterable<Uint8Array>,
+  ): Promise<{ readonly drawing: StoredDrawing; readonly rest: unknown }> {
+    const upload = await this.add(chunks);
+    const id = newId();
+    try {
+      const { rest, drawingBytes } = await unpackUpload({
+        path: this.path(upload.id),
+        drawingPath: this.path(id),
+      });
+      await syncFolder(this.#dir);
+      return { drawing: { id, bytes: drawingBytes }, rest };
+    } finally {
+      await this.remove(upload.id);
+    }
+  }
+
   async remove(id: string): Promise<void> {
     await rm(this.path(id), { force: true });
   }
@@ -66,6 +85,8 @@ export class DrawingFiles {
     }
   }
 }
+
+const newId = (): string => randomBytes(16).toString("hex");
 
 export function tooLarge(maxBytes: number): PlotwrightError {
   return new PlotwrightError(

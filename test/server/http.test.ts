@@ -74,6 +74,27 @@ describe("the HTTP interface", () => {
     expect((await fault(await post(JSON.stringify(wrong)))).message).toMatch(/pen\.upPct/);
   });
 
+  it("takes a large drawing as JSON too, byte for byte", async () => {
+    const drawing = `${SVG}<!-- ${"ü🖊\n".repeat(300_000)} -->`;
+    const response = await call("POST", "/jobs", { name: "large", drawing, settings: DEFAULT_PLOT_SETTINGS });
+    expect([response.status, app.logged]).toEqual([201, []]);
+    const { id, settings } = jobSchema.parse(await response.json());
+    expect(settings).toEqual(DEFAULT_PLOT_SETTINGS);
+    expect(await (await call("GET", `/jobs/${id}/drawing`)).text()).toBe(drawing);
+    expect(app.drawingsOnDisk()).toHaveLength(1);
+    for (const wrong of [
+      { drawing },
+      { name: "a", settings: DEFAULT_PLOT_SETTINGS, x: drawing },
+      [drawing],
+    ]) {
+      expect(await fault(await call("POST", "/jobs", wrong))).toMatchObject({
+        status: 400,
+        code: "bad-setting",
+      });
+    }
+    expect(app.drawingsOnDisk()).toHaveLength(1);
+  });
+
   it("carries a job through start, pause, resume, cancel and requeue", async () => {
     const { id } = await add("fern");
     const act = async (name: string): Promise<Job> =>
@@ -273,11 +294,11 @@ describe("the guard", () => {
   });
 
   it("refuses uploads over the limit, whole or streamed, and goes on serving", async () => {
-    const large = "x".repeat(1_100_000);
+    const large = "x".repeat(3_100_000);
     const file = await fetch(`${app.url}/api/v1/jobs`, { method: "POST", body: large });
     expect(await fault(file)).toMatchObject({ status: 413, code: "too-large" });
     async function* pieces(): AsyncGenerator<Uint8Array> {
-      for (let sent = 0; sent < 30; sent++) yield new Uint8Array(50_000);
+      for (let sent = 0; sent < 70; sent++) yield new Uint8Array(50_000);
     }
     const streamed = await fetch(`${app.url}/api/v1/jobs`, {
       method: "POST",

@@ -28,7 +28,7 @@ export async function startApp(
   const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
   prepareDataDir(dir);
   const store = Store.open(dir);
-  const maxUploadBytes = options.maxUploadBytes ?? 1_000_000;
+  const maxUploadBytes = options.maxUploadBytes ?? 3_000_000;
   const files = new DrawingFiles(dir, maxUploadBytes);
   const plotter = new LedPlotter();
   const plotters = new Map([[plotter.id, plotter]]);
@@ -48,7 +48,6 @@ export async function startApp(
     files,
     plotters,
     hub,
-    maxUploadBytes,
     allowedHosts: ["plotter.lan"],
     webDir: join(dir, "web"),
     samplesDir: new URL("../../../samples", import.meta.url).pathname,
