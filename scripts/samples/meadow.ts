@@ -170,7 +170,7 @@ export function meadow(): string {
   const random = seededRandom(7);
   const paths: string[] = [];
   for (let i = 0; i < 46; i++) {
-    const x = 24 + 249 * ((i + 0.8 * random()) / 46);
+    const x = 24 + 238 * ((i + 0.8 * random()) / 46);
     paths.push(...grass(random, x, 16 + 34 * random() ** 1.6, 0.9 * (random() - 0.5), false));
   }
   for (const [x, height, lean] of [[36, 104, -0.1], [126, 118, 0.1], [178, 128, -0.05]] as const) {
