@@ -1,0 +1,66 @@
+import { describe, expect, it } from "vitest";
+import {
+  hexFromRgb,
+  layerColor,
+  legendStops,
+  rampBytes,
+  rampColor,
+  RAMP_SIZE,
+} from "../../web/preview/color-map.js";
+
+/** Relative luminance and contrast as WCAG 2.2 defines them. */
+const luminance = (hex: string): number => {
+  const channel = (at: number): number => {
+    const c = Number.parseInt(hex.slice(at, at + 2), 16) / 255;
+    return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  };
+  return 0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5);
+};
+const contrastOnPaper = (hex: string): number => (luminance("#fefdfb") + 0.05) / (luminance(hex) + 0.05);
+
+describe("the colour ramp", () => {
+  const colors = Array.from({ length: RAMP_SIZE }, (_, i) => rampColor(i / (RAMP_SIZE - 1)));
+
+  it("only gets lighter from slow to fast, so that it can be read in grey", () => {
+    for (let i = 8; i < colors.length; i += 8) {
+      expect(luminance(colors[i]!)).toBeGreaterThan(luminance(colors[i - 8]!));
+    }
+  });
+
+  it("stands out on white paper at every speed", () => {
+    for (const color of colors) expect(contrastOnPaper(color)).toBeGreaterThan(1.9);
+  });
+
+  it("has neighbours that differ by little, and ends that differ by much", () => {
+    const bytes = rampBytes();
+    for (let i = 4; i < bytes.length; i += 4) {
+      for (let c = 0; c < 3; c++) expect(Math.abs(bytes[i + c]! - bytes[i + c - 4]!)).toBeLessThan(12);
+    }
+    expect(luminance(colors.at(-1)!) - luminance(colors[0]!)).toBeGreaterThan(0.35);
+  });
+
+  it("is the same in the legend as on the paper", () => {
+    const bytes = rampBytes();
+    const last = bytes.length - 4;
+    expect(rampColor(1)).toBe(hexFromRgb([bytes[last]!, bytes[last + 1]!, bytes[last + 2]!]));
+    expect(rampColor(-3)).toBe(rampColor(0));
+    expect(rampColor(7)).toBe(rampColor(1));
+  });
+});
+
+describe("the legend", () => {
+  it("runs from rest to the top speed", () => {
+    const stops = legendStops(48, 5);
+    expect(stops.map(({ mmPerS }) => mmPerS)).toEqual([0, 12, 24, 36, 48]);
+    expect(stops[0]!.color).toBe(rampColor(0));
+    expect(stops[4]!.color).toBe(rampColor(1));
+  });
+});
+
+describe("layer colours", () => {
+  it("differ for the first dozen layers", () => {
+    const colors = Array.from({ length: 12 }, (_, i) => layerColor(i));
+    expect(new Set(colors).size).toBe(12);
+    for (const color of colors) expect(color).toMatch(/^#[0-9a-f]{6}$/);
+  });
+});

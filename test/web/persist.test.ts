@@ -1,0 +1,82 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import {
+  DEFAULT_VIEW,
+  parseRemembered,
+  readRemembered,
+  writeRemembered,
+  type TextStore,
+} from "../../web/state/persist.js";
+
+const memoryStore = (): TextStore & { value: string | null } => ({
+  value: null,
+  getItem() {
+    return this.value;
+  },
+  setItem(_key, value) {
+    this.value = value;
+  },
+});
+const defaults = { settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW };
+
+describe("what the page remembers", () => {
+  it("comes back as it was kept", () => {
+    const store = memoryStore();
+    const kept = {
+      settings: { ...DEFAULT_PLOT_SETTINGS, prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, marginMm: 22 } },
+      view: { ...DEFAULT_VIEW, showTravel: true, theme: "dark" as const },
+    };
+    writeRemembered(store, kept);
+    expect(readRemembered(store)).toEqual(kept);
+  });
+
+  it("forgets layer switches, which belong to one drawing", () => {
+    const store = memoryStore();
+    const settings = {
+      ...DEFAULT_PLOT_SETTINGS,
+      prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, hiddenLayers: ["sky"] },
+    };
+    writeRemembered(store, { settings, view: DEFAULT_VIEW });
+    expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual([]);
+  });
+
+  it("is the defaults on a first visit", () => {
+    expect(readRemembered(memoryStore())).toEqual(defaults);
+    expect(readRemembered(null)).toEqual(defaults);
+  });
+
+  it("keeps the parts that still fit and replaces those that do not", () => {
+    const stored = JSON.stringify({
+      settings: { pen: { upPct: 70, downPct: 20, liftMs: 100, dropMs: 100 }, motion: { mode: "warp" } },
+      view: { theme: "dark" },
+    });
+    const { settings, view } = parseRemembered(stored);
+    expect(settings.pen.upPct).toBe(70);
+    expect(settings.motion).toEqual(DEFAULT_PLOT_SETTINGS.motion);
+    expect(view).toEqual({ ...DEFAULT_VIEW, theme: "dark" });
+  });
+
+  it("never throws and never lets an invalid setting in", () => {
+    fc.assert(
+      fc.property(fc.oneof(fc.string(), fc.json(), fc.constant(null)), (stored) => {
+        const { settings } = parseRemembered(stored);
+        expect(settings.prepare.paper.widthMm).toBeGreaterThan(0);
+        expect(Number.isFinite(settings.motion.draw.speedMmPerS)).toBe(true);
+      }),
+    );
+  });
+
+  it("survives a browser that refuses to store", () => {
+    const refusing: TextStore = {
+      getItem() {
+        throw new Error("denied");
+      },
+      setItem() {
+        throw new Error("full");
+      },
+    };
+    expect(() => writeRemembered(refusing, defaults)).not.toThrow();
+    expect(readRemembered(refusing)).toEqual(defaults);
+  });
+});

@@ -1,0 +1,110 @@
+import { describe, expect, it } from "vitest";
+import { DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE } from "../../src/index.js";
+import { Planner, type WorkerLike } from "../../web/worker/planner.js";
+import type { PlanFault, Planned, WorkerReply, WorkerRequest } from "../../web/worker/protocol.js";
+
+const settings = { prepare: DEFAULT_PREPARE, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
+const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
+
+class WorkerByHand implements WorkerLike {
+  readonly asked: WorkerRequest[] = [];
+  isEnded = false;
+  onmessage: ((event: MessageEvent<WorkerReply>) => void) | null = null;
+  onerror: ((event: ErrorEvent) => void) | null = null;
+
+  postMessage(message: WorkerRequest): void {
+    this.asked.push(message);
+  }
+  terminate(): void {
+    this.isEnded = true;
+  }
+  reply(reply: WorkerReply): void {
+    this.onmessage?.({ data: reply } as MessageEvent<WorkerReply>);
+  }
+}
+
+const setUp = () => {
+  const workers: WorkerByHand[] = [];
+  const timers: { callback: () => void; isOn: boolean }[] = [];
+  const heard: string[] = [];
+  const planner = new Planner(
+    () => {
+      const worker = new WorkerByHand();
+      workers.push(worker);
+      return worker;
+    },
+    {
+      after(_delayMs, callback) {
+        const timer = { callback, isOn: true };
+        timers.push(timer);
+        return () => {
+          timer.isOn = false;
+        };
+      },
+    },
+    {
+      onPlanned: (result) => heard.push(result.drawingKey),
+      onFault: (fault: PlanFault) => heard.push(`fault ${fault.message}`),
+    },
+  );
+  const lastOf = <T>(list: readonly T[]): T => list[list.length - 1]!;
+  return {
+    planner,
+    workers,
+    heard,
+    worker: () => lastOf(workers),
+    asked: () => lastOf(lastOf(workers).asked),
+    runTimers: () => timers.filter(({ isOn }) => isOn).forEach(({ callback }) => callback()),
+  };
+};
+
+describe("the planner", () => {
+  it("sends a drawing's text once", () => {
+    const { planner, worker } = setUp();
+    planner.request({ key: "a", text: "<svg/>" }, settings);
+    planner.request({ key: "a", text: "<svg/>" }, settings);
+    planner.request({ key: "b", text: "<svg></svg>" }, settings);
+    expect(worker().asked.map(({ text }) => text)).toEqual(["<svg/>", null, "<svg></svg>"]);
+  });
+
+  it("hands on the newest plan only", () => {
+    const { planner, worker, heard } = setUp();
+    planner.request({ key: "a", text: "" }, settings);
+    planner.request({ key: "b", text: "" }, settings);
+    const [first, second] = worker().asked;
+    worker().reply({ type: "planned", id: first!.id, planned: planned("a") });
+    worker().reply({ type: "planned", id: second!.id, planned: planned("b") });
+    expect(heard).toEqual(["b"]);
+  });
+
+  it("ends a worker that stays with what was overtaken, and asks a new one", () => {
+    const { planner, workers, runTimers, asked, worker, heard } = setUp();
+    planner.request({ key: "huge", text: "huge" }, settings);
+    planner.request({ key: "small", text: "small" }, settings);
+    runTimers();
+    expect(workers).toHaveLength(2);
+    expect(workers[0]!.isEnded).toBe(true);
+    expect(asked()).toMatchObject({ drawingKey: "small", text: "small" });
+    worker().reply({ type: "planned", id: asked().id, planned: planned("small") });
+    expect(heard).toEqual(["small"]);
+  });
+
+  it("lets a worker that has turned to the newest request finish", () => {
+    const { planner, workers, runTimers, asked, worker } = setUp();
+    planner.request({ key: "a", text: "a" }, settings);
+    planner.request({ key: "b", text: "b" }, settings);
+    worker().reply({ type: "started", id: asked().id });
+    runTimers();
+    expect(workers).toHaveLength(1);
+  });
+
+  it("says that the worker died, and starts another for the next request", () => {
+    const { planner, workers, worker, heard } = setUp();
+    planner.request({ key: "a", text: "a" }, settings);
+    worker().onerror?.({ message: "out of memory" } as ErrorEvent);
+    expect(heard).toEqual(["fault out of memory"]);
+    planner.request({ key: "a", text: "a" }, settings);
+    expect(workers).toHaveLength(2);
+    expect(worker().asked[0]!.text).toBe("a");
+  });
+});
