@@ -54,12 +54,7 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
         <strong>{plotter.name}</strong>
         <span>{words.connection[plotter.connection]}</span>
       </p>
-      {plotter.kind === "virtual" && <p className="note">{words.virtualHint}</p>}
-      {plotter.message && (
-        <p className="note note-error" role="alert">
-          {plotter.message}
-        </p>
-      )}
+      <PlotterMessage plotter={plotter} />
       <dl className="facts">
         {facts.map(([label, value]) => (
           <div key={label}>
@@ -70,6 +65,18 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
       </dl>
     </>
   );
+};
+
+const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: Plotter }) => {
+  if (message && (connection === "fault" || connection === "absent")) {
+    return (
+      <p className="note note-error" role="alert">
+        {message}
+      </p>
+    );
+  }
+  if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
+  return message ? <p className="note">{message}</p> : null;
 };
 
 const HandControls = ({ plotter }: { plotter: Plotter | null }) => {
