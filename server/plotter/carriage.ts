@@ -11,10 +11,13 @@ import {
   parseSteps,
   plan,
   PlotwrightError,
-  servoPosFromPct,
+  penCommand,
+  penSetUpCommands,
+  setUpCommands,
   Streamer,
   type BoardState,
   type MachineProfile,
+  type PenSettings,
   type StreamReport,
   type Trajectory,
 } from "../../src/index.js";
@@ -29,6 +32,8 @@ const WINDOW_S = 0.3;
 const POLL_S = 0.25;
 /** Overrun of the planned time that still is no fault, seconds of ours. */
 const STUCK_S = 2;
+/** How long a board that is just connected may still be moving. */
+const STILL_S = 2;
 
 const EMPTY = {
   xy: new Float64Array(0),
@@ -67,6 +72,7 @@ export class Carriage {
     const { session, features } = this.connection;
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
     if (!features.hasStepQuery) return;
+    await this.untilStill();
     const [steps1, steps2] = parseSteps(await session.query("QS"));
     if (steps1 === 0 && steps2 === 0) return;
     // The accumulators cannot be read: clear them, and the counters with them.
@@ -75,13 +81,22 @@ export class Carriage {
     this.state = { steps1, steps2, acc1: 0, acc2: 0 };
   }
 
+  /** A board that was left in mid-plot still plays what it had; it may stand blocked by a long move. */
+  private async untilStill(): Promise<void> {
+    const { session, boardClock } = this.connection;
+    const untilS = boardClock.nowS() + STILL_S * this.connection.speed;
+    for (;;) {
+      const moving = /[1-9]/.test(await session.query("QM", 1));
+      if (!moving || boardClock.nowS() > untilS) return;
+      await new Promise<void>((resolve) => void boardClock.after(0.05, resolve));
+    }
+  }
+
   /** Switches the motors on where they are off. Returns where the carriage stands. */
-  async ready(machine: MachineProfile): Promise<BoardState> {
+  async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
     if (this.state) return this.state;
     const { session, features } = this.connection;
-    await session.send(`EM,${machine.microstepMode},${machine.microstepMode}`);
-    // Before 2.7 EM leaves the accumulators as they were.
-    if (features.hasStepQuery) await session.send("CS");
+    for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
     this.origin = [0, 0];
     this.motorsOn = true;
     this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
@@ -134,7 +149,7 @@ export class Carriage {
   /** Pen up, in a straight line to a place, at travel speed. */
   async walk(x: number, y: number, settings: PlotSettings): Promise<void> {
     const machine = machineOf(settings);
-    await this.ready(machine);
+    await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
     const trajectory = planWalk(from.x, from.y, x, y, settings);
@@ -155,9 +170,13 @@ export class Carriage {
     const { session, boardClock } = this.connection;
     const machine = machineOf(settings);
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
-    const waitMs = up ? settings.pen.liftMs : settings.pen.dropMs;
-    await session.send(`SC,${up ? 4 : 5},${servoPosFromPct(machine, pct)}`);
-    await session.send(`SP,${up ? 1 : 0},${Math.round(waitMs)}`, waitMs / 1000);
+    const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
+    const waitMs = up ? pen.liftMs : pen.dropMs;
+    for (const line of penSetUpCommands(machine, pen)) await session.send(line);
+    await session.send(
+      penCommand(machine, up, pct, Math.abs(pen.upPct - pen.downPct), waitMs),
+      waitMs / 1000,
+    );
     await new Promise<void>((resolve) => void boardClock.after(waitMs / 1000, resolve));
     this.penUp = up;
     this.events.changed();

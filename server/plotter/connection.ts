@@ -3,10 +3,10 @@ import {
   BoardSession,
   firmwareFeatures,
   PlotwrightError,
-  VirtualBoard,
   type Clock,
   type FirmwareFeatures,
   type Transport,
+  type VirtualBoard,
 } from "../../src/index.js";
 import { findBoards } from "../serial/find-boards.js";
 import { scaledClock } from "../serial/node-clock.js";
@@ -20,8 +20,8 @@ export interface ConnectOptions {
   readonly clock: Clock;
   /** How many times faster than real time the board runs; only a virtual board is ever not 1. */
   readonly speed: number;
-  /** Firmware that the built-in virtual board shows. */
-  readonly virtualFirmware: string;
+  /** The built-in virtual board, made when it is needed; the same one after a lost connection. */
+  readonly virtualBoard: () => VirtualBoard;
 }
 
 export interface Connection {
@@ -52,11 +52,7 @@ async function firstBoard(): Promise<string | null> {
 }
 
 function connectVirtual(options: ConnectOptions): Promise<Connection> {
-  const board = new VirtualBoard({
-    clock: options.clock,
-    firmware: options.virtualFirmware,
-    speed: options.speed,
-  });
+  const board = options.virtualBoard();
   return identified(board.transport(), "virtual", null, options, board);
 }
 

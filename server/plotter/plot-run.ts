@@ -121,9 +121,9 @@ export class CarriageRun implements PlotRun {
       if (this.wish === "hold") await this.hold();
       if (this.wish === "cancel") return this.goHome();
       const report = await this.play(plot);
-      if (report.complete) return { kind: "done" };
       const planS = plot.commands.planS[report.end.commandIndex + 1]!;
-      this.carriage.penUp = isPenUpBefore(plot.trajectory, planS);
+      this.carriage.penUp = isPenUpBefore(plot.trajectory, report.complete ? Infinity : planS);
+      if (report.complete) return { kind: "done" };
       from = nextPlace(plot.trajectory, planS);
       if (!from) return this.goHome();
     }
@@ -131,7 +131,7 @@ export class CarriageRun implements PlotRun {
 
   private async plan(from: Place | null): Promise<PlannedPlot> {
     const machine = machineOf(this.settings);
-    const board = await this.carriage.ready(machine);
+    const board = await this.carriage.ready(machine, this.settings.pen);
     const place = this.carriage.place(machine)!;
     if (from === null && strokeCount(this.planner.strokes) === 0) {
       throw new PlotwrightError(

@@ -6,7 +6,7 @@
  *      ^                    │            │         │
  *      └── nothing there ───┴── fault <──┴─────────┘   (tried again every 2 s while a device path is known)
  */
-import { PlotwrightError, type Clock } from "../../src/index.js";
+import { PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Plotter, type PlotSettings } from "../../src/schema/index.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { Carriage } from "./carriage.js";
@@ -47,6 +47,7 @@ export class PlotterDriver {
   private closed = false;
   /** Once a real board was there, the virtual one never takes its place. */
   private hadSerial = false;
+  private virtual: VirtualBoard | null = null;
 
   constructor(private readonly options: PlotterOptions) {
     this.clock = options.clock ?? nodeClock;
@@ -67,6 +68,11 @@ export class PlotterDriver {
 
   get state(): PlotterState {
     return this.current;
+  }
+
+  /** The built-in virtual board while it is what is driven: the line that it draws, its faults on request. */
+  get virtualBoard(): VirtualBoard | null {
+    return this.connection?.virtualBoard ?? null;
   }
 
   onChange(listener: (state: PlotterState) => void): void {
@@ -134,12 +140,22 @@ export class PlotterDriver {
         virtualIfNone: !this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
-        virtualFirmware: this.options.firmware ?? "2.8.1",
+        virtualBoard: () => this.makeVirtual(),
       });
       await this.adopt(connection);
     } catch (error) {
       this.lost(error instanceof PlotwrightError ? error : internal(error));
     }
+  }
+
+  private makeVirtual(): VirtualBoard {
+    this.virtual ??= new VirtualBoard({
+      clock: this.clock,
+      speed: this.options.virtualSpeed ?? 1,
+      firmware: this.options.firmware ?? "2.8.1",
+      machine: machineOf(this.settings),
+    });
+    return this.virtual;
   }
 
   private async adopt(connection: Connection): Promise<void> {

@@ -14,6 +14,7 @@
  * given in runs 20 times faster too. A stream can be cut at any command and another put in its place while
  * the board plays what it has: so a hold, a change of speed and a resume need no gap.
  */
+import { commandLine } from "../ebb/compile.js";
 import type { CommandStream } from "../ebb/command-stream.js";
 import { PlotwrightError } from "../errors.js";
 import { BoardPace } from "./board-pace.js";
@@ -500,11 +501,3 @@ const stuck = (): PlotwrightError =>
 
 const internal = (cause: unknown): PlotwrightError =>
   new PlotwrightError("internal", "The stream to the board broke off for a reason of our own.", { cause });
-
-function commandLine(stream: CommandStream, index: number): string {
-  let line = "";
-  for (let i = stream.textOffsets[index]!; i < stream.textOffsets[index + 1]! - 1; i++) {
-    line += String.fromCharCode(stream.text[i]!);
-  }
-  return line;
-}

@@ -1,0 +1,74 @@
+/**
+ * Whole drawings through serialport and a real pseudo-terminal to a board in another process: what the board
+ * says it has drawn is compared with the file.
+ */
+import { readFileSync } from "node:fs";
+import { afterEach, describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { importSvg, prepare, type Prepared } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { LocalPlanner } from "../support/local-planner.js";
+import { PtyBoard, type BoardReport } from "../support/pty-board.js";
+import { farthest, SegmentGrid } from "../support/segment-grid.js";
+
+const SPEED = 50;
+const SAMPLES = ["hello-paper", "harmonograph", "three-colour-hills"];
+/** As fine as the settings allow: what the file says, for our purpose. */
+const FINE = { ...DEFAULT_PLOT_SETTINGS.prepare, flattenMm: 0.001, joinMm: 0, order: "none" as const };
+
+const sample = (name: string): string =>
+  readFileSync(new URL(`../../samples/${name}.svg`, import.meta.url), "utf8");
+
+function* pointsOf(prepared: Prepared): Iterable<readonly [number, number]> {
+  const { xy } = prepared.strokes;
+  for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+}
+
+function gridOf(prepared: Prepared): SegmentGrid {
+  const { xy, offsets } = prepared.strokes;
+  const grid = new SegmentGrid();
+  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s]!, 2 * offsets[s + 1]!);
+  return grid;
+}
+
+const drawnLines = (report: BoardReport): readonly (readonly number[])[] =>
+  report.drawn.filter(({ penDown }) => penDown).map(({ xy }) => xy);
+
+function* drawnPoints(report: BoardReport): Iterable<readonly [number, number]> {
+  for (const xy of drawnLines(report)) {
+    for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+  }
+}
+
+const open: { close(): Promise<void> }[] = [];
+afterEach(async () => {
+  for (const thing of open.splice(0).reverse()) await thing.close();
+});
+
+describe("a drawing on a board behind a pseudo-terminal", () => {
+  it.each(SAMPLES)("%s is drawn as the file says, and the motors end where they should", async (name) => {
+    const board = await PtyBoard.open({ speed: SPEED });
+    open.push(board);
+    const driver = new PlotterDriver({ device: board.path, virtualSpeed: SPEED });
+    open.push(driver);
+    await driver.start();
+    expect(driver.state).toMatchObject({ connection: "idle", kind: "serial", firmware: "2.8.1" });
+
+    const settings: PlotSettings = DEFAULT_PLOT_SETTINGS;
+    const drawing = importSvg(sample(name));
+    const planner = new LocalPlanner(prepare(drawing, settings.prepare).strokes);
+    const run = await driver.plot(planner, settings);
+    expect(await run.finished).toEqual({ kind: "done" });
+
+    // `finished` has compared the board's step counters with the prediction; home is the last place of it.
+    const report = await board.report();
+    expect([report.state.steps1, report.state.steps2]).toEqual([0, 0]);
+    expect(report.state.penUp).toBe(true);
+
+    const source = prepare(drawing, FINE);
+    const drawn = new SegmentGrid();
+    for (const xy of drawnLines(report)) drawn.addPolyline(xy);
+    expect(farthest(drawnPoints(report), gridOf(source))).toBeLessThan(0.05);
+    expect(farthest(pointsOf(source), drawn)).toBeLessThan(0.05);
+  });
+});

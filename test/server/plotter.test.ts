@@ -1,0 +1,152 @@
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { PlotProgress } from "../../server/plotter/types.js";
+import type { PlotwrightError, StrokeSet } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+const SETTINGS = DEFAULT_PLOT_SETTINGS;
+const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+async function newPlotter(firmware?: string) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const board = driver.virtualBoard!;
+  const begin = async (strokes: StrokeSet = TWO_LINES) => {
+    const planner = new LocalPlanner(strokes);
+    const run = await world.run(driver.plot(planner, SETTINGS));
+    return { planner, run };
+  };
+  return { world, driver, board, begin };
+}
+
+const drawn = (board: { drawn(): { penDown: boolean; xy: Float64Array }[] }): number[][] =>
+  board
+    .drawn()
+    .filter(({ penDown, xy }) => penDown && xy.length > 2)
+    .map(({ xy }) =>
+      [xy[0]!, xy[1]!, xy[xy.length - 2]!, xy[xy.length - 1]!].map((v) => Math.round(v * 10) / 10),
+    );
+
+describe("a plotter", () => {
+  it("connects to the virtual board and says plainly that it is one", async () => {
+    const { driver } = await newPlotter();
+    expect(driver.state).toMatchObject({ kind: "virtual", connection: "idle", firmware: "2.8.1" });
+    expect(driver.state.message).toContain("nothing is drawn on paper");
+  });
+
+  it.each(["2.5.3", "2.8.1", "3.0.3"])(
+    "plots to the end and is idle at home again, on firmware %s",
+    async (firmware) => {
+      const { world, driver, board, begin } = await newPlotter(firmware);
+      const { run } = await begin();
+      expect(driver.state.connection).toBe("busy");
+      expect(await world.run(run.finished)).toEqual({ kind: "done" });
+      expect(drawn(board)).toEqual([
+        [10, 10, 60, 40],
+        [20, 50, 80, 50],
+      ]);
+      expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+      expect(board.statistics()).toMatchObject({ underrunCount: 0, movesBeforePenArrivedCount: 0 });
+      expect(driver.state).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
+    },
+  );
+
+  it("tells progress many times a second, ever forward, to 1", async () => {
+    const { world, begin } = await newPlotter();
+    const { run } = await begin();
+    const seen: PlotProgress[] = [];
+    run.onProgress((progress) => seen.push(progress));
+    await world.run(run.finished);
+    const last = seen[seen.length - 1]!;
+    expect(last).toMatchObject({ progress: 1, remainingS: 0, xMm: 0, yMm: 0, penUp: true });
+    expect(seen.length / last.elapsedS).toBeGreaterThan(10);
+    expect(seen.every((p, i) => i === 0 || p.progress >= seen[i - 1]!.progress)).toBe(true);
+    expect(seen.some((p) => !p.penUp)).toBe(true);
+  });
+
+  it("draws three times in a row without losing a step", async () => {
+    const { world, board, begin } = await newPlotter();
+    for (let i = 0; i < 3; i++) {
+      const { run } = await begin();
+      await world.run(run.finished);
+      expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    }
+  });
+
+  it("is busy for a second plot and for moves by hand while it plots", async () => {
+    const { world, driver, begin } = await newPlotter();
+    const { run } = await begin();
+    expect(await outcome(driver.plot(new LocalPlanner(TWO_LINES), SETTINGS))).toMatch(/^busy/);
+    expect(await outcome(driver.home())).toMatch(/^busy/);
+    await world.run(run.finished);
+  });
+
+  it("goes home after a cancel, pen up, and draws no more", async () => {
+    const { world, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.5);
+    const cancelled = run.cancel();
+    expect(await world.run(run.finished)).toEqual({ kind: "cancelled" });
+    await cancelled;
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expect(drawn(board).length).toBe(1);
+  });
+
+  it("says that there is nothing to draw", async () => {
+    const { world, driver, begin } = await newPlotter();
+    const { run } = await begin(strokesOf());
+    expect(await outcome(world.run(run.finished))).toMatch(/^bad-file: There is nothing to draw/);
+    expect(driver.state.connection).toBe("idle");
+  });
+});
+
+describe("moves by hand", () => {
+  it("lifts and drops the pen to the heights of the settings, or to the one asked for", async () => {
+    const { world, driver, board } = await newPlotter();
+    await world.run(driver.pen({ up: false }));
+    expect(board.state()).toMatchObject({ penUp: false });
+    expect(board.state().penPct).toBeCloseTo(SETTINGS.pen.downPct, 1);
+    await world.run(driver.pen({ up: true, heightPct: 75 }));
+    await world.advance(1);
+    expect(board.state().penPct).toBeCloseTo(75, 1);
+    expect(driver.state.penUp).toBe(true);
+  });
+
+  it("switches the motors off, after which home is wherever the carriage then stands", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.run(run.finished);
+    await world.run(driver.motorsOff());
+    expect(board.state().motorsOn).toBe(false);
+    expect(driver.state).toMatchObject({ motorsOn: false, xMm: null, yMm: null });
+  });
+});
+
+describe("a board that fails", () => {
+  it("ends the plot with words to act on, and is used again once it is back", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.5);
+    board.unplug();
+    expect(await outcome(world.run(run.finished, 3))).toMatch(/^disconnected: /);
+    expect(driver.state.connection).toBe("fault");
+    expect(driver.state.message).toMatch(/plug|start it again/i);
+    expect(await outcome(driver.home())).toMatch(/^disconnected: /);
+    await world.advance(5);
+    expect(driver.state.connection).toBe("idle");
+  });
+
+  it("that goes silent ends the plot within 3 s", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.5);
+    board.setMute(true);
+    expect(await outcome(world.run(run.finished, 3))).toMatch(/^board-timeout: /);
+    expect(driver.state.connection).toBe("fault");
+  });
+});

@@ -1,0 +1,63 @@
+/** Distances from points to a heap of line segments, quickly: a grid of cells over the segments. */
+export class SegmentGrid {
+  private readonly segments: number[] = [];
+  private readonly cells = new Map<string, number[]>();
+
+  /** `cellMm` should be larger than the distances that matter. */
+  constructor(private readonly cellMm = 0.5) {}
+
+  /** x, y, x, y …; a single point is a segment of no length. */
+  addPolyline(xy: ArrayLike<number>, from = 0, to = xy.length): void {
+    if (to - from === 2) this.addSegment(xy[from]!, xy[from + 1]!, xy[from]!, xy[from + 1]!);
+    for (let i = from; i + 3 < to; i += 2) this.addSegment(xy[i]!, xy[i + 1]!, xy[i + 2]!, xy[i + 3]!);
+  }
+
+  /** mm to the nearest segment; Infinity when none is within a cell. */
+  distance(x: number, y: number): number {
+    const column = Math.floor(x / this.cellMm);
+    const row = Math.floor(y / this.cellMm);
+    let nearest = Infinity;
+    for (let c = column - 1; c <= column + 1; c++) {
+      for (let r = row - 1; r <= row + 1; r++) {
+        for (const segment of this.cells.get(`${c},${r}`) ?? []) {
+          nearest = Math.min(nearest, this.toSegment(segment, x, y));
+        }
+      }
+    }
+    return nearest;
+  }
+
+  private addSegment(x0: number, y0: number, x1: number, y1: number): void {
+    const index = this.segments.length;
+    this.segments.push(x0, y0, x1, y1);
+    const stepCount = Math.max(1, Math.ceil((2 * Math.hypot(x1 - x0, y1 - y0)) / this.cellMm));
+    let last = "";
+    for (let k = 0; k <= stepCount; k++) {
+      const x = x0 + ((x1 - x0) * k) / stepCount;
+      const y = y0 + ((y1 - y0) * k) / stepCount;
+      const key = `${Math.floor(x / this.cellMm)},${Math.floor(y / this.cellMm)}`;
+      if (key === last) continue;
+      last = key;
+      const cell = this.cells.get(key);
+      if (cell) cell.push(index);
+      else this.cells.set(key, [index]);
+    }
+  }
+
+  private toSegment(index: number, x: number, y: number): number {
+    const x0 = this.segments[index]!;
+    const y0 = this.segments[index + 1]!;
+    const dx = this.segments[index + 2]! - x0;
+    const dy = this.segments[index + 3]! - y0;
+    const length2 = dx * dx + dy * dy;
+    const t = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
+    return Math.hypot(x - x0 - t * dx, y - y0 - t * dy);
+  }
+}
+
+/** The largest distance from any of the points (x, y, x, y …) to the grid's segments. */
+export function farthest(points: Iterable<readonly [number, number]>, grid: SegmentGrid): number {
+  let most = 0;
+  for (const [x, y] of points) most = Math.max(most, grid.distance(x, y));
+  return most;
+}
