@@ -13,6 +13,11 @@ export interface CliIo {
 }
 
 export function processIo(): CliIo {
+  // Whoever reads us through a pipe may have enough ("| head"): no reason to fail aloud.
+  process.stdout.on("error", (error: NodeJS.ErrnoException) => {
+    if (error.code === "EPIPE") process.exit();
+    throw error;
+  });
   return {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),

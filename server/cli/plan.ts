@@ -9,7 +9,10 @@ import {
   pointCount,
   strokeCount,
   trajectoryStats,
+  closingCommands,
   commandLine,
+  penCommand,
+  setUpCommands,
   type CommandStream,
   type MachineProfile,
   type Trajectory,
@@ -53,7 +56,8 @@ interface Planned {
   readonly report: PlanReport;
   readonly job: PreparedJob;
   readonly trajectory: Trajectory;
-  readonly commands: CommandStream;
+  /** All that a plot would send, from motors-on to motors-off. */
+  readonly lines: readonly string[];
 }
 
 export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
@@ -62,7 +66,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   }
   const planned = planFile(file, base, options);
   if (options.ebb !== undefined) {
-    const text = commandText(planned.commands);
+    const text = `${planned.lines.join("\n")}\n`;
     if (options.ebb === "-") io.out(text);
     else writeOut(options.ebb, text);
   }
@@ -107,12 +111,13 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
     start: BOARD_AT_HOME,
   });
   const compileMs = clock();
+  const lines = plotLines(commands, machine, settings, options.firmware);
   const stats = trajectoryStats(trajectory);
   const report: PlanReport = {
     strokes: strokeCount(job.prepared.strokes),
     points: pointCount(job.prepared.strokes),
     blocks: trajectory.blockCount,
-    commands: commands.count,
+    commands: lines.length,
     drawMm: rounded(stats.drawMm),
     travelMm: rounded(stats.travelMm),
     travelMmUnordered: rounded(job.prepared.travelMmUnordered),
@@ -127,13 +132,21 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
     compileMs: rounded(compileMs),
     warnings: [...job.warnings, ...commands.warnings],
   };
-  return { report, job, trajectory, commands };
+  return { report, job, trajectory, lines };
 }
 
-function commandText(commands: CommandStream): string {
-  let text = "";
-  for (let index = 0; index < commands.count; index++) text += `${commandLine(commands, index)}\n`;
-  return text;
+/** A plot begins with the pen in an unknown place, so the driver lifts it before the first command of the plan. */
+function plotLines(
+  commands: CommandStream,
+  machine: MachineProfile,
+  { pen }: PlotSettings,
+  firmware: string,
+): string[] {
+  const lines = setUpCommands(machine, pen, firmware);
+  lines.push(penCommand(machine, true, pen.upPct, Math.abs(pen.upPct - pen.downPct), pen.liftMs));
+  for (let index = 0; index < commands.count; index++) lines.push(commandLine(commands, index));
+  lines.push(...closingCommands());
+  return lines;
 }
 
 function writeOut(path: string, text: string): void {

@@ -37,7 +37,9 @@ export async function runPlot(
       planner.warnings.forEach((warning) => io.err(`note: ${warning}\n`));
       return await withPlotter(options, async (plotter) => {
         forget();
-        return watch(await plotter.plot(planner, settings), io);
+        const code = await watch(await plotter.plot(planner, settings), io);
+        await plotter.motorsOff();
+        return code;
       });
     } finally {
       await planner.close();

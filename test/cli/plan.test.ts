@@ -1,0 +1,237 @@
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { VirtualBoard, type Clock } from "../../src/index.js";
+import { cli } from "./support.js";
+
+const SAMPLES = new URL("../../samples/", import.meta.url).pathname;
+const samples = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
+const sample = (name: string): string => join(SAMPLES, name);
+const [firstSample = ""] = samples;
+
+const CONTRACT = [
+  ...["strokes", "points", "blocks", "commands", "drawMm", "travelMm", "travelMmUnordered", "penLifts"],
+  ...[
+    "durationS",
+    "maxSpeed",
+    "maxAccel",
+    "importMs",
+    "prepareMs",
+    "orderMs",
+    "planMs",
+    "compileMs",
+    "warnings",
+  ],
+];
+
+let dir: string;
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-plan-"));
+});
+afterEach(() => rmSync(dir, { recursive: true, force: true }));
+
+const stoppedClock: Clock = { nowS: () => 0, after: () => () => undefined };
+
+/** What the board says after a list of commands, each over as soon as it is sent. */
+function replay(commands: string, firmware: string): VirtualBoard {
+  const board = new VirtualBoard({ clock: stoppedClock, firmware, speed: Infinity, recordLine: false });
+  const faults: string[] = [];
+  board.onSend((bytes) => {
+    const text = new TextDecoder().decode(bytes);
+    if (text.includes("!")) faults.push(text);
+  });
+  for (const line of commands.trimEnd().split("\n")) board.receive(new TextEncoder().encode(`${line}\r`));
+  expect(faults).toEqual([]);
+  return board;
+}
+
+describe("plotwright plan", () => {
+  it("prints one JSON object with exactly the promised keys, and nothing else", async () => {
+    for (const name of samples) {
+      const { code, out, err } = await cli("plan", sample(name), "--json");
+      expect([name, code, err]).toEqual([name, 0, ""]);
+      const report = JSON.parse(out) as Record<string, unknown>;
+      expect(Object.keys(report)).toEqual(CONTRACT);
+      for (const [key, value] of Object.entries(report)) {
+        if (key === "warnings") expect(value).toBeInstanceOf(Array);
+        else expect([key, Number.isFinite(value)]).toEqual([key, true]);
+      }
+      expect(report["strokes"]).toBeGreaterThan(0);
+      expect(report["durationS"]).toBeGreaterThan(1);
+    }
+  }, 120_000);
+
+  it("writes commands that take the board as long as the plan says, and bring it back home", async () => {
+    const generations = ["2.5.3", "2.8.1", "3.0.3"];
+    for (const [index, name] of samples.entries()) {
+      for (const firmware of [generations[index % 3]!, "3.0.3"]) {
+        const ebb = join(dir, "commands.txt");
+        const run = await cli("plan", sample(name), "--json", "--ebb", ebb, "--firmware", firmware);
+        const { durationS } = JSON.parse(run.out) as { durationS: number };
+        const board = replay(readFileSync(ebb, "utf8"), firmware);
+        const ratio = board.statistics().busyS / durationS;
+        expect([name, firmware, Math.abs(ratio - 1) < 0.005 || ratio]).toEqual([name, firmware, true]);
+        const { xMm, yMm, penUp, motorsOn } = board.state();
+        expect([Math.hypot(xMm, yMm) < 0.02, penUp, motorsOn]).toEqual([true, true, false]);
+      }
+    }
+  }, 240_000);
+
+  it("prints the commands to stdout with -, from motors-on to motors-off", async () => {
+    const { code, out } = await cli("plan", sample(firstSample), "--ebb", "-");
+    expect(code).toBe(0);
+    const lines = out.trimEnd().split("\n");
+    expect(lines.filter((line) => !/^[A-Z0-9]+(,-?\d+)*$/.test(line))).toEqual([]);
+    expect(lines.findIndex((line) => line.startsWith("EM,1"))).toBeLessThan(
+      lines.findIndex((line) => /^(LM|LT|T3|XM|SM|TD|L3),/.test(line)),
+    );
+    expect(lines.at(-1)).toBe("EM,0,0");
+  });
+
+  it("refuses --json together with --ebb -, as both want stdout", async () => {
+    expect(await cli("plan", sample(firstSample), "--json", "--ebb", "-")).toMatchObject({
+      code: 2,
+      out: "",
+    });
+  });
+
+  it("writes a preview of the paper with travel and speed on it", async () => {
+    const out = join(dir, "preview.svg");
+    expect((await cli("plan", sample(firstSample), "--preview", out, "--paper", "A5")).code).toBe(0);
+    const svg = readFileSync(out, "utf8");
+    expect(svg).toContain('width="210mm" height="148mm" viewBox="0 0 210 148"');
+    expect(svg).not.toMatch(/NaN|Infinity|undefined/);
+    expect(svg.match(/stroke="#[0-9a-f]{6}" d="M/g)?.length).toBeGreaterThan(2);
+  });
+
+  it("draws only the layers that are named, and says which there are", async () => {
+    const file = join(dir, "layers.svg");
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
+         width="100mm" height="100mm" viewBox="0 0 100 100" fill="none" stroke="black">
+         <g inkscape:groupmode="layer" inkscape:label="Red pen" id="l1"><path d="M10 10h80"/></g>
+         <g inkscape:groupmode="layer" inkscape:label="Blue pen" id="l2"><path d="M10 20h80M10 30h80"/></g>
+       </svg>`,
+    );
+    const strokes = async (...only: string[]): Promise<unknown> => {
+      const { out } = await cli(
+        "plan",
+        file,
+        "--json",
+        "--join",
+        "0",
+        ...(only.length > 0 ? ["--only", ...only] : []),
+      );
+      return (JSON.parse(out) as { strokes: number }).strokes;
+    };
+    expect(await strokes()).toBe(3);
+    expect(await strokes("red PEN")).toBe(1);
+    expect(await strokes("l2")).toBe(2);
+    expect(await strokes("l1", "Blue pen")).toBe(3);
+    const wrong = await cli("plan", file, "--json", "--only", "Green pen");
+    expect(wrong).toMatchObject({ code: 2, out: "" });
+    expect(wrong.err).toMatch(/no layer "Green pen".*"Red pen", "Blue pen"/);
+  });
+});
+
+describe("bad input on the command line", () => {
+  const write = (name: string, text: string): string => {
+    const path = join(dir, name);
+    writeFileSync(path, text);
+    return path;
+  };
+  const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
+    `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
+
+  it("ends with 3 and one line that says what is wrong, for files that can't be plotted", async () => {
+    const files: Record<string, string> = {
+      absent: join(dir, "absent.svg"),
+      folder: dir,
+      "not an SVG": write("a.svg", "hello"),
+      "another XML": write("b.svg", "<html><body/></html>"),
+      empty: write("c.svg", ""),
+      binary: write("d.svg", "\0\x01\x02\xff".repeat(1000)),
+      truncated: write("e.svg", svg("<path d='M0 0h10'/>").slice(0, -20)),
+      "without lines": write("f.svg", svg("")),
+      "entity bomb": write(
+        "g.svg",
+        `<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa">${[..."bcdefghij"]
+          .map((name, i) => `<!ENTITY ${name} "${`&${"abcdefghij"[i]};`.repeat(10)}">`)
+          .join("")}]>${svg("<text>&j;</text>")}`,
+      ),
+      "larger than the machine": write(
+        "h.svg",
+        svg('<path d="M0 0L900 900"/>', 'width="900mm" height="900mm" viewBox="0 0 900 900"'),
+      ),
+    };
+    for (const [what, file] of Object.entries(files)) {
+      const extra =
+        what === "larger than the machine" ? ["--no-fit", "--paper", "1000x1000", "--margin", "0"] : [];
+      const { code, out, err } = await cli("plan", file, "--json", ...extra);
+      expect([what, code, out]).toEqual([what, 3, ""]);
+      expect([what, err.trimEnd().split("\n").length, err]).toEqual([
+        what,
+        1,
+        expect.stringMatching(/^plotwright: .{15,}/),
+      ]);
+    }
+  }, 60_000);
+
+  it("plots what is left when only parts of a file are broken, without NaN in it", async () => {
+    const files = {
+      "NaN coordinates": svg('<path d="M NaN NaN L 10 10"/><path d="M10 10h50"/>'),
+      "huge coordinates": svg('<path d="M0 0L1e300 1e300"/><path d="M10 10h50"/>'),
+      "circular use": svg('<g id="a"><path d="M10 10h50"/><use xlink:href="#a"/></g>'),
+      "one point": svg('<path d="M20 20z"/><path d="M10 10h50"/>'),
+    };
+    for (const [what, text] of Object.entries(files)) {
+      const { code, out, err } = await cli("plan", write("part.svg", text), "--json");
+      expect([what, code, err]).toEqual([what, 0, ""]);
+      const report = JSON.parse(out) as Record<string, unknown>;
+      expect([what, report["drawMm"]]).toEqual([what, expect.any(Number)]);
+      expect([what, out.includes("null")]).toEqual([what, false]);
+    }
+  });
+
+  it("takes 100 000 nested groups and a 50 MB file, or says why not", async () => {
+    const nested = svg(`${"<g>".repeat(100_000)}<path d="M10 10h50"/>${"</g>".repeat(100_000)}`);
+    const large = svg(`<path d="M10 10h50"/><!--${"x".repeat(50_000_000)}-->`);
+    for (const text of [nested, large]) {
+      const { code, err } = await cli("plan", write("large.svg", text), "--json");
+      expect([0, 3]).toContain(code);
+      expect(err).not.toMatch(/internal/);
+      expect(code === 0 ? err === "" : err.length > 20).toBe(true);
+    }
+  }, 120_000);
+
+  it("ends with 2 for usage it does not know, and writes nothing", async () => {
+    const file = write("good.svg", svg('<path d="M10 10h50"/>'));
+    const out = join(dir, "out.txt");
+    for (const args of [
+      ["plan", file, "--ebb", out, "--unknown"],
+      ["plan", file, "--ebb", out, "--speed", "fast"],
+      ["plan", file, "--ebb", out, "--machine", "typewriter"],
+      ["plan", file, "--ebb", out, "--firmware", "latest"],
+      ["plan"],
+      ["plan", file, file],
+      ["fly"],
+      ["pen", "sideways"],
+      ["--port", "http"],
+      ["serve", "--port", "70000"],
+    ]) {
+      const { code, out: printed, err } = await cli(...args);
+      expect([args, code, printed]).toEqual([args, 2, ""]);
+      expect([args, err]).toEqual([args, expect.stringMatching(/^plotwright: .+\n$/)]);
+    }
+    expect(existsSync(out)).toBe(false);
+  });
+
+  it("prints help and version for those who ask, with 0", async () => {
+    expect(await cli("--version")).toEqual({ code: 0, out: "0.0.0\n", err: "" });
+    const help = await cli("plan", "--help");
+    expect(help.code).toBe(0);
+    expect(help.out).toMatch(/--preview/);
+  });
+});

@@ -1,0 +1,52 @@
+/** Runs the command line in this process, with its output caught. */
+import { runCli } from "../../server/cli/program.js";
+import type { CliIo } from "../../server/cli/io.js";
+
+export interface CliRun {
+  readonly code: number;
+  readonly out: string;
+  readonly err: string;
+}
+
+export class CaughtIo implements CliIo {
+  outText = "";
+  errText = "";
+  readonly isTerminal = false;
+  #interrupt: ((isFinal: boolean) => void)[] = [];
+  #line: ((line: string) => void)[] = [];
+
+  out(text: string): void {
+    this.outText += text;
+  }
+
+  err(text: string): void {
+    this.errText += text;
+  }
+
+  onInterrupt(listener: (isFinal: boolean) => void): () => void {
+    this.#interrupt.push(listener);
+    return () => (this.#interrupt = this.#interrupt.filter((one) => one !== listener));
+  }
+
+  onLine(listener: (line: string) => void): () => void {
+    this.#line.push(listener);
+    return () => (this.#line = this.#line.filter((one) => one !== listener));
+  }
+
+  interrupt(): void {
+    [...this.#interrupt].forEach((listener) => listener(false));
+  }
+
+  line(text = ""): void {
+    [...this.#line].forEach((listener) => listener(text));
+  }
+}
+
+export async function cli(...args: string[]): Promise<CliRun> {
+  return cliWith(new CaughtIo(), ...args);
+}
+
+export async function cliWith(io: CaughtIo, ...args: string[]): Promise<CliRun> {
+  const code = await runCli(args, io, "0.0.0");
+  return { code, out: io.outText, err: io.errText };
+}
