@@ -61,6 +61,7 @@ export function drawCentreArc(
     const tx1 = arm * (-rx * sinNext * cosT - ry * cosNext * sinT);
     const ty1 = arm * (-rx * sinNext * sinT + ry * cosNext * cosT);
     shape.cubicTo(x + tx0, y + ty0, nx - tx1, ny - ty1, nx, ny);
+    if (!last) shape.innerVerbs.push(shape.verbs.length - 1);
     x = nx;
     y = ny;
     cos = cosNext;

@@ -8,9 +8,10 @@ import {
   type DrawingGroup,
 } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
-import { boxOfPoints, EMPTY_BOX, type Box } from "../geometry/box.js";
-import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
+import { boxOfPoints, type Box } from "../geometry/box.js";
+import { ColumnBuffer, type PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
+import { CoordBlocks } from "./coord-blocks.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
@@ -34,7 +35,7 @@ export class DrawingBuilder {
   private readonly dashes: DashPattern[] = [];
   private readonly dashIndex = new Map<string, number>();
   private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
-  private readonly coords = new PointBuffer(1024);
+  private readonly coords = new CoordBlocks();
   private readonly verbOffsets = new ColumnBuffer(Uint32Array, 256);
   private readonly coordOffsets = new ColumnBuffer(Uint32Array, 256);
   private readonly group = new ColumnBuffer(Uint32Array, 256);
@@ -77,43 +78,39 @@ export class DrawingBuilder {
     clip: ClipNode | null,
     where: string,
   ): Box | null {
-    const start = this.coords.length;
-    if (!this.appendMapped(shape.coords, map)) {
-      this.coords.length = start;
+    const { coords } = this;
+    coords.reserve(shape.coords.length);
+    if (!writeMapped(shape.coords, map, coords.block, coords.at)) {
       this.warnings.add("coordinates-out-of-range", undefined, where);
       return null;
     }
+    const box = boxOfPoints(coords.block, coords.at, coords.at + shape.coords.length);
+    coords.commit(shape.coords.length);
     const { verbs } = this;
     const count = shape.verbs.length;
     verbs.reserve(count);
     for (let i = 0; i < count; i++) verbs.data[verbs.length + i] = shape.verbs.data[i];
     verbs.length += count;
     this.verbOffsets.push(verbs.length);
-    this.coordOffsets.push(this.coords.length);
+    this.coordOffsets.push(coords.length);
     this.group.push(group);
     this.stroke.push(this.colorOf(look.stroke));
     this.fill.push(this.colorOf(look.fill));
     this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
     this.strokeWidth.push(look.strokeWidth);
     this.dash.push(look.dash === null ? -1 : this.dashOf(look.dash));
-    const box = boxOfPoints(this.coords.data, start, this.coords.length);
     this.clip.push(clip === null ? -1 : clipIndexFor(clip, box, this.clips));
     return box;
   }
 
   /** The box of shapes [from, to). */
   boxOfShapes(from: number, to: number): Box {
-    if (from >= to) return EMPTY_BOX;
-    return boxOfPoints(this.coords.data, this.coordOffsets.data[from], this.coordOffsets.data[to]);
+    return this.coords.boxOf(this.coordOffsets.data[from], this.coordOffsets.data[to]);
   }
 
   /** Moves everything: for files that do not say where their page is. */
   translate(dx: number, dy: number): void {
-    const { data, length } = this.coords;
-    for (let i = 0; i < length; i += 2) {
-      data[i] += dx;
-      data[i + 1] += dy;
-    }
+    this.coords.translate(dx, dy);
     for (const clip of this.clips) {
       for (let i = 0; i < clip.coords.length; i += 2) {
         clip.coords[i] += dx;
@@ -134,7 +131,7 @@ export class DrawingBuilder {
       paths: {
         count: this.shapeCount,
         verbs: this.verbs.toArray(),
-        coords: this.coords.toArray(),
+        coords: this.coords.take(),
         verbOffsets: this.verbOffsets.toArray(),
         coordOffsets: this.coordOffsets.toArray(),
         group: this.group.toArray(),
@@ -147,26 +144,6 @@ export class DrawingBuilder {
       },
       warnings: this.warnings.toArray(),
     };
-  }
-
-  private appendMapped(source: PointBuffer, map: Affine): boolean {
-    const { coords } = this;
-    coords.reserve(source.pointCount);
-    const from = source.data;
-    const to = coords.data;
-    const { a, b, c, d, e, f } = map;
-    let at = coords.length;
-    let inRange = true;
-    for (let i = 0; i < source.length; i += 2) {
-      const x = a * from[i] + c * from[i + 1] + e;
-      const y = b * from[i] + d * from[i + 1] + f;
-      to[at++] = x;
-      to[at++] = y;
-      // Written so that NaN is out of range.
-      if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) inRange = false;
-    }
-    coords.length = at;
-    return inRange;
   }
 
   private colorOf(color: string | null): number {
@@ -190,4 +167,20 @@ export class DrawingBuilder {
     }
     return index;
   }
+}
+
+/** Writes the mapped pairs into `to` from `at` on. False where one is out of range or no number. */
+function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number): boolean {
+  const from = source.data;
+  const { a, b, c, d, e, f } = map;
+  let inRange = true;
+  for (let i = 0; i < source.length; i += 2) {
+    const x = a * from[i] + c * from[i + 1] + e;
+    const y = b * from[i] + d * from[i + 1] + f;
+    to[at++] = x;
+    to[at++] = y;
+    // Written so that NaN is out of range.
+    if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) inRange = false;
+  }
+  return inRange;
 }

@@ -7,7 +7,7 @@
  * through Number().
  */
 import { drawSvgArc } from "./arc.js";
-import type { ShapeBuffer } from "./shape-buffer.js";
+import { ShapeBuffer } from "./shape-buffer.js";
 
 const POWERS = Array.from({ length: 23 }, (_, i) => Number(`1e${i}`));
 const MAX_EXACT = 2 ** 53;
@@ -18,7 +18,7 @@ export class NumberReader {
   /** The number that `read` found. */
   value = 0;
 
-  constructor(readonly text: string) {}
+  constructor(public text: string) {}
 
   /** Past blanks and at most one comma. */
   skipSeparator(): void {
@@ -98,7 +98,7 @@ export class NumberReader {
  * Returns the index of the character where it stopped being path data, or −1.
  */
 export function drawPathData(shape: ShapeBuffer, text: string, arcTolerance: number): number {
-  return new PathDataReader(shape, text, arcTolerance).run();
+  return pathReader.run(shape, text, arcTolerance);
 }
 
 const ARGUMENTS: Readonly<Record<string, number>> = {
@@ -121,24 +121,22 @@ for (const [letter, count] of Object.entries(ARGUMENTS)) {
 }
 
 class PathDataReader {
-  private readonly reader: NumberReader;
+  private readonly reader = new NumberReader("");
+  private shape = new ShapeBuffer();
+  private arcTolerance = 1;
   private readonly args = new Float64Array(7);
   /** Control point of the last curve, for S and T; valid while `previous` is of that kind. */
   private controlX = 0;
   private controlY = 0;
   private previous = 0;
 
-  constructor(
-    private readonly shape: ShapeBuffer,
-    text: string,
-    private readonly arcTolerance: number,
-  ) {
-    this.reader = new NumberReader(text);
-  }
-
-  run(): number {
+  run(shape: ShapeBuffer, text: string, arcTolerance: number): number {
     const { reader } = this;
-    const { text } = reader;
+    this.shape = shape;
+    this.arcTolerance = arcTolerance;
+    this.previous = 0;
+    reader.text = text;
+    reader.at = 0;
     reader.skipBlanks();
     if (reader.at === text.length || text === "none") return -1;
     if ((text.charCodeAt(reader.at) | 32) !== 109) return reader.at;
@@ -251,3 +249,6 @@ class PathDataReader {
     }
   }
 }
+
+/** One for all paths: a new one for each would cost as much as reading a short path. */
+const pathReader = new PathDataReader();

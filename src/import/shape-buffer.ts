@@ -15,12 +15,15 @@ export class ShapeBuffer {
   y = 0;
   startX = 0;
   startY = 0;
+  /** Verbs that end inside an arc, between its pieces: no vertices of the path as written. */
+  readonly innerVerbs: number[] = [];
   /** Subpaths of a lone move: nothing of them is drawn. */
   lonePoints = 0;
 
   clear(): void {
     this.verbs.length = 0;
     this.coords.length = 0;
+    this.innerVerbs.length = 0;
     this.lonePoints = 0;
     this.x = this.y = this.startX = this.startY = 0;
   }

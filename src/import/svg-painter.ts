@@ -1,60 +1,46 @@
 /** One leaf element to one shape of the drawing: geometry, paints, dashes. */
-import { applyX, applyY, meanScale, type Affine } from "../geometry/affine.js";
-import type { Box } from "../geometry/box.js";
+import { meanScale } from "../geometry/affine.js";
 import type { DashPattern } from "../drawing/drawing.js";
 import { MM_PER_PX } from "../units.js";
-import { drawBasicShape, type ShapeSource } from "./basic-shapes.js";
-import type { Declared, Property } from "./cascade.js";
+import type { Declared } from "./cascade.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
-import { mapBox } from "./map-box.js";
 import { lengthPx } from "./length.js";
 import { polylineLength } from "./shape-length.js";
-import { ShapeBuffer } from "./shape-buffer.js";
 import type { Context } from "./svg-context.js";
-import type { SvgDefinitions } from "./svg-definitions.js";
+import type { SvgPaintServers } from "./svg-paint-servers.js";
+import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "./warnings.js";
 
 export class SvgPainter {
-  private readonly shape = new ShapeBuffer();
-
   constructor(
     private readonly tree: SvgTree,
-    private readonly definitions: SvgDefinitions,
+    private readonly geometry: SvgGeometry,
+    private readonly servers: SvgPaintServers,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-    /** mm on the page: how far an arc may be from its cubics. */
-    private readonly arcToleranceMm: number,
   ) {}
 
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
     const { style } = context;
     if (!style.isVisible) return;
-    const shape = this.geometryOf(element, tag, declared, context);
+    const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
       if (shape.lonePoints > 0)
-        this.warnings.add("single-point", this.placeOf(context, shape.x, shape.y, 0, 0));
+        this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
       return;
     }
     const look = this.lookOf(element, tag, declared, context);
     if (look === null) return;
-    this.builder.addShape(shape, context.map, look, context.group, context.clip, this.whereOf(element));
-  }
-
-  /** The element's outline in user units, in a buffer that the next call uses again. */
-  geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
-    const { shape } = this;
-    shape.clear();
-    const tolerance = this.arcToleranceMm / largestScale(context.map);
-    const fault = drawBasicShape(tag, this.sourceOf(element, declared, context), shape, tolerance);
-    shape.finish();
-    if (fault !== null) {
-      const where = this.whereOf(element);
-      if (tag === "path") this.warnings.add("path-data", this.firstPoint(context), `${where}: ${fault}`);
-      else this.warnings.add("attribute-fault", this.firstPoint(context), `${tag} at ${where}: ${fault}`);
-    }
-    return shape;
+    this.builder.addShape(
+      shape,
+      context.map,
+      look,
+      context.group,
+      context.clip,
+      this.geometry.whereOf(element),
+    );
   }
 
   drawText(element: number, context: Context): void {
@@ -64,45 +50,10 @@ export class SvgPainter {
       return lengthPx(first, context.basis, name === "x" ? "width" : "height") ?? 0;
     };
     const size = context.style.fontSize;
-    this.warnings.add("text-not-drawn", this.placeOf(context, number("x"), number("y") - size, size, size));
-  }
-
-  /** The box on the page of a rectangle in user units. */
-  placeOf(context: Context, x: number, y: number, width: number, height: number): Box {
-    return mapBox(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });
-  }
-
-  private firstPoint(context: Context): Box {
-    const { coords } = this.shape;
-    const [x, y] = coords.length >= 2 ? coords.data : [this.shape.x, this.shape.y];
-    const px = applyX(context.map, x, y);
-    const py = applyY(context.map, x, y);
-    return { x0: px, y0: py, x1: px, y1: py };
-  }
-
-  private whereOf(element: number): string {
-    const id = attribute(this.tree, element, "id");
-    const line = `line ${this.tree.lines[element]}`;
-    return id === undefined ? line : `${line}, id ${id.slice(0, 40)}`;
-  }
-
-  private sourceOf(element: number, declared: Declared, context: Context): ShapeSource {
-    const { tree } = this;
-    const { basis, style } = context;
-    const length = (text: string | undefined, side: "width" | "height" | "both"): number | null =>
-      text === undefined || text === "auto" ? null : lengthPx(text, basis, side);
-    const css = (name: Property): string | undefined =>
-      declared.size === 0 ? undefined : declaredValue(style, declared, name);
-    return {
-      length: (name, side) => length(css(name) ?? attribute(tree, element, name), side),
-      attributeLength: (name, side) => length(attribute(tree, element, name), side),
-      text: (name) => {
-        if (name === "points") return attribute(tree, element, name);
-        const path = css("d");
-        const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
-        return quoted?.[1] ?? attribute(tree, element, name);
-      },
-    };
+    this.warnings.add(
+      "text-not-drawn",
+      this.geometry.placeOf(context, number("x"), number("y") - size, size, size),
+    );
   }
 
   /** How the shape is painted; null where it is not painted at all. */
@@ -113,7 +64,7 @@ export class SvgPainter {
       tag === "line" ? null : this.colorOf(style.fill, style.fillOpacity, context, "gradient-fill");
     if (stroke !== null && style.strokeWidth === 0) {
       stroke = null;
-      if (fill === null) this.warnings.add("zero-width-stroke", this.firstPoint(context));
+      if (fill === null) this.warnings.add("zero-width-stroke", this.geometry.firstPoint(context));
     }
     if (stroke === null && fill === null) return null;
     const effect = declaredValue(style, declared, "vector-effect");
@@ -130,7 +81,7 @@ export class SvgPainter {
   private dashOf(element: number, context: Context, scale: number): DashPattern {
     const { dashes, dashOffset } = context.style;
     const own = Number(attribute(this.tree, element, "pathLength") ?? NaN);
-    const unit = own > 0 ? (scale * polylineLength(this.shape)) / own : scale;
+    const unit = own > 0 ? (scale * polylineLength(this.geometry.shape)) / own : scale;
     return { lengths: (dashes ?? []).map((length) => length * unit), offset: dashOffset * unit };
   }
 
@@ -157,9 +108,9 @@ export class SvgPainter {
           serverWarning,
         );
       case "server": {
-        const color = this.definitions.serverColor(paint.id, context);
+        const color = this.servers.serverColor(paint.id, context);
         if (color !== undefined) {
-          this.warnings.add(serverWarning, this.firstPoint(context));
+          this.warnings.add(serverWarning, this.geometry.firstPoint(context));
           return color;
         }
         if (paint.fallback.kind === "none") this.warnings.add("paint-missing", undefined, `#${paint.id}`);
@@ -170,7 +121,3 @@ export class SvgPainter {
 }
 
 const NO_PAINT: Paint = { kind: "none" };
-
-/** Most that the map stretches along an axis; never 0, so that it may divide. */
-const largestScale = (map: Affine): number =>
-  Math.max(Math.hypot(map.a, map.b), Math.hypot(map.c, map.d), 1e-12);

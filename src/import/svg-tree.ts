@@ -23,6 +23,10 @@ const SLICE_CHARS = 1 << 18;
 const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 
+const SHARED_CHARS = 200;
+const MAX_SHARED = 4096;
+const UNSHARED = new Set("id d points x y x1 y1 x2 y2 cx cy r rx ry width height transform".split(" "));
+
 /** Faults of the XML that leave no doubt about what was meant; browsers accept them in pages. */
 const HARMLESS = ["undefined entity", "unquoted attribute value", "attribute without value", "]]>"];
 
@@ -117,6 +121,7 @@ class TreeBuilder {
   private readonly attributeOffsets = new ColumnBuffer(Uint32Array);
   private readonly attributeNames = new ColumnBuffer(Uint32Array);
   private readonly attributeValues: string[] = [];
+  private readonly sharedValues = new Map<string, string>();
   private readonly lines = new ColumnBuffer(Uint32Array);
   private readonly elementById = new Map<string, number>();
   private readonly repairs: string[] = [];
@@ -210,7 +215,7 @@ class TreeBuilder {
       const kept = keptAttribute(key);
       if (kept === null) continue;
       this.attributeNames.push(this.nameId(kept));
-      this.attributeValues.push(attributes[key]);
+      this.attributeValues.push(this.shared(kept, attributes[key]));
       if (kept === "id" && !this.elementById.has(attributes[key]))
         this.elementById.set(attributes[key], element);
     }
@@ -274,6 +279,15 @@ class TreeBuilder {
     this.attributeNames.push(this.nameId(TEXT_NODE));
     this.attributeValues.push(text);
     this.firstChildren.data[node] = -1;
+  }
+
+  /** The same string for equal values that many elements have; geometry and ids seldom repeat. */
+  private shared(name: string, value: string): string {
+    if (value.length > SHARED_CHARS || UNSHARED.has(name)) return value;
+    const known = this.sharedValues.get(value);
+    if (known !== undefined) return known;
+    if (this.sharedValues.size < MAX_SHARED) this.sharedValues.set(value, value);
+    return value;
   }
 
   private nameId(name: string): number {

@@ -6,17 +6,27 @@
  * and a budget of visits stops copies of copies from growing without end.
  */
 import { PlotwrightError } from "../errors.js";
-import { determinant, IDENTITY, isFiniteAffine, translation, type Affine } from "../geometry/affine.js";
-import { compose } from "../geometry/affine.js";
+import {
+  compose,
+  determinant,
+  IDENTITY,
+  isFiniteAffine,
+  rotation,
+  scaling,
+  translation,
+  type Affine,
+} from "../geometry/affine.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade, type Declared, type Property } from "./cascade.js";
 import { lengthPx, type Side } from "./length.js";
-import { isInsideUseOf, withStyle, withViewport, type Context } from "./svg-context.js";
-import type { SvgDefinitions } from "./svg-definitions.js";
+import { isInsideUseOf, withStyle, withViewport, type Context, type UseChain } from "./svg-context.js";
+import type { SvgClips } from "./svg-clips.js";
+import type { SvgGeometry } from "./svg-geometry.js";
+import { markerPlaces, type MarkerPlace } from "./markers.js";
 import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { computeStyle, declaredValue, INITIAL_STYLE, parseOpacity } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "./warnings.js";
@@ -64,7 +74,8 @@ export class SvgWalk {
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
     private readonly layers: LayerPlan,
-    private readonly definitions: SvgDefinitions,
+    private readonly svgGeometry: SvgGeometry,
+    private readonly clips: SvgClips,
     private readonly painter: SvgPainter,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
@@ -131,7 +142,7 @@ export class SvgWalk {
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? outer : { ...outer, group }, style, transform);
     const warning = this.effectOf(style);
-    const clip = this.definitions.clipOf(element, declaredValue(style, declared, "clip-path"), context);
+    const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
     if (!isContainer) this.visitLeaf(element, tag, context, warning);
@@ -142,7 +153,10 @@ export class SvgWalk {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") this.painter.drawText(element, context);
-    else this.painter.drawShape(element, tag, this.declared, context);
+    else {
+      this.painter.drawShape(element, tag, this.declared, context);
+      if (MARKED.has(tag) && hasMarkers(context)) this.pushMarkers(context);
+    }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
     if (warning !== null && this.builder.shapeCount > before) {
       this.warnings.add(warning, this.builder.boxOfShapes(before, this.builder.shapeCount));
@@ -205,6 +219,70 @@ export class SvgWalk {
     );
   }
 
+  /** Markers on the shape just drawn, as frames: their content is elements like any other. */
+  private pushMarkers(context: Context): void {
+    const { tree } = this;
+    const { style } = context;
+    if (!style.isVisible) return;
+    const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
+    const places = markerPlaces(this.svgGeometry.shape);
+    // Last first, since the last frame pushed is drawn first.
+    for (const place of places.reverse()) {
+      const id = ids[place.kind];
+      const marker = id === null ? undefined : tree.elementById.get(id);
+      if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
+      if (isInsideUseOf(context.uses, marker)) continue;
+      this.spendCopy(context);
+      const inner = this.insideMarker(marker, place, context);
+      if (inner !== null) this.push(inner, tree.firstChildren[marker], false, null);
+    }
+  }
+
+  private insideMarker(marker: number, place: MarkerPlace, context: Context): Context | null {
+    const { tree, declared } = this;
+    const text = (name: string): string | undefined => attribute(tree, marker, name);
+    const length = (name: string, side: Side, normal: number): number =>
+      lengthPx(text(name) ?? "", context.basis, side) ?? normal;
+    const width = length("markerWidth", "width", 3);
+    const height = length("markerHeight", "height", 3);
+    if (!(width > 0 && height > 0)) return null;
+    const box = parseViewBox(text("viewBox"));
+    const fit = box === null ? IDENTITY : viewBoxMap(box, width, height, text("preserveAspectRatio"));
+    const orient = text("orient") ?? "0";
+    const isReversed = orient === "auto-start-reverse" && place.kind === "start";
+    const angle = orient.startsWith("auto") ? place.angle + (isReversed ? Math.PI : 0) : orientRad(orient);
+    const size = text("markerUnits") === "userSpaceOnUse" ? 1 : context.style.strokeWidth;
+    const refX = refPosition(text("refX"), box?.x ?? 0, box?.width ?? width);
+    const refY = refPosition(text("refY"), box?.y ?? 0, box?.height ?? height);
+    const turned = compose(translation(place.x, place.y), compose(rotation(angle), scaling(size)));
+    // The reference point, not the viewBox's corner, lies on the vertex.
+    const map = compose(turned, { ...fit, e: fit.a * -refX, f: fit.d * -refY });
+    if (determinant(map) === 0 || !isFiniteAffine(map)) return null;
+    const depth = (context.uses?.depth ?? 0) + 1;
+    if (depth > MAX_COPY_DEPTH) return null;
+    const uses: UseChain = {
+      element: marker,
+      target: marker,
+      size: { width: null, height: null },
+      outer: context.uses,
+      depth,
+    };
+    this.cascade.collect(marker, declared);
+    const style = computeStyle(INITIAL_STYLE, declared, context.basis);
+    if (declaredValue(style, declared, "display") === "none") return null;
+    const inside = {
+      ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
+      style,
+      uses,
+      contextFill: context.style.fill,
+      contextStroke: context.style.stroke,
+    };
+    const overflow = declaredValue(style, declared, "overflow");
+    if (overflow === "visible" || overflow === "auto") return inside;
+    const edge = box ?? { x: 0, y: 0, width, height };
+    return { ...inside, clip: this.clips.rectangleClip(inside, edge.x, edge.y, edge.width, edge.height) };
+  }
+
   private isAncestor(candidate: number, element: number): boolean {
     this.subtreeEnds ??= subtreeEndsOf(this.tree);
     return candidate <= element && element < this.subtreeEnds[candidate];
@@ -234,7 +312,7 @@ export class SvgWalk {
         : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
     const overflow = declaredValue(context.style, declared, "overflow");
     const isCut = overflow !== "visible" && overflow !== "auto";
-    const clip = isCut ? this.definitions.rectangleClip(context, x, y, width, height) : context.clip;
+    const clip = isCut ? this.clips.rectangleClip(context, x, y, width, height) : context.clip;
     const map = compose(translation(x, y), inner);
     return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
   }
@@ -253,7 +331,7 @@ export class SvgWalk {
     const opacity = declaredValue(style, declared, "opacity");
     if (opacity !== undefined && parseOpacity(opacity) === 0) return;
     const context = withStyle(outer, style, this.transformOf(element, style, outer));
-    const box = this.painter.placeOf(
+    const box = this.svgGeometry.placeOf(
       context,
       this.geometry(context, element, "x", "width") ?? 0,
       this.geometry(context, element, "y", "height") ?? 0,
@@ -377,6 +455,24 @@ function outerSizeOf(
   element: number,
 ): { readonly width: number | null; readonly height: number | null } | null {
   return context.uses?.target === element ? context.uses.size : null;
+}
+
+const MARKED = new Set(["path", "line", "polyline", "polygon"]);
+
+const hasMarkers = ({ style }: Context): boolean =>
+  style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null;
+
+function orientRad(text: string): number {
+  const turn = parseTransform(`rotate(${text})`);
+  return turn === null ? 0 : Math.atan2(turn.b, turn.a);
+}
+
+/** A number, a share of the box, or left/center/right and top/center/bottom. */
+function refPosition(text: string | undefined, start: number, length: number): number {
+  const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text ?? ""];
+  if (share !== undefined) return start + share * length;
+  const basis = { fontSize: 16, rootFontSize: 16, viewportWidth: length, viewportHeight: length };
+  return lengthPx(text ?? "0", basis, "width") ?? 0;
 }
 
 /** One past the last element inside each element; elements stand in document order. */
