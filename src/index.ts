@@ -27,7 +27,8 @@ export {
 } from "./import/import-svg.js";
 
 // prepare
-export { prepare, type Prepared, type PreparedLayer } from "./prepare/prepare.js";
+export { prepare, type Prepared } from "./prepare/prepare.js";
+export type { PreparedLayer } from "./prepare/assemble.js";
 export { checkBounds } from "./prepare/check-bounds.js";
 export type { Work } from "./prepare/work.js";
 export { NO_CODES, formatLayerName, parseLayerName, type LayerCodes } from "./prepare/layer-codes.js";
@@ -77,6 +78,8 @@ export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
+export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
+export { closingCommands, penCommand, penSetUpCommands, setUpCommands } from "./ebb/commands.js";
 export {
   compareFirmware,
   firmwareFeatures,

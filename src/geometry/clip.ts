@@ -18,7 +18,8 @@ export function clipLinesToBox(lines: Lines, box: Box): Lines {
   return builder.finish();
 }
 
-function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder): void {
+/** The parts of line `i` inside `box`, added to `builder`. */
+export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder): void {
   const { xy, offsets } = lines;
   const tag = lines.tag[i];
   const first = offsets[i];

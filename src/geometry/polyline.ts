@@ -117,6 +117,12 @@ export function lineLength(lines: Lines, i: number): number {
   return length;
 }
 
+export function totalLength(lines: Lines): number {
+  let length = 0;
+  for (let i = 0; i < lineCount(lines); i++) length += lineLength(lines, i);
+  return length;
+}
+
 /** True when line `i` ends where it began and is more than a dot. */
 export function isClosedLine(lines: Lines, i: number): boolean {
   const { xy, offsets } = lines;

@@ -7,6 +7,7 @@
  */
 import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
 import { boxOfPoints, boxesTouch, boxContains, type Box } from "./box.js";
+import { clipLine } from "./clip.js";
 import { LineBuilder, lineCount, type Lines } from "./polyline.js";
 
 /** Clipper units per mm. */
@@ -79,10 +80,8 @@ export function cutLine(
     if (keepOutside) builder.copy(lines, i, tag);
     return;
   }
-  if (region.isBox && boxContains(region.box, bounds)) {
-    if (!keepOutside) builder.copy(lines, i, tag);
-    return;
-  }
+  if (region.isBox && !keepOutside) return clipLine(lines, i, region.box, builder);
+  if (region.isBox && boxContains(region.box, bounds)) return;
   if (offsets[i + 1] - offsets[i] < 2) {
     if (regionContains(region, xy[2 * offsets[i]], xy[2 * offsets[i] + 1]) !== keepOutside)
       builder.copy(lines, i, tag);

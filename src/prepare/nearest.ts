@@ -11,19 +11,20 @@ import { stopIfCancelled, type Work } from "./work.js";
 const REBUILD_BELOW = 1 / 4;
 
 /**
- * Orders lines [first, end), writing into `tour` (same range of `order`), from the place x, y.
- * Answers the place where the pen ends.
+ * Orders lines [first, end), writing into `tour` (same range of `order`), beginning at a place (mm).
+ * Closed lines are begun at any point, or without `freeStart` at their own. Answers where the pen ends.
  */
 export function nearestOrder(
   lines: Lines,
   first: number,
   end: number,
-  x: number,
-  y: number,
+  from: { readonly x: number; readonly y: number },
+  freeStart: boolean,
   tour: Tour,
   work: Work,
 ): { x: number; y: number } {
-  const entries = entriesOf(lines, first, end);
+  let { x, y } = from;
+  const entries = entriesOf(lines, first, end, freeStart);
   let index = new PointIndex(entries.xy);
   let built = index.size;
   for (let k = first; k < end; k++) {
@@ -34,14 +35,14 @@ export function nearestOrder(
     }
     const entry = index.nearest(x, y);
     const line = entries.line[entry];
-    const from = entries.firstOf[line - first];
-    const to = entries.firstOf[line - first + 1];
-    for (let e = from; e < to; e++) index.remove(e);
+    const low = entries.firstOf[line - first];
+    const high = entries.firstOf[line - first + 1];
+    for (let e = low; e < high; e++) index.remove(e);
     tour.order[k] = line;
     const closed = isClosedLine(lines, line);
-    tour.start[line] = closed ? entry - from : 0;
-    tour.reversed[line] = !closed && entry > from ? 1 : 0;
-    const exit = closed ? entry : from + to - 1 - entry;
+    tour.start[line] = closed ? entry - low : 0;
+    tour.reversed[line] = !closed && entry > low ? 1 : 0;
+    const exit = closed ? entry : low + high - 1 - entry;
     x = entries.xy[2 * exit];
     y = entries.xy[2 * exit + 1];
   }
@@ -57,12 +58,13 @@ interface Entries {
 }
 
 /** Every point at which a line can be begun: both ends, one for a dot, all corners of a closed line. */
-function entriesOf(lines: Lines, first: number, end: number): Entries {
+function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean): Entries {
   const { xy, offsets } = lines;
   const firstOf = new Uint32Array(end - first + 1);
   for (let i = first; i < end; i++) {
     const points = offsets[i + 1] - offsets[i];
-    firstOf[i - first + 1] = firstOf[i - first] + (isClosedLine(lines, i) ? points - 1 : Math.min(points, 2));
+    firstOf[i - first + 1] =
+      firstOf[i - first] + (isClosedLine(lines, i) ? (freeStart ? points - 1 : 1) : Math.min(points, 2));
   }
   const places = new Float64Array(2 * firstOf[end - first]);
   const line = new Uint32Array(firstOf[end - first]);

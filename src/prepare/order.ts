@@ -5,23 +5,25 @@
  */
 import { lineCount, type Lines } from "../geometry/polyline.js";
 import { nearestOrder } from "./nearest.js";
-import type { OrderMode } from "./settings.js";
+import type { PrepareSettings } from "./settings.js";
 import { fileTour, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 
 /** Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order. */
-export function orderLines(lines: Lines, mode: OrderMode, work: Work): Tour {
+export function orderLines(lines: Lines, settings: OrderSettings, work: Work): Tour {
   const given = fileTour(lines);
-  if (mode === "none") return given;
-  const tour = nearestTour(lines, work);
+  if (settings.order === "none") return given;
+  const tour = nearestTour(lines, !settings.reloop, work);
   return travelOf(lines, tour) <= travelOf(lines, given) ? tour : given;
 }
 
-function nearestTour(lines: Lines, work: Work): Tour {
+type OrderSettings = Pick<PrepareSettings, "order" | "orderS" | "reloop">;
+
+function nearestTour(lines: Lines, freeStart: boolean, work: Work): Tour {
   const tour = fileTour(lines);
   let place = { x: 0, y: 0 };
   for (const [first, end] of tagRanges(lines)) {
-    place = nearestOrder(lines, first, end, place.x, place.y, tour, work);
+    place = nearestOrder(lines, first, end, place, freeStart, tour, work);
   }
   return tour;
 }

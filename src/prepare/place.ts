@@ -5,6 +5,7 @@
  *        │  ┌───────────┐           inside   the paper less its margins
  *        │  │  inside   │           fit      what is drawn fills `inside`, centred
  *        y  └───────────┘           true     page corner on paper corner
+ *                                   place    the drawing's own box where the numbers say
  */
 import type { ClipRegion, Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
@@ -21,7 +22,7 @@ import {
 } from "../geometry/affine.js";
 import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { boundsOfVerbs } from "./bounds.js";
-import type { PrepareSettings } from "./settings.js";
+import type { MirrorMode, PlacedBox, PrepareSettings } from "./settings.js";
 
 export interface Placement {
   /** Page mm to machine mm. */
@@ -43,13 +44,22 @@ export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
 export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
   const paper = paperBox(settings);
   const inside = insideMargins(paper, settings);
-  const turn = rotation((settings.rotateDeg * Math.PI) / 180);
+  const turn = compose(rotation((settings.rotateDeg * Math.PI) / 180), MIRRORS[settings.mirror]);
   const turned = shapeBoxes(drawing, turn);
-  const after = settings.fit
-    ? fitted(contentBox(drawing, turned, turn), inside)
-    : onCorner(pageBox(drawing, turn));
+  const content = (): Box => contentBox(drawing, turned, turn, settings.cropToPage);
+  const after = settings.place
+    ? placed(content(), settings.place)
+    : settings.fit
+      ? fitted(content(), inside)
+      : onCorner(pageBox(drawing, turn));
   return { map: compose(after, turn), paper, inside, shapeBoxes: turned.map((box) => movedBox(box, after)) };
 }
+
+const MIRRORS: Readonly<Record<MirrorMode, Affine>> = {
+  none: IDENTITY,
+  leftRight: scaling(-1, 1),
+  upDown: scaling(1, -1),
+};
 
 function paperBox(settings: PrepareSettings): Box {
   const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
@@ -58,11 +68,18 @@ function paperBox(settings: PrepareSettings): Box {
 
 function insideMargins(paper: Box, settings: PrepareSettings): Box {
   const m = settings.marginMm;
-  const inside = { x0: m, y0: m, x1: paper.x1 - m, y1: paper.y1 - m };
+  const { topMm, rightMm, bottomMm, leftMm } = settings.margins ?? {
+    topMm: m,
+    rightMm: m,
+    bottomMm: m,
+    leftMm: m,
+  };
+  const inside = { x0: leftMm, y0: topMm, x1: paper.x1 - rightMm, y1: paper.y1 - bottomMm };
   if (inside.x0 < inside.x1 && inside.y0 < inside.y1) return inside;
+  const sides = settings.margins ? `${topMm}, ${rightMm}, ${bottomMm} and ${leftMm}` : String(m);
   throw new PlotwrightError(
     "bad-setting",
-    `Margins of ${m} mm leave no room on paper of ${paper.x1} × ${paper.y1} mm: make the margin smaller or the paper larger.`,
+    `Margins of ${sides} mm leave no room on paper of ${paper.x1} × ${paper.y1} mm: make the margin smaller or the paper larger.`,
   );
 }
 
@@ -76,7 +93,8 @@ function shapeBoxes(drawing: Drawing, map: Affine): Box[] {
 }
 
 /** Box of all that the file draws, hidden layers included: layers plotted one by one must still meet. */
-function contentBox(drawing: Drawing, boxes: readonly Box[], map: Affine): Box {
+function contentBox(drawing: Drawing, boxes: readonly Box[], map: Affine, onPage: boolean): Box {
+  const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
   let content = EMPTY_BOX;
   for (let i = 0; i < boxes.length; i++) {
@@ -84,6 +102,7 @@ function contentBox(drawing: Drawing, boxes: readonly Box[], map: Affine): Box {
     for (let clip = drawing.paths.clip[i]; clip >= 0; clip = drawing.clips[clip].parent) {
       box = intersectBoxes(box, clipBoxes[clip]);
     }
+    if (page) box = intersectBoxes(box, page);
     if (!isEmptyBox(box) && !isFarAway(box)) content = uniteBoxes(content, box);
   }
   return content;
@@ -111,16 +130,29 @@ function fitted(content: Box, inside: Box): Affine {
   return compose(toMiddle, compose(scaling(s), fromMiddle));
 }
 
+/** The content's top left corner at x, y, in the size asked for. */
+function placed(content: Box, place: PlacedBox): Affine {
+  if (isEmptyBox(content)) return IDENTITY;
+  const ratio = (wanted: number | null, have: number): number | null =>
+    wanted !== null && have > 0 ? wanted / have : null;
+  const sx = ratio(place.widthMm, content.x1 - content.x0);
+  const sy = ratio(place.heightMm, content.y1 - content.y0);
+  const size = scaling(sx ?? sy ?? 1, sy ?? sx ?? 1);
+  return compose(translation(place.xMm, place.yMm), compose(size, translation(-content.x0, -content.y0)));
+}
+
 const onCorner = (page: Box): Affine => translation(-page.x0, -page.y0);
 
-function pageBox(drawing: Drawing, map: Affine): Box {
+/** Corners of the file's page under a map, x, y, x, y … clockwise or counter-clockwise. */
+export function pageCorners(drawing: Drawing, map: Affine): number[] {
   const { widthMm: w, heightMm: h } = drawing;
   const corners = [0, 0, w, 0, w, h, 0, h];
-  const mapped = corners.map((_, k) =>
+  return corners.map((_, k) =>
     k % 2 === 0 ? applyX(map, corners[k], corners[k + 1]) : applyY(map, corners[k - 1], corners[k]),
   );
-  return boxOfPoints(mapped);
 }
+
+const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 
 /** Under maps that scale and move only. */
 const movedBox = (box: Box, map: Affine): Box => ({

@@ -6,6 +6,43 @@ export type LayerMode = (typeof LAYER_MODES)[number];
 export const ORDER_MODES = ["none", "fast", "best"] as const;
 export type OrderMode = (typeof ORDER_MODES)[number];
 
+export const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
+export type MirrorMode = (typeof MIRROR_MODES)[number];
+
+export const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
+export type SpreadMode = (typeof SPREAD_MODES)[number];
+
+export interface FourMargins {
+  readonly topMm: number;
+  readonly rightMm: number;
+  readonly bottomMm: number;
+  readonly leftMm: number;
+}
+
+/** Where the drawing's own box goes, mm from the paper's top left corner. */
+export interface PlacedBox {
+  readonly xMm: number;
+  readonly yMm: number;
+  /** One of them null: the drawing keeps its proportions. Both null: its true size. */
+  readonly widthMm: number | null;
+  readonly heightMm: number | null;
+}
+
+/** How areas are filled with lines. */
+export interface HatchSettings {
+  /** Distance of the lines, which is the width that the pen covers; 0 leaves areas empty. */
+  readonly spacingMm: number;
+  /** Of the lines, clockwise from the x axis. */
+  readonly angleDeg: number;
+  /** A second set of lines across the first. */
+  readonly cross: boolean;
+}
+
+export interface LayerHatch extends HatchSettings {
+  /** Layer id. */
+  readonly layer: string;
+}
+
 /** How the drawing is laid on the paper and made into strokes. */
 export interface PrepareSettings {
   /** Portrait size; `landscape` turns it. */
@@ -30,6 +67,34 @@ export interface PrepareSettings {
   /** Layer ids to leave out. */
   readonly hiddenLayers: readonly string[];
   readonly order: OrderMode;
+  /** How long `best` may search, in the time of the clock that `prepare` is given. */
+  readonly orderS: number;
+  /** Each side by itself; null: `marginMm` all round. */
+  readonly margins: FourMargins | null;
+  readonly mirror: MirrorMode;
+  /** The drawing's place by numbers, after turning and mirroring; goes before `fit`. Null: `fit` decides. */
+  readonly place: PlacedBox | null;
+  /** Cut off what lies outside the file's own page. */
+  readonly cropToPage: boolean;
+  /** Cut off what lies outside the machine's travel, from home; null: nothing is cut for it. */
+  readonly reach: PaperSize | null;
+  readonly hatch: HatchSettings;
+  /** Layers that are filled in their own way. */
+  readonly layerHatches: readonly LayerHatch[];
+  /** Draw the outline of shapes that have a fill and no stroke. */
+  readonly outlineFills: boolean;
+  /** Leave out what lies under filled shapes painted later. */
+  readonly hideCovered: boolean;
+  /** Pieces drawn before within this distance are left out; 0 keeps all. */
+  readonly dropRepeatsMm: number;
+  /** Rounds of corner cutting (Chaikin): 0 none, each doubles the points. */
+  readonly smoothRounds: number;
+  /** Closed strokes begin at a random point, so that their seams do not line up. */
+  readonly reloop: boolean;
+  /** Draw neighbours apart in time, so that ink dries and paper survives. Goes after `order`. */
+  readonly spread: SpreadMode;
+  /** A stop to take up ink after so much drawing: layers are split there; 0 never. */
+  readonly reinkMm: number;
 }
 
 export const DEFAULT_PREPARE: PrepareSettings = {
@@ -46,4 +111,19 @@ export const DEFAULT_PREPARE: PrepareSettings = {
   layers: "group",
   hiddenLayers: [],
   order: "fast",
+  orderS: 10,
+  margins: null,
+  mirror: "none",
+  place: null,
+  cropToPage: false,
+  reach: null,
+  hatch: { spacingMm: 0, angleDeg: 45, cross: false },
+  layerHatches: [],
+  outlineFills: true,
+  hideCovered: false,
+  dropRepeatsMm: 0,
+  smoothRounds: 0,
+  reloop: false,
+  spread: "none",
+  reinkMm: 0,
 };

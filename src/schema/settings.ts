@@ -7,13 +7,29 @@ import {
   type MotionSettings,
   type PenSettings,
 } from "../plan/settings.js";
-import { DEFAULT_PREPARE, LAYER_MODES, ORDER_MODES, type PrepareSettings } from "../prepare/settings.js";
+import {
+  DEFAULT_PREPARE,
+  LAYER_MODES,
+  MIRROR_MODES,
+  ORDER_MODES,
+  SPREAD_MODES,
+  type PrepareSettings,
+} from "../prepare/settings.js";
 
 const positive = (max: number) => z.number().gt(0).max(max);
 const nonNegative = (max: number) => z.number().min(0).max(max);
 
+const anywhere = z.number().min(-100_000).max(100_000);
+const paperSizeSchema = z.object({ widthMm: positive(5_000), heightMm: positive(5_000) });
+const hatchSchema = z.object({
+  spacingMm: nonNegative(100),
+  angleDeg: z.number().min(-360).max(360),
+  cross: z.boolean(),
+});
+
+// Fields that came after the first release have defaults, so that stored jobs and presets stay readable.
 export const prepareSettingsSchema = z.object({
-  paper: z.object({ widthMm: positive(5_000), heightMm: positive(5_000) }),
+  paper: paperSizeSchema,
   landscape: z.boolean(),
   marginMm: nonNegative(1_000),
   fit: z.boolean(),
@@ -26,6 +42,40 @@ export const prepareSettingsSchema = z.object({
   layers: z.enum(LAYER_MODES),
   hiddenLayers: z.array(z.string().max(500)).max(10_000),
   order: z.enum(ORDER_MODES),
+  orderS: nonNegative(3_600).default(DEFAULT_PREPARE.orderS),
+  margins: z
+    .object({
+      topMm: nonNegative(1_000),
+      rightMm: nonNegative(1_000),
+      bottomMm: nonNegative(1_000),
+      leftMm: nonNegative(1_000),
+    })
+    .nullable()
+    .default(null),
+  mirror: z.enum(MIRROR_MODES).default(DEFAULT_PREPARE.mirror),
+  place: z
+    .object({
+      xMm: anywhere,
+      yMm: anywhere,
+      widthMm: positive(100_000).nullable(),
+      heightMm: positive(100_000).nullable(),
+    })
+    .nullable()
+    .default(null),
+  cropToPage: z.boolean().default(DEFAULT_PREPARE.cropToPage),
+  reach: paperSizeSchema.nullable().default(null),
+  hatch: hatchSchema.default(DEFAULT_PREPARE.hatch),
+  layerHatches: z
+    .array(hatchSchema.extend({ layer: z.string().max(500) }))
+    .max(10_000)
+    .default([]),
+  outlineFills: z.boolean().default(DEFAULT_PREPARE.outlineFills),
+  hideCovered: z.boolean().default(DEFAULT_PREPARE.hideCovered),
+  dropRepeatsMm: nonNegative(5).default(DEFAULT_PREPARE.dropRepeatsMm),
+  smoothRounds: z.int().min(0).max(5).default(DEFAULT_PREPARE.smoothRounds),
+  reloop: z.boolean().default(DEFAULT_PREPARE.reloop),
+  spread: z.enum(SPREAD_MODES).default(DEFAULT_PREPARE.spread),
+  reinkMm: nonNegative(1_000_000).default(DEFAULT_PREPARE.reinkMm),
 }) satisfies z.ZodType<PrepareSettings>;
 
 const motionLimitsSchema = z.object({
@@ -59,7 +109,7 @@ export type PlotSettings = z.infer<typeof plotSettingsSchema>;
 
 export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   machine: "axidraw-v3",
-  prepare: { ...DEFAULT_PREPARE, hiddenLayers: [] },
+  prepare: { ...DEFAULT_PREPARE, hiddenLayers: [], layerHatches: [] },
   motion: DEFAULT_MOTION,
   pen: DEFAULT_PEN,
 };

@@ -53,21 +53,34 @@ const drawingFrom = (shapes: readonly TestShape[]): ReturnType<typeof drawingOf>
 const drawings = fc.array(shapeOf(coordinate), { maxLength: 8 }).map(drawingFrom);
 const saneDrawings = fc.array(shapeOf(sane), { maxLength: 8 }).map(drawingFrom);
 
-const settings: fc.Arbitrary<PrepareSettings> = fc.record({
-  paper: fc.constant({ widthMm: 120, heightMm: 120 }),
-  landscape: fc.boolean(),
-  marginMm: fc.constantFrom(0, 10),
-  fit: fc.boolean(),
-  rotateDeg: fc.constantFrom(0, 90, 33.3, -180),
-  clipToMargins: fc.constant(true),
-  flattenMm: fc.constantFrom(0.02, 0.5),
-  joinMm: fc.constantFrom(0, 0.1, 5),
-  dropShorterMm: fc.constantFrom(0, 1),
-  simplifyMm: fc.constantFrom(0, 0.1),
-  layers: fc.constantFrom("group" as const, "stroke" as const, "all" as const),
-  hiddenLayers: fc.constantFrom([], ["g1"]),
-  order: fc.constantFrom("none" as const, "fast" as const),
-});
+const settings: fc.Arbitrary<PrepareSettings> = fc
+  .record({
+    paper: fc.constant({ widthMm: 120, heightMm: 120 }),
+    landscape: fc.boolean(),
+    marginMm: fc.constantFrom(0, 10),
+    fit: fc.boolean(),
+    rotateDeg: fc.constantFrom(0, 90, 33.3, -180),
+    flattenMm: fc.constantFrom(0.02, 0.5),
+    joinMm: fc.constantFrom(0, 0.1, 5),
+    dropShorterMm: fc.constantFrom(0, 1),
+    simplifyMm: fc.constantFrom(0, 0.1),
+    layers: fc.constantFrom("group" as const, "stroke" as const, "all" as const),
+    hiddenLayers: fc.constantFrom([], ["g1"]),
+    order: fc.constantFrom("none" as const, "fast" as const),
+    mirror: fc.constantFrom("none" as const, "leftRight" as const),
+    cropToPage: fc.boolean(),
+    hatch: fc.constantFrom(
+      { spacingMm: 0, angleDeg: 0, cross: false },
+      { spacingMm: 3, angleDeg: 30, cross: true },
+    ),
+    hideCovered: fc.boolean(),
+    dropRepeatsMm: fc.constantFrom(0, 0.1),
+    smoothRounds: fc.constantFrom(0, 1),
+    reloop: fc.boolean(),
+    spread: fc.constantFrom("none" as const, "interleave" as const, "shuffle" as const),
+    reinkMm: fc.constantFrom(0, 200),
+  })
+  .map((some) => ({ ...DEFAULT_PREPARE, ...some }));
 
 const lengthOf = (set: StrokeSet): number => {
   let length = 0;
@@ -103,10 +116,9 @@ describe("prepare, whatever is drawn and asked for", () => {
       fc.property(drawings, settings, (drawing, s) => {
         const prepared = prepare(drawing, s);
         const { strokes } = prepared;
-        for (const v of strokes.xy) {
-          expect(v).toBeGreaterThanOrEqual(s.marginMm);
-          expect(v).toBeLessThanOrEqual(120 - s.marginMm);
-        }
+        // Cutting by areas rounds to 0.1 µm; where only the margins cut there is no tolerance at all.
+        const slack = s.cropToPage || s.hideCovered || s.hatch.spacingMm > 0 ? 1e-4 : 0;
+        expect(strokes.xy.every((v) => v >= s.marginMm - slack && v <= 120 - s.marginMm + slack)).toBe(true);
         expect(strokes.offsets[0]).toBe(0);
         expect(strokes.offsets[strokeCount(strokes)]).toBe(strokes.xy.length / 2);
         expect(strokes.layer.length).toBe(strokeCount(strokes));
@@ -116,11 +128,13 @@ describe("prepare, whatever is drawn and asked for", () => {
           if (i > 0) expect(strokes.layer[i]).toBeGreaterThanOrEqual(strokes.layer[i - 1]);
         }
         const shown = prepared.layers.filter((layer) => layer.visible);
-        expect(shown.reduce((sum, layer) => sum + layer.strokeCount, 0)).toBe(strokeCount(strokes));
+        const counted = shown.reduce((sum, layer) => sum + layer.strokeCount, 0);
+        if (s.reinkMm === 0) expect(counted).toBe(strokeCount(strokes));
+        else expect(counted).toBeLessThanOrEqual(strokeCount(strokes));
         expect(prepared.drawMm).toBeCloseTo(lengthOf(strokes), 6);
-        expect(prepared.travelMm).toBeLessThanOrEqual(prepared.travelMmUnordered);
+        if (s.spread === "none") expect(prepared.travelMm).toBeLessThanOrEqual(prepared.travelMmUnordered);
       }),
-      RUNS,
+      { numRuns: 500 },
     );
   });
 

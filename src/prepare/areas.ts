@@ -1,0 +1,46 @@
+/** The areas that filled shapes cover on the paper: what is hatched, and what hides. */
+import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
+import { RULE_EVENODD, type Drawing } from "../drawing/drawing.js";
+import { boxContains, type Box } from "../geometry/box.js";
+import { lineCount, type Lines } from "../geometry/polyline.js";
+import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../geometry/region.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/**
+ * Region of each filled shape, in paint order, under its rule, cut to its clip and to `limit`.
+ * `lines` are the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG.
+ */
+export function filledAreas(
+  lines: Lines,
+  drawing: Drawing,
+  clipOf: (shape: number) => Region | null,
+  limit: Box,
+  work: Work,
+): Map<number, Region> {
+  const areas = new Map<number, Region>();
+  const frame = frameOf(limit);
+  for (let i = 0, next = 0; i < lineCount(lines); i = next) {
+    stopIfCancelled(work);
+    const shape = lines.tag[i];
+    const rings: Paths64 = [];
+    for (next = i; next < lineCount(lines) && lines.tag[next] === shape; next++) {
+      if (lines.offsets[next + 1] - lines.offsets[next] > 2) rings.push(ringOf(lines, next));
+    }
+    if (drawing.paths.fill[shape] < 0 || rings.length === 0) continue;
+    const rule = drawing.paths.fillRule[shape] === RULE_EVENODD ? FillRule.EvenOdd : FillRule.NonZero;
+    let area = cleanRings(rings, rule);
+    const clip = clipOf(shape);
+    if (clip !== null) area = combine(ClipType.Intersection, area, clip.rings);
+    if (!boxContains(limit, regionOf(area).box)) area = combine(ClipType.Intersection, area, [frame]);
+    if (area.length > 0) areas.set(shape, regionOf(area));
+  }
+  return areas;
+}
+
+const frameOf = (box: Box): { x: number; y: number }[] =>
+  [
+    [box.x0, box.y0],
+    [box.x1, box.y0],
+    [box.x1, box.y1],
+    [box.x0, box.y1],
+  ].map(([x, y]) => ({ x: Math.round(x * SCALE), y: Math.round(y * SCALE) }));

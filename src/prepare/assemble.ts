@@ -1,0 +1,117 @@
+/** The steps of `prepare` once lines belong to layers: sorted, counted, switched off, handed over. */
+import type { Drawing } from "../drawing/drawing.js";
+import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
+import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
+import type { LayerTable } from "./layers.js";
+import { inkPortions } from "./spread.js";
+
+/** A layer of the file with what it holds on this paper, whether it is drawn or hidden. */
+export interface PreparedLayer extends StrokeLayer {
+  readonly visible: boolean;
+  readonly strokeCount: number;
+  readonly pointCount: number;
+  readonly drawMm: number;
+}
+
+/** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
+export function byLayer(lines: Lines, table: LayerTable): Lines {
+  const count = lineCount(lines);
+  const next = new Uint32Array(table.layers.length + 1);
+  for (let i = 0; i < count; i++) next[table.ofShape[lines.tag[i]] + 1]++;
+  for (let layer = 0; layer < table.layers.length; layer++) next[layer + 1] += next[layer];
+  const order = new Uint32Array(count);
+  for (let i = 0; i < count; i++) order[next[table.ofShape[lines.tag[i]]]++] = i;
+  const sorted = pickLines(lines, order);
+  return { ...sorted, tag: sorted.tag.map((shape) => table.ofShape[shape]) };
+}
+
+/** Without strokes shorter than that, dots among them; 0 keeps all. */
+export function dropShort(lines: Lines, shorterThan: number): Lines {
+  if (!(shorterThan > 0)) return lines;
+  const kept: number[] = [];
+  for (let i = 0; i < lineCount(lines); i++) if (lineLength(lines, i) >= shorterThan) kept.push(i);
+  return pickLines(lines, kept);
+}
+
+export function countLayers(lines: Lines, table: LayerTable, isVisible: readonly boolean[]): PreparedLayer[] {
+  const strokes = new Float64Array(table.layers.length);
+  const points = new Float64Array(table.layers.length);
+  const length = new Float64Array(table.layers.length);
+  for (let i = 0; i < lineCount(lines); i++) {
+    strokes[lines.tag[i]]++;
+    points[lines.tag[i]] += lines.offsets[i + 1] - lines.offsets[i];
+    length[lines.tag[i]] += lineLength(lines, i);
+  }
+  return table.layers.map((layer, k) => ({
+    ...layer,
+    visible: isVisible[k],
+    strokeCount: strokes[k],
+    pointCount: points[k],
+    drawMm: length[k],
+  }));
+}
+
+export function visibleOnly(lines: Lines, isVisible: readonly boolean[]): Lines {
+  if (isVisible.every(Boolean)) return lines;
+  const kept: number[] = [];
+  for (let i = 0; i < lineCount(lines); i++) if (isVisible[lines.tag[i]]) kept.push(i);
+  return pickLines(lines, kept);
+}
+
+export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): string {
+  if (drawing.paths.count === 0) return "The file has no lines to draw.";
+  if (!isVisible.some(Boolean)) return "All layers are hidden: nothing will be drawn.";
+  return "Nothing is left to draw on this paper: look at the margins, the hidden layers and the shortest stroke.";
+}
+
+/**
+ * The strokes with the visible layers only, numbered anew. With `reinkMm` a layer becomes several,
+ * "red", "red (2)" …, so that the stop between layers is the stop to take up ink.
+ */
+export function strokeSetOf(
+  lines: Lines,
+  layers: readonly StrokeLayer[],
+  isVisible: readonly boolean[],
+  reinkMm: number,
+): StrokeSet {
+  if (reinkMm > 0) return inkedStrokeSet(lines, layers, isVisible, reinkMm);
+  let next = 0;
+  const renumbered = layers.map((_, k) => (isVisible[k] ? next++ : 0));
+  return {
+    xy: lines.xy,
+    offsets: lines.offsets,
+    layer: Uint16Array.from(lines.tag, (layer) => renumbered[layer]),
+    layers: layers.filter((_, k) => isVisible[k]).map(plainLayer),
+  };
+}
+
+const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, name, color });
+
+/** A 16-bit index is all that a stroke has for its layer. */
+const MOST_PORTIONS = 65_536;
+
+function inkedStrokeSet(
+  given: Lines,
+  layers: readonly StrokeLayer[],
+  isVisible: readonly boolean[],
+  reinkMm: number,
+): StrokeSet {
+  const { lines, portion } = inkPortions(given, reinkMm);
+  const out: StrokeLayer[] = [];
+  const layer = new Uint16Array(lineCount(lines));
+  let i = 0;
+  for (let k = 0; k < layers.length; k++) {
+    if (!isVisible[k]) continue;
+    // A layer without strokes stays, as without portions.
+    out.push(plainLayer(layers[k]));
+    for (let part = 0; i < layer.length && lines.tag[i] === k; i++) {
+      if (portion[i] > part && out.length < MOST_PORTIONS) {
+        part = portion[i];
+        const { id, name, color } = layers[k];
+        out.push({ id: `${id}~${part + 1}`, name: `${name} (${part + 1})`, color });
+      }
+      layer[i] = out.length - 1;
+    }
+  }
+  return { xy: lines.xy, offsets: lines.offsets, layer, layers: out };
+}

@@ -1,0 +1,156 @@
+/**
+ * Filling an area with parallel lines one pen width apart.
+ *
+ *    ┌─────────────┐    The area is first made smaller by half a pen, so that ink ends where the shape does.
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    Lines lie at whole multiples of the spacing from the paper's corner, whatever the
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    shape: neighbours with the same hatch run on into each other.
+ *    └─────────────┘
+ *
+ * Method: turn the rings so that hatch lines are level, cut every edge by the levels that it crosses, sort
+ * the crossings of each level and draw between the first and second, third and fourth … The rings are
+ * clean (they do not cross each other), so inside and outside alternate. Every other line runs backwards,
+ * and where two neighbouring lines end close to each other they are drawn without lifting the pen.
+ *
+ * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
+ */
+import { EndType, JoinType, Clipper, type Paths64 } from "clipper2-ts";
+import { LineBuilder } from "../geometry/polyline.js";
+import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
+import type { HatchSettings } from "./settings.js";
+
+/** mm; a finer pen does not exist, and a smaller number would only fill the memory. */
+const FINEST_SPACING = 0.05;
+/** Neighbouring lines are linked when their ends are nearer than so many spacings. */
+const LONGEST_LINK = 2;
+/** mm: links along a straight border are looked at so much further in, as on it inside and outside are a matter of rounding. */
+const HAIR = 1e-3;
+
+/** Adds the hatch of `area` to `builder` under `tag`. */
+export function hatchArea(area: Region, hatch: HatchSettings, tag: number, builder: LineBuilder): void {
+  if (!(hatch.spacingMm > 0)) return;
+  const spacing = Math.max(hatch.spacingMm, FINEST_SPACING);
+  const inner = inset(area.rings, spacing / 2);
+  if (inner.rings.length === 0) return;
+  const angle = (hatch.angleDeg * Math.PI) / 180;
+  hatchOneWay(inner, spacing, angle, tag, builder);
+  if (hatch.cross) hatchOneWay(inner, spacing, angle + Math.PI / 2, tag, builder);
+}
+
+/** The area without a border of that width, mm. */
+function inset(rings: Paths64, width: number): Region {
+  return regionOf(Clipper.inflatePaths(rings, -width * SCALE, JoinType.Miter, EndType.Polygon, 2));
+}
+
+function hatchOneWay(area: Region, spacing: number, angle: number, tag: number, builder: LineBuilder): void {
+  const cos = Math.cos(angle);
+  const sin = Math.sin(angle);
+  const levels = crossings(area.rings, spacing, cos, sin);
+  const writer = new HatchWriter(area, spacing, cos, sin, tag, builder);
+  for (const n of [...levels.keys()].sort((a, b) => a - b)) {
+    const us = (levels.get(n) as number[]).sort((a, b) => a - b);
+    writer.level(n, us);
+  }
+  writer.finish();
+}
+
+/** For each level the u where ring edges cross it. A vertex on a level counts for the edge below it only. */
+function crossings(rings: Paths64, spacing: number, cos: number, sin: number): Map<number, number[]> {
+  const levels = new Map<number, number[]>();
+  for (const ring of rings) {
+    for (let k = 0, j = ring.length - 1; k < ring.length; j = k++) {
+      const u0 = (ring[j].x * cos + ring[j].y * sin) / SCALE;
+      const v0 = (ring[j].y * cos - ring[j].x * sin) / SCALE;
+      const u1 = (ring[k].x * cos + ring[k].y * sin) / SCALE;
+      const v1 = (ring[k].y * cos - ring[k].x * sin) / SCALE;
+      const first = Math.ceil(Math.min(v0, v1) / spacing);
+      const end = Math.ceil(Math.max(v0, v1) / spacing);
+      for (let n = first; n < end; n++) {
+        const u = u0 + ((n * spacing - v0) / (v1 - v0)) * (u1 - u0);
+        const list = levels.get(n);
+        if (list === undefined) levels.set(n, [u]);
+        else list.push(u);
+      }
+    }
+  }
+  return levels;
+}
+
+interface Chain {
+  readonly points: number[];
+  level: number;
+}
+
+/** Links lines of neighbouring levels into zigzags as long as the way between lies inside. */
+class HatchWriter {
+  private open: Chain[] = [];
+
+  constructor(
+    private readonly area: Region,
+    private readonly spacing: number,
+    private readonly cos: number,
+    private readonly sin: number,
+    private readonly tag: number,
+    private readonly builder: LineBuilder,
+  ) {}
+
+  level(n: number, us: readonly number[]): void {
+    const v = n * this.spacing;
+    const before = this.open;
+    this.open = [];
+    for (let k = 0; k + 1 < us.length; k += 2) {
+      if (!(us[k + 1] > us[k])) continue;
+      const chain = this.chainFor(before, n, us[k], us[k + 1], v);
+      this.open.push(chain);
+    }
+    for (const chain of before) if (chain.level !== n) this.write(chain);
+  }
+
+  finish(): void {
+    for (const chain of this.open) this.write(chain);
+    this.open = [];
+  }
+
+  /** The chain of the level before that can go on along this line, or a new one. */
+  private chainFor(before: readonly Chain[], n: number, u0: number, u1: number, v: number): Chain {
+    let best: Chain | null = null;
+    let bestGap = LONGEST_LINK * this.spacing;
+    let backwards = false;
+    for (const chain of before) {
+      if (chain.level !== n - 1) continue;
+      const end = chain.points[chain.points.length - 2];
+      for (const u of [u0, u1]) {
+        const gap = Math.hypot(end - u, this.spacing);
+        const inward = u === u0 ? HAIR : -HAIR;
+        if (gap < bestGap && this.isInside(end + inward, v - this.spacing, u + inward, v)) {
+          best = chain;
+          bestGap = gap;
+          backwards = u === u1;
+        }
+      }
+    }
+    const line = backwards ? [u1, v, u0, v] : [u0, v, u1, v];
+    if (best === null) return { points: line, level: n };
+    best.points.push(...line);
+    best.level = n;
+    return best;
+  }
+
+  /** Whether a short link stays in the area: looked at in its middle and quarters. */
+  private isInside(u0: number, v0: number, u1: number, v1: number): boolean {
+    return [0.25, 0.5, 0.75].every((t) => {
+      const u = u0 + t * (u1 - u0);
+      const v = v0 + t * (v1 - v0);
+      return regionContains(this.area, u * this.cos - v * this.sin, u * this.sin + v * this.cos);
+    });
+  }
+
+  private write(chain: Chain): void {
+    const { points } = chain;
+    for (let k = 0; k < points.length; k += 2) {
+      const u = points[k];
+      const v = points[k + 1];
+      this.builder.point(u * this.cos - v * this.sin, u * this.sin + v * this.cos);
+    }
+    this.builder.end(this.tag);
+  }
+}

@@ -1,0 +1,60 @@
+/**
+ * Hidden lines: a filled shape covers what was painted before it.
+ *
+ * A line is cut by the areas of later shapes only, one after the other; which areas it can meet is
+ * asked of a tree of boxes (Flatbush), so the cost grows with what overlaps and not with the square of
+ * the drawing. A shape's own fill hides nothing of itself.
+ */
+import Flatbush from "flatbush";
+import { boxOfPoints } from "../geometry/box.js";
+import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
+import { cutLine, type Region } from "../geometry/region.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/**
+ * `lines` have their shape as tag; `areas` by shape; a higher shape is painted later. Shapes that do not
+ * `take part` (hidden layers) cover nothing and are not covered.
+ */
+export function hideCovered(
+  lines: Lines,
+  areas: ReadonlyMap<number, Region>,
+  takesPart: (shape: number) => boolean,
+  work: Work,
+): Lines {
+  const shapes = [...areas.keys()].filter(takesPart);
+  if (shapes.length === 0) return lines;
+  const tree = new Flatbush(shapes.length);
+  for (const shape of shapes) {
+    const { box } = areas.get(shape) as Region;
+    tree.add(box.x0, box.y0, box.x1, box.y1);
+  }
+  tree.finish();
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    if ((i & 255) === 0) stopIfCancelled(work);
+    if (!takesPart(lines.tag[i])) {
+      builder.copy(lines, i, lines.tag[i]);
+      continue;
+    }
+    const box = boxOfPoints(lines.xy, 2 * lines.offsets[i], 2 * lines.offsets[i + 1]);
+    const above = tree.search(box.x0, box.y0, box.x1, box.y1, (k) => shapes[k] > lines.tag[i]);
+    const covers = above.map((k) => areas.get(shapes[k]) as Region);
+    addUncovered(lines, i, covers, builder);
+  }
+  return builder.finish();
+}
+
+function addUncovered(lines: Lines, i: number, covers: readonly Region[], builder: LineBuilder): void {
+  if (covers.length === 0) return builder.copy(lines, i, lines.tag[i]);
+  let pieces = lines;
+  let from = i;
+  let to = i + 1;
+  for (const cover of covers) {
+    const next = new LineBuilder();
+    for (let k = from; k < to; k++) cutLine(pieces, k, cover, true, next);
+    pieces = next.finish();
+    from = 0;
+    to = lineCount(pieces);
+  }
+  for (let k = from; k < to; k++) builder.copy(pieces, k, pieces.tag[k]);
+}

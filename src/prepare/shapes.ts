@@ -1,0 +1,118 @@
+/** The steps of `prepare` while lines still belong to shapes: which, dashed, cropped, filled. */
+import type { Drawing } from "../drawing/drawing.js";
+import { meanScale } from "../geometry/affine.js";
+import { boxesTouch, intersectBoxes, isEmptyBox, type Box } from "../geometry/box.js";
+import { clipLinesToBox } from "../geometry/clip.js";
+import { LineBuilder, lineCount, pickLines, totalLength, type Lines } from "../geometry/polyline.js";
+import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
+import { dashLines, scaledPattern } from "./dash.js";
+import { hatchArea } from "./hatch.js";
+import type { LayerTable } from "./layers.js";
+import { isFarAway, pageCorners, type Placement } from "./place.js";
+import type { HatchSettings, PrepareSettings } from "./settings.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/** The box that nothing may leave, or null when nothing is cut off. */
+export function cropBox(settings: PrepareSettings, place: Placement): Box | null {
+  const inside = settings.clipToMargins ? place.inside : null;
+  if (settings.reach === null) return inside;
+  const reach = { x0: 0, y0: 0, x1: settings.reach.widthMm, y1: settings.reach.heightMm };
+  return inside ? intersectBoxes(inside, reach) : reach;
+}
+
+/** Shapes worth flattening: those that reach the place where lines are kept, and are of this world. */
+export function shapesOnPaper(
+  drawing: Drawing,
+  place: Placement,
+  limit: Box | null,
+  warnings: string[],
+): Uint8Array {
+  const wanted = new Uint8Array(drawing.paths.count);
+  let outside = 0;
+  let far = 0;
+  for (let shape = 0; shape < wanted.length; shape++) {
+    const box = place.shapeBoxes[shape];
+    if (isEmptyBox(box)) continue;
+    if (isFarAway(box)) far++;
+    else if (limit !== null && !boxesTouch(box, limit)) outside++;
+    else wanted[shape] = 1;
+  }
+  if (far > 0) warnings.push(`${shapes(far)} much too far from the paper (over 1000 km) and not drawn.`);
+  if (outside > 0) warnings.push(`${shapes(outside)} wholly outside the margins and not drawn.`);
+  return wanted;
+}
+
+const shapes = (count: number): string => (count === 1 ? "1 shape is" : `${count} shapes are`);
+
+/** Where dashes and hatch are worth making when nothing is cut off: 100 m around home. */
+export const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
+
+export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, limit: Box | null): Lines {
+  if (drawing.dashes.length === 0) return lines;
+  const scale = meanScale(place.map);
+  const patterns = drawing.dashes.map((pattern) => scaledPattern(pattern, scale));
+  const patternOf = (shape: number) => {
+    const dash = drawing.paths.dash[shape];
+    return dash >= 0 && drawing.paths.stroke[shape] >= 0 ? patterns[dash] : null;
+  };
+  return dashLines(lines, patternOf, limit ?? ANYWHERE);
+}
+
+/** mm of line that may go at the margins without a word: rounding, not drawing. */
+const UNNOTICED_CROP = 0.1;
+
+export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {
+  if (limit === null) return lines;
+  const kept = clipLinesToBox(lines, limit);
+  const lost = totalLength(lines) - totalLength(kept);
+  if (lost > UNNOTICED_CROP) {
+    warnings.push(`${Math.ceil(lost)} mm of line lie outside the margins and are cut off.`);
+  }
+  return kept;
+}
+
+/** What lies on the file's own page, turned as it may be. */
+export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Lines {
+  const corners = pageCorners(drawing, place.map);
+  const ring = [0, 2, 4, 6].map((k) => ({
+    x: Math.round(corners[k] * SCALE),
+    y: Math.round(corners[k + 1] * SCALE),
+  }));
+  const page = regionOf([ring]);
+  return cutLines(lines, () => page);
+}
+
+/** Without the outlines of shapes that have no stroke of their own. */
+export function strokedOnly(lines: Lines, drawing: Drawing): Lines {
+  const kept: number[] = [];
+  for (let i = 0; i < lineCount(lines); i++) if (drawing.paths.stroke[lines.tag[i]] >= 0) kept.push(i);
+  return pickLines(lines, kept);
+}
+
+/** How each layer is hatched; null where no layer is. */
+export function hatchesOf(settings: PrepareSettings, table: LayerTable): HatchSettings[] | null {
+  const own = new Map(settings.layerHatches.map((hatch) => [hatch.layer, hatch]));
+  const hatches = table.layers.map((layer) => own.get(layer.id) ?? settings.hatch);
+  return hatches.some((hatch) => hatch.spacingMm > 0) ? hatches : null;
+}
+
+/** The lines with the hatch of each filled shape before its outline, as paint would lie. */
+export function addHatch(
+  lines: Lines,
+  areas: ReadonlyMap<number, Region>,
+  hatchOf: (shape: number) => HatchSettings,
+  work: Work,
+): Lines {
+  const builder = new LineBuilder();
+  let at = 0;
+  const copyBelow = (shape: number): void => {
+    for (; at < lineCount(lines) && lines.tag[at] < shape; at++) builder.copy(lines, at, lines.tag[at]);
+  };
+  for (const [shape, area] of areas) {
+    stopIfCancelled(work);
+    copyBelow(shape);
+    hatchArea(area, hatchOf(shape), shape, builder);
+  }
+  copyBelow(Infinity);
+  return builder.finish();
+}

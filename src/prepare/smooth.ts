@@ -1,0 +1,65 @@
+/** Rounder lines, and closed lines that begin elsewhere. */
+import { LineBuilder, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
+import { randomFrom } from "./random.js";
+
+/**
+ * Corner cutting (G. Chaikin, 1974): every segment is replaced by its middle half, and the halves are
+ * linked; in the limit a quadratic B-spline. Ends of open lines stay, closed lines stay closed.
+ */
+export function smoothLines(lines: Lines, rounds: number): Lines {
+  let smooth = lines;
+  for (let round = 0; round < rounds; round++) smooth = cutCorners(smooth);
+  return smooth;
+}
+
+function cutCorners(lines: Lines): Lines {
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    const first = lines.offsets[i];
+    const last = lines.offsets[i + 1] - 1;
+    if (last - first < 2) builder.copy(lines, i, lines.tag[i]);
+    else cutLineCorners(lines, i, builder);
+  }
+  return builder.finish();
+}
+
+function cutLineCorners(lines: Lines, i: number, builder: LineBuilder): void {
+  const { xy, offsets } = lines;
+  const first = offsets[i];
+  const last = offsets[i + 1] - 1;
+  const closed = isClosedLine(lines, i);
+  const between = (p: number, t: number): void => {
+    const x = xy[2 * p] + t * (xy[2 * p + 2] - xy[2 * p]);
+    const y = xy[2 * p + 1] + t * (xy[2 * p + 3] - xy[2 * p + 1]);
+    builder.point(x, y);
+  };
+  if (!closed) builder.point(xy[2 * first], xy[2 * first + 1]);
+  for (let p = first; p < last; p++) {
+    if (closed || p > first) between(p, 0.25);
+    if (closed || p < last - 1) between(p, 0.75);
+  }
+  if (closed) between(first, 0.25);
+  else builder.point(xy[2 * last], xy[2 * last + 1]);
+  builder.end(lines.tag[i]);
+}
+
+/** Closed lines begun at a point picked at random, the same one in every run. */
+export function reloopLines(lines: Lines): Lines {
+  const random = randomFrom(1);
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    if (!isClosedLine(lines, i)) {
+      builder.copy(lines, i, lines.tag[i]);
+      continue;
+    }
+    const first = lines.offsets[i];
+    const segments = lines.offsets[i + 1] - 1 - first;
+    const start = Math.floor(random() * segments);
+    for (let k = 0; k <= segments; k++) {
+      const p = first + ((start + k) % segments);
+      builder.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
+    }
+    builder.end(lines.tag[i]);
+  }
+  return builder.finish();
+}

@@ -1,0 +1,109 @@
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  DEFAULT_PREPARE,
+  importSvg,
+  plan,
+  prepare,
+  toJson,
+  toSvg,
+  trajectoryToSvg,
+  type StrokeSet,
+} from "../../../src/index.js";
+import { drawingOf } from "../../support/drawings.js";
+import { strokeSetOf } from "../../support/arbitraries.js";
+
+const PAPER = { widthMm: 210, heightMm: 297 };
+const SETTINGS = {
+  ...DEFAULT_PREPARE,
+  paper: PAPER,
+  landscape: false,
+  marginMm: 0,
+  fit: false,
+  joinMm: 0,
+  order: "none" as const,
+};
+
+const drawing = drawingOf(
+  [
+    { d: "M10 10L20 10L20 20Z", group: 0, stroke: "#ff0000" },
+    { d: "M30 30L30 30", group: 0, stroke: "#ff0000" },
+    { d: "M1.2345 100C40 40 80 80 100 10", group: 1 },
+  ],
+  { groups: ['1 <red> & "hot"', "curve\u0000s"] },
+);
+
+/** Rounded to what the file holds. */
+const rounded = (set: StrokeSet): number[] => Array.from(set.xy, (v) => Math.round(v * 1000) / 1000);
+
+describe("toSvg", () => {
+  it("writes what the importer reads back as the same strokes in the same layers", () => {
+    const { strokes } = prepare(drawing, SETTINGS);
+    const back = importSvg(toSvg(strokes, PAPER));
+    const again = prepare(back, SETTINGS).strokes;
+    expect(rounded(again)).toEqual(rounded(strokes));
+    expect([...again.offsets]).toEqual([...strokes.offsets]);
+    expect([...again.layer]).toEqual([...strokes.layer]);
+    expect(again.layers.map((layer) => layer.name)).toEqual(['1 <red> & "hot"', "curves"]);
+    expect(again.layers[0].color).toBe("#ff0000");
+    expect([back.widthMm, back.heightMm]).toEqual([210, 297]);
+  });
+
+  it("names layers as it is told, so that codes can be written", () => {
+    const { strokes } = prepare(drawing, SETTINGS);
+    const svg = toSvg(strokes, { ...PAPER, layerNames: ["!1+h30 red"] });
+    expect(svg).toContain('inkscape:label="!1+h30 red"');
+    expect(svg).toContain('inkscape:label="curves"');
+  });
+
+  it("writes an empty page for no strokes", () => {
+    expect(importSvg(toSvg(strokeSetOf([]), PAPER)).paths.count).toBe(0);
+  });
+});
+
+describe("toJson", () => {
+  it("lists the strokes of each layer in mm", () => {
+    const json = toJson(prepare(drawing, SETTINGS).strokes, PAPER);
+    expect(json.layers.map((layer) => layer.strokesMm.length)).toEqual([2, 1]);
+    expect(json.layers[0].strokesMm[0]).toEqual([10, 10, 20, 10, 20, 20, 10, 10]);
+    expect(json.layers[0].strokesMm[1]).toEqual([30, 30]);
+    expect(JSON.parse(JSON.stringify(json))).toEqual(json);
+  });
+});
+
+describe("trajectoryToSvg", () => {
+  const { strokes } = prepare(drawing, SETTINGS);
+  const trajectory = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN);
+  const svg = trajectoryToSvg(trajectory, PAPER);
+
+  it("draws in the colours of its legend, slow at the ends and fast between", () => {
+    const colors = [...svg.matchAll(/data-band="(\d+)" stroke="(#[0-9a-f]{6})"/g)];
+    const legend = [...svg.matchAll(/<rect x=[^>]*fill="(#[0-9a-f]{6})"/g)].map((m) => m[1]);
+    expect(legend).toHaveLength(24);
+    expect(new Set(legend).size).toBe(24);
+    for (const [, band, color] of colors) expect(legend[Number(band)]).toBe(color);
+    const bands = colors.map((m) => Number(m[1]));
+    expect(Math.min(...bands)).toBe(0);
+    expect(Math.max(...bands)).toBe(23);
+  });
+
+  it("tells the top speed in mm/s", () => {
+    expect(svg).toContain(">50 mm/s</text>");
+  });
+
+  it("covers every stroke's points and shows travel only when asked", () => {
+    const reached = [...svg.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]);
+    for (let k = 0; k < strokes.xy.length; k += 2) {
+      const near = reached.some(([x, y]) => Math.hypot(x - strokes.xy[k], y - strokes.xy[k + 1]) < 0.06);
+      expect(near, `${strokes.xy[k]}, ${strokes.xy[k + 1]}`).toBe(true);
+    }
+    expect(svg).toContain('class="travel"');
+    expect(trajectoryToSvg(trajectory, { ...PAPER, showTravel: false })).not.toContain('class="travel"');
+  });
+
+  it("holds no NaN, not even for nothing drawn", () => {
+    expect(svg).not.toContain("NaN");
+    expect(trajectoryToSvg(plan(strokeSetOf([]), DEFAULT_MOTION, DEFAULT_PEN), PAPER)).not.toContain("NaN");
+  });
+});
