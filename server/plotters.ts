@@ -23,9 +23,9 @@ export function openPlotters(
   let last: string | null = null;
   plotter.onChange(({ connection, message, device }) => {
     const line = `${device ?? "plotter"}: ${connection}${message === null ? "" : `. ${message}`}`;
-    if ((connection === "idle" || connection === "absent" || connection === "fault") && line !== last)
-      log(line);
+    if (connection === "busy" || connection === "connecting" || line === last) return;
     last = line;
+    log(line);
   });
   void plotter.start();
   return new Map([[plotter.id, plotter]]);

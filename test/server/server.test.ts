@@ -1,0 +1,207 @@
+/** The whole server as it is embedded or served: real threads, real disk, the virtual board. */
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { createServer, type PlotwrightServer, type ServerOptions } from "../../server/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  apiErrorSchema,
+  jobSchema,
+  snapshotSchema,
+  type Job,
+  type PlotSettings,
+  type Snapshot,
+} from "../../src/schema/index.js";
+import { EventStream } from "./support/event-stream.js";
+
+const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
+const LINE = svg('<path d="M10 10h60"/><path d="M10 30h60"/>');
+
+let dataDir: string;
+let server: PlotwrightServer;
+beforeEach(async () => {
+  dataDir = mkdtempSync(join(tmpdir(), "plotwright-server-"));
+  await start();
+});
+afterEach(async () => {
+  await server.close();
+  rmSync(dataDir, { recursive: true, force: true });
+});
+
+async function start(options: ServerOptions = {}): Promise<void> {
+  server = await createServer({ port: 0, device: "virtual", virtualSpeed: 50, dataDir, ...options });
+}
+const state = async (): Promise<Snapshot> =>
+  snapshotSchema.parse(await (await fetch(`${server.url}/api/v1/state`)).json());
+const post = (path: string): Promise<Response> => fetch(`${server.url}/api/v1${path}`, { method: "POST" });
+const upload = (text: string, settings: PlotSettings = DEFAULT_PLOT_SETTINGS): Promise<Response> =>
+  fetch(`${server.url}/api/v1/jobs?name=test.svg&settings=${encodeURIComponent(JSON.stringify(settings))}`, {
+    method: "POST",
+    body: text,
+  });
+async function add(text: string): Promise<Job> {
+  const response = await upload(text);
+  expect(response.status).toBe(201);
+  return jobSchema.parse(await response.json());
+}
+
+describe("a server", () => {
+  it("plans, plots and finishes a drawing, and still knows it after a restart", async () => {
+    const { id, stats } = await add(LINE);
+    expect(stats).toMatchObject({ strokeCount: 2, pointCount: 4 });
+    const events = await EventStream.open(server.url);
+    expect((await post(`/jobs/${id}/start`)).status).toBe(200);
+    await events.find("progress", (event) => event.jobId === id && !event.penUp);
+    const { job } = await events.find("job", (event) => event.job.state === "done");
+    expect(job).toMatchObject({ id, progress: 1, remainingS: 0 });
+    const waiting = await add(LINE);
+    events.close();
+    await server.close();
+    await start();
+    const after = await state();
+    expect(after.jobs.map((one) => [one.id, one.state])).toEqual([
+      [waiting.id, "queued"],
+      [id, "done"],
+    ]);
+    expect(after.jobs[1]).toEqual(job);
+    const drawing = await fetch(`${server.url}/api/v1/jobs/${id}/drawing`);
+    expect(await drawing.text()).toBe(LINE);
+  });
+
+  it("pauses with the pen up, goes on to the end, and cancels another", async () => {
+    const many = svg(Array.from({ length: 40 }, (_, i) => `<path d="M10 ${5 + 2 * i}h80"/>`).join(""));
+    const { id } = await add(many);
+    const events = await EventStream.open(server.url);
+    await post(`/jobs/${id}/start`);
+    await events.find("progress", (event) => event.progress > 0.05);
+    await post(`/jobs/${id}/pause`);
+    await events.find("job", (event) => event.job.state === "paused");
+    expect((await state()).plotters[0]?.penUp).toBe(true);
+    await post(`/jobs/${id}/resume`);
+    await events.find("job", (event) => event.job.id === id && event.job.state === "done");
+    const second = await add(many);
+    await post(`/jobs/${second.id}/start`);
+    await events.find("progress", (event) => event.jobId === second.id);
+    await post(`/jobs/${second.id}/cancel`);
+    const { job } = await events.find("job", (event) => event.job.state === "cancelled");
+    expect(job.progress).toBeLessThan(1);
+    events.close();
+    const [plotter] = (await state()).plotters;
+    expect(plotter).toMatchObject({ connection: "idle", penUp: true });
+    expect(Math.hypot(plotter?.xMm ?? NaN, plotter?.yMm ?? NaN)).toBeLessThan(0.02);
+  });
+
+  it("marks a job that a stop of the server broke off, and can plot it anew", async () => {
+    const { id } = await add(
+      svg(Array.from({ length: 40 }, (_, i) => `<path d="M10 ${5 + 2 * i}h80"/>`).join("")),
+    );
+    const events = await EventStream.open(server.url);
+    await post(`/jobs/${id}/start`);
+    await events.find("progress", (event) => event.progress > 0.02);
+    events.close();
+    await server.close();
+    await start({ virtualSpeed: 500 });
+    const [job] = (await state()).jobs;
+    expect(job).toMatchObject({ id, state: "failed", message: expect.stringMatching(/server stopped/) });
+    expect((await post(`/jobs/${id}/requeue`)).status).toBe(200);
+    const again = await EventStream.open(server.url);
+    expect((await post(`/jobs/${id}/start`)).status).toBe(200);
+    await again.find("job", (event) => event.job.state === "done");
+    again.close();
+  });
+
+  it("refuses what can't be plotted with the reason, and keeps the queue as it was", async () => {
+    const kept = await add(LINE);
+    const trueSize: PlotSettings = {
+      ...DEFAULT_PLOT_SETTINGS,
+      prepare: {
+        ...DEFAULT_PLOT_SETTINGS.prepare,
+        paper: { widthMm: 1_000, heightMm: 1_000 },
+        fit: false,
+        marginMm: 0,
+      },
+    };
+    const refused: readonly (readonly [string, string, number, PlotSettings?])[] = [
+      ["not an SVG", "hello", 422],
+      ["empty", "", 422],
+      ["truncated", LINE.slice(0, -12), 422],
+      ["without lines", svg(""), 422],
+      [
+        "entity bomb",
+        `<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>${svg("<text>&b;</text>")}`,
+        422,
+      ],
+      [
+        "larger than the machine",
+        svg('<path d="M0 0L900 900"/>', 'width="900mm" height="900mm" viewBox="0 0 900 900"'),
+        422,
+        trueSize,
+      ],
+      ["unknown machine", LINE, 400, { ...DEFAULT_PLOT_SETTINGS, machine: "typewriter" }],
+    ];
+    for (const [what, text, status, settings] of refused) {
+      const response = await upload(text, settings);
+      const { error } = apiErrorSchema.parse(await response.json());
+      expect([what, response.status, error.message.length > 15]).toEqual([what, status, true]);
+    }
+    expect((await state()).jobs).toEqual([kept]);
+  }, 60_000);
+
+  it("takes what is odd but can be plotted", async () => {
+    const odd = {
+      "NaN coordinates": svg('<path d="M NaN NaN L 10 10"/><path d="M10 10h50"/>'),
+      "huge coordinates": svg('<path d="M0 0L1e300 1e300"/><path d="M10 10h50"/>'),
+      "circular use": svg('<g id="a"><path d="M10 10h50"/><use xlink:href="#a"/></g>'),
+      "one point": svg('<path d="M20 20z"/><path d="M10 10h50"/>'),
+      "100 000 nested groups": svg(`${"<g>".repeat(100_000)}<path d="M10 10h50"/>${"</g>".repeat(100_000)}`),
+      "50 MB": svg(`<path d="M10 10h50"/><!--${"x".repeat(50_000_000)}-->`),
+    };
+    for (const [what, text] of Object.entries(odd)) {
+      const response = await upload(text);
+      expect([what, [201, 422].includes(response.status)]).toEqual([what, true]);
+      const answer: unknown = await response.json();
+      const figures = jobSchema.safeParse(answer);
+      expect([what, figures.success || apiErrorSchema.safeParse(answer).success]).toEqual([what, true]);
+    }
+    expect((await state()).plotters).toHaveLength(1);
+  }, 120_000);
+
+  it("shows a device that is not there in the state, and still takes jobs", async () => {
+    await server.close();
+    await start({ device: join(dataDir, "no-such-device") });
+    const { id } = await add(LINE);
+    await expect
+      .poll(async () => (await state()).plotters[0])
+      .toMatchObject({ connection: "absent", message: expect.stringMatching(/no-such-device/) });
+    const response = await post(`/jobs/${id}/start`);
+    expect(response.status).toBe(503);
+    expect(apiErrorSchema.parse(await response.json()).error.code).toBe("no-board");
+    expect((await state()).jobs[0]?.state).toBe("queued");
+  });
+
+  it("tells a taken port and a taken data folder apart, and lets go of both when closed", async () => {
+    const port = Number(new URL(server.url).port);
+    const other = mkdtempSync(join(tmpdir(), "plotwright-other-"));
+    await expect(createServer({ port, device: "virtual", dataDir: other })).rejects.toThrow(
+      `Port ${port} is taken by another program`,
+    );
+    await expect(createServer({ port: 0, device: "virtual", dataDir })).rejects.toThrow(
+      "uses the data folder",
+    );
+    await server.close();
+    await start({ port });
+    expect(server.url).toBe(`http://127.0.0.1:${port}`);
+    rmSync(other, { recursive: true });
+  });
+
+  it("gives every sample as it is on disk", async () => {
+    const response = await fetch(`${server.url}/api/v1/samples`);
+    const { samples } = (await response.json()) as { samples: { name: string; title: string }[] };
+    for (const { name } of samples) {
+      const text = await (await fetch(`${server.url}/api/v1/samples/${name}`)).text();
+      expect(text).toBe(readFileSync(new URL(`../../samples/${name}`, import.meta.url), "utf8"));
+    }
+  });
+});
