@@ -152,6 +152,7 @@ function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Dra
   const heightMm = box.y1 - box.y0;
   if (!(widthMm > 0 || heightMm > 0)) return builder.finish(page.widthMm, page.heightMm);
   builder.translate(-box.x0, -box.y0);
+  warnings.translate(-box.x0, -box.y0);
   const size = `taken from the drawing: ${widthMm.toFixed(1)} × ${heightMm.toFixed(1)} mm`;
   warnings.add("page-size", undefined, size);
   // A drawing of one straight line still has a page with an area.

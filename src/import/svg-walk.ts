@@ -33,7 +33,7 @@ import type { WarningCode, Warnings } from "./warnings.js";
 import type { DrawingBuilder } from "./drawing-builder.js";
 
 /** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
-const MAX_COPIED_ELEMENTS = 1_000_000;
+const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
 const MAX_COPY_DEPTH = 200;
 const ELEMENTS_PER_YIELD = 1000;

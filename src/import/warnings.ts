@@ -94,6 +94,15 @@ export class Warnings {
     }
   }
 
+  /** Moves the places named so far, with the drawing. */
+  translate(dx: number, dy: number): void {
+    for (const { boxes } of this.entries.values()) {
+      boxes.forEach(([x0, y0, x1, y1], i) => {
+        boxes[i] = [x0 + dx, y0 + dy, x1 + dx, y1 + dy];
+      });
+    }
+  }
+
   toArray(): DrawingWarning[] {
     return Array.from(this.entries, ([code, { count, boxes, details }]) => {
       const more = details.length < count && details.length === MAX_DETAILS ? " …" : "";
