@@ -6,7 +6,14 @@ import { mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { launchBrowser } from "../test/support/browser.js";
-import { dropFile, historyPanel, plotBar, queuePanel, waitForPlan } from "../test/support/page-actions.js";
+import {
+  dropFile,
+  historyPanel,
+  openTab,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+} from "../test/support/page-actions.js";
 import { startServerProcess, temporaryFolder } from "../test/support/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";
 
@@ -75,6 +82,9 @@ async function plotting({ page, shoot }: Shooting): Promise<void> {
   await queuePanel(page).getByRole("button", { name: "Resume" }).click();
   await historyPanel(page).getByText("Done").first().waitFor({ timeout: 180_000 });
   await shoot("10-done");
+  await openTab(page, "Plotter");
+  await shoot("10-plotter");
+  await openTab(page, "Set up");
 }
 
 async function session(

@@ -1,11 +1,9 @@
 /** Do the colours on the screen belong to a legend? A line's edge pixels are mixed with the paper under it. */
-import type { Pixels } from "./page-actions.js";
-
 export type Rgb = readonly [r: number, g: number, b: number];
 
-export function* colorsOf({ data }: Pixels): Generator<Rgb> {
-  for (let i = 0; i < data.length; i += 4) yield [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
-}
+/** From 0xrrggbb. */
+export const rgbFromNumber = (value: number): Rgb => [(value >> 16) & 255, (value >> 8) & 255, value & 255];
+export const rgbFromHex = (hex: string): Rgb => rgbFromNumber(Number.parseInt(hex.slice(1), 16));
 
 export const saturation = ([r, g, b]: Rgb): number => Math.max(r, g, b) - Math.min(r, g, b);
 
@@ -25,8 +23,3 @@ export function distanceToMix(color: Rgb, paper: Rgb, inks: readonly Rgb[]): num
   }
   return nearest;
 }
-
-export const rgbFromHex = (hex: string): Rgb => {
-  const value = Number.parseInt(hex.slice(1), 16);
-  return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
-};

@@ -25,34 +25,39 @@ export const plotBar = (page: Page): Locator => page.getByRole("region", { name:
 export const queuePanel = (page: Page): Locator => page.getByRole("region", { name: "Queue" });
 export const historyPanel = (page: Page): Locator => page.getByRole("region", { name: "History" });
 
-/** Waits until the drawing on the paper is planned: the time that it will take is there, and no plan is under way. */
+/** On a phone's width the columns are tabs; on a desk everything stands side by side and there is nothing to do. */
+export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"): Promise<void> {
+  const tab = page.getByRole("navigation", { name: "Panels" }).getByRole("button", { name, exact: true });
+  if (await tab.isVisible()) await tab.click();
+}
+
+/** Waits until the drawing on the paper is planned: the figures are there, and no plan is under way. */
 export async function waitForPlan(page: Page): Promise<void> {
-  await plotBar(page).getByText("Strokes").waitFor();
-  await plotBar(page).getByRole("status").getByText("Time", { exact: true }).waitFor();
+  await plotBar(page).getByText("Strokes").waitFor({ state: "attached" });
+  await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
-export interface Pixels {
-  readonly width: number;
-  readonly height: number;
-  /** RGBA, row by row. */
-  readonly data: readonly number[];
-}
-
-/** What the screen shows at an element, decoded by the browser itself. */
-export async function pixelsOf(target: Locator): Promise<Pixels> {
+/** How many pixels of each colour (0xrrggbb) the screen shows at an element, decoded by the browser itself. */
+export async function colorCounts(target: Locator): Promise<Map<number, number>> {
   const png = (await target.screenshot()).toString("base64");
   const blank = await target.page().context().newPage();
   try {
-    return await blank.evaluate(async (base64) => {
+    const entries = await blank.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
       const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
       const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
       const context = canvas.getContext("2d");
       if (context === null) throw new Error("no 2d context");
       context.drawImage(bitmap, 0, 0);
-      const { width, height, data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-      return { width, height, data: [...data] };
+      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      const counts = new Map<number, number>();
+      for (let i = 0; i < data.length; i += 4) {
+        const color = ((data[i] ?? 0) << 16) | ((data[i + 1] ?? 0) << 8) | (data[i + 2] ?? 0);
+        counts.set(color, (counts.get(color) ?? 0) + 1);
+      }
+      return [...counts];
     }, png);
+    return new Map(entries);
   } finally {
     await blank.close();
   }
