@@ -108,6 +108,7 @@ export {
 } from "./board/virtual-board.js";
 export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
 export { SessionLog } from "./board/session-log.js";
+export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
 export {
   parseSteps,
   streamCommands,

@@ -4,6 +4,7 @@
  */
 import { AxisMotion, registersFor, type Registers } from "../../ebb/accumulator.js";
 import type { FirmwareFeatures, TickArithmetic } from "../../ebb/firmware.js";
+import { slowRate } from "../../ebb/slow-rate.js";
 import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../units.js";
 
 const RANGE = ACCUMULATOR_RANGE;
@@ -80,27 +81,9 @@ export function slowMove(
 
 function constantAxis(arithmetic: TickArithmetic, ms: number, steps: number): AxisOrder | null {
   if (steps === 0) return still;
-  const rate = constantRate(arithmetic, ms, Math.abs(steps));
+  const rate = slowRate(arithmetic, ms, Math.abs(steps));
   if (rate < 1 || rate > RANGE || (arithmetic !== "signed" && rate === RANGE)) return null;
   return { rate: Math.sign(steps) * rate, accel: 0, jerk: 0, steps: Math.abs(steps) };
-}
-
-/**
- * The rate with which SM makes `steps` steps in `ms` milliseconds.
- * Firmware 3 computes in single precision; older ones in integers, with 15 bits below 30 ms.
- */
-export function constantRate(arithmetic: TickArithmetic, ms: number, steps: number): number {
-  if (ms <= 0) return Infinity;
-  if (arithmetic === "signed") {
-    const perMs = Math.fround(Math.fround(85_899_345.92) / Math.fround(ms));
-    return Math.trunc(Math.fround(Math.fround(steps) * perMs));
-  }
-  const SLOWEST_SHORT_MS = 30;
-  const ticks = 25 * ms;
-  if (ms <= SLOWEST_SHORT_MS) return Math.floor((steps * 2 ** 15) / ticks) * 2 ** 16;
-  const whole = Math.floor((Math.floor(steps / ms) * 2 ** 15) / 25);
-  const rest = Math.floor(((steps % ms) * 2 ** 15) / 25);
-  return whole * 2 ** 16 + Math.floor((rest * 2 ** 16) / ms);
 }
 
 /** One motor of LM or L3: negative steps turn the move round. Null for arguments that are refused. */
