@@ -66,6 +66,7 @@ async function plotting({ page, shoot }: Shooting): Promise<void> {
   await page.waitForTimeout(300);
   await waitForPlan(page);
   await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+  await openTab(page, "Queue");
   await queuePanel(page)
     .getByRole("button", { name: /^Start / })
     .waitFor();
