@@ -9,6 +9,7 @@ import {
   pointCount,
   strokeCount,
   trajectoryStats,
+  trajectoryToSvg,
   closingCommands,
   commandLine,
   penCommand,
@@ -18,10 +19,9 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { BOARD_AT_HOME, prepareDrawing, type PreparedJob } from "../planning/stages.js";
+import { BOARD_AT_HOME, nowS, prepareDrawing, type PreparedJob } from "../planning/stages.js";
 import type { CliIo } from "./io.js";
 import { withOnlyLayers } from "./layers.js";
-import { previewSvg } from "./preview-svg.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -71,7 +71,8 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
     else writeOut(options.ebb, text);
   }
   if (options.preview !== undefined) {
-    writeOut(options.preview, previewSvg(planned.trajectory, planned.job.prepared));
+    const { paperWidthMm: widthMm, paperHeightMm: heightMm } = planned.job.prepared;
+    writeOut(options.preview, trajectoryToSvg(planned.trajectory, { widthMm, heightMm }));
   }
   if (options.json === true) io.out(`${JSON.stringify(planned.report)}\n`);
   else if (options.ebb !== "-") io.out(words(planned.report));
@@ -96,6 +97,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   clock();
   let orderingFrom = performance.now();
   const job = prepareDrawing(drawing, settings, machine, {
+    nowS,
     onProgress: (_done, step) => {
       if (step === "ordering") orderingFrom = performance.now();
     },

@@ -23,6 +23,8 @@ import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
 export const BOARD_AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
 
+export const nowS = (): number => performance.now() / 1000;
+
 export interface PreparedJob {
   readonly prepared: Prepared;
   /** The file's and the paper's. Plain text. */
@@ -31,7 +33,7 @@ export interface PreparedJob {
 
 /** Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`. */
 export function prepareText(text: string, settings: PlotSettings, machine: MachineProfile): PreparedJob {
-  return prepareDrawing(importSvg(text), settings, machine);
+  return prepareDrawing(importSvg(text), settings, machine, { nowS });
 }
 
 export function prepareDrawing(

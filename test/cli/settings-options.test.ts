@@ -1,3 +1,6 @@
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { Command } from "commander";
 import { describe, expect, it } from "vitest";
 import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
@@ -63,6 +66,48 @@ describe("the settings' options", () => {
     });
     expect(settingsOf("--paper", "200x300", "--landscape").prepare.landscape).toBe(true);
     expect(settingsOf("--paper", "A4", "--no-landscape").prepare.landscape).toBe(false);
+  });
+
+  it("take the drawing's shape work too", () => {
+    const { prepare, motion } = settingsOf(
+      ...["--hatch", "0.4", "--hatch-angle", "30", "--hatch-cross", "--hide-covered", "--no-outline-fills"],
+      ...["--mirror", "leftRight", "--margins", "10,20,30,40", "--place", "5,6,70", "--spread", "shuffle"],
+      ...["--order", "best", "--order-s", "3", "--mode", "scurve", "--jerk", "9000", "--no-clip", "--reloop"],
+    );
+    expect(prepare).toMatchObject({
+      hatch: { spacingMm: 0.4, angleDeg: 30, cross: true },
+      hideCovered: true,
+      outlineFills: false,
+      mirror: "leftRight",
+      margins: { topMm: 10, rightMm: 20, bottomMm: 30, leftMm: 40 },
+      place: { xMm: 5, yMm: 6, widthMm: 70, heightMm: null },
+      spread: "shuffle",
+      order: "best",
+      orderS: 3,
+      clipToMargins: false,
+      reloop: true,
+    });
+    expect(motion).toMatchObject({ mode: "scurve", draw: { jerkMmPerS3: 9_000 } });
+  });
+
+  it("lay flags over the file of --config, and the file over the defaults", () => {
+    const dir = mkdtempSync(join(tmpdir(), "plotwright-config-"));
+    const file = join(dir, "pen.json");
+    writeFileSync(file, JSON.stringify({ pen: { upPct: 75 }, motion: { draw: { speedMmPerS: 20 } } }));
+    const settings = settingsOf("--config", file, "--speed", "33");
+    expect(settings.pen).toEqual({ ...DEFAULT_PLOT_SETTINGS.pen, upPct: 75 });
+    expect(settings.motion.draw).toEqual({ ...DEFAULT_PLOT_SETTINGS.motion.draw, speedMmPerS: 33 });
+    for (const [text, fault] of [
+      ['{"pen":{"upPCT":75}}', /no setting pen\.upPCT/],
+      ['{"pen":{"upPct":"high"}}', /pen\.json: pen\.upPct/],
+      ["[1]", /not a JSON object/],
+      ["{", /pen\.json/],
+    ] as const) {
+      writeFileSync(file, text);
+      expect(() => settingsOf("--config", file)).toThrow(fault);
+    }
+    rmSync(dir, { recursive: true });
+    expect(() => settingsOf("--config", file)).toThrow(/ENOENT/);
   });
 
   it("let the last of two opposite ones win", () => {

@@ -1,0 +1,218 @@
+/**
+ * `plotwright board --pty PATH`: a virtual EiBotBoard behind a pseudo-terminal, for any program that drives one.
+ * On exit it tells what was drawn, and saves it as SVG.
+ */
+import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
+import { nodeClock } from "../serial/node-clock.js";
+import type { CliIo } from "./io.js";
+
+export interface BoardCommandOptions {
+  /** Where the serial port shall appear: a link to the pseudo-terminal. */
+  readonly pty: string;
+  readonly firmware?: string;
+  /** Board seconds a second. */
+  readonly speed?: number;
+  /** Machine id. */
+  readonly machine?: string;
+  /** What was drawn goes there; default: drawn.svg. */
+  readonly svg?: string;
+}
+
+export interface PtyBoardOptions {
+  readonly firmware?: string;
+  readonly speed?: number;
+  readonly machine?: MachineProfile;
+  readonly recordLine?: boolean;
+}
+
+export interface PtyBoard {
+  /** Serial port to open. */
+  readonly path: string;
+  readonly board: VirtualBoard;
+  close(): Promise<void>;
+}
+
+/** The pseudo-terminal library hands over raw bytes when its encoding is null, which its types do not say. */
+interface RawPty {
+  onData(listener: (bytes: Uint8Array) => void): { dispose(): void };
+  onExit(listener: () => void): { dispose(): void };
+  write(bytes: Uint8Array): void;
+  pause(): void;
+  resume(): void;
+  kill(signal?: string): void;
+}
+
+type PtyModule = typeof import("@lydell/node-pty");
+
+/**
+ * A virtual board that any program can open as a serial port.
+ *
+ * @throws PlotwrightError "no-board" where there are no pseudo-terminals (Windows, or the optional package is missing)
+ */
+export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBoard> {
+  const { pty, path } = await openPty();
+  const board = new VirtualBoard({ clock: nodeClock, ...options });
+  board.onSend((bytes) => pty.write(bytes));
+  // A full board does not read: the kernel's buffer fills, and the sender's write waits, as with USB.
+  pty.onData((bytes) => {
+    board.receive(bytes);
+    if (!board.accepting) pty.pause();
+  });
+  board.onDrain(() => pty.resume());
+  return { path, board, close: () => closePty(pty) };
+}
+
+/** Runs until interrupted. */
+export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise<void> {
+  const machine = machineById(options.machine ?? "axidraw-v3");
+  checkLinkPlace(options.pty);
+  const ptyBoard = await openPtyBoard({
+    machine,
+    ...(options.firmware === undefined ? {} : { firmware: options.firmware }),
+    ...(options.speed === undefined ? {} : { speed: options.speed }),
+  });
+  const { board, path } = ptyBoard;
+  link(path, options.pty);
+  const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
+  io.err(`Virtual board with firmware ${board.firmware} at ${options.pty} (${path}). Ctrl-C ends it.\n`);
+  try {
+    await stopped;
+  } finally {
+    rmSync(options.pty, { force: true });
+    await ptyBoard.close();
+  }
+  io.out(summary(board));
+  const svg = options.svg ?? "drawn.svg";
+  writeDrawing(svg, board, machine);
+  io.err(`What it drew is in ${svg}.\n`);
+}
+
+function summary(board: VirtualBoard): string {
+  const s = board.statistics();
+  const state = board.state();
+  const rows: [string, string][] = [
+    ["drawn", `${s.drawnMm.toFixed(1)} mm in ${board.drawn().filter((line) => line.penDown).length} strokes`],
+    ["travelled", `${s.travelMm.toFixed(1)} mm`],
+    ["pen moves", `${s.penMoveCount}`],
+    ["moves", `${s.moveCount} in ${s.movingS.toFixed(2)} s, ${s.busyS.toFixed(2)} s with pen waits`],
+    ["underruns", `${s.underrunCount}, ${(s.underrunS * 1e3).toFixed(1)} ms in all`],
+    ["largest jump", `${s.largestJumpMmPerS.toFixed(2)} mm/s`],
+    ["step counters", `${state.steps1}, ${state.steps2}`],
+    ["place", `${state.xMm.toFixed(3)}, ${state.yMm.toFixed(3)} mm`],
+  ];
+  return rows.map(([name, value]) => `${name.padEnd(14)}${value}\n`).join("");
+}
+
+/** The line as drawn, one path a stroke, travel dotted. */
+export function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
+  const { widthMm, heightMm } = machine;
+  const parts = [
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${widthMm}mm" height="${heightMm}mm" ` +
+      `viewBox="0 0 ${widthMm} ${heightMm}" fill="none" stroke-linecap="round" stroke-linejoin="round">\n`,
+  ];
+  for (const penDown of [false, true]) {
+    const look = penDown
+      ? 'id="drawn" stroke="#000" stroke-width="0.3"'
+      : 'id="travel" stroke="#7aa" stroke-width="0.1" stroke-dasharray="0.5 1"';
+    parts.push(`<g ${look}>\n`);
+    for (const line of board.drawn()) {
+      if (line.penDown === penDown) parts.push(`<path d="${pathOf(line.xy)}"/>\n`);
+    }
+    parts.push("</g>\n");
+  }
+  parts.push("</svg>\n");
+  return parts.join("");
+}
+
+/** A dot is a line of no length: with round ends it shows. */
+function pathOf(xy: Float64Array): string {
+  let d = "";
+  for (let i = 0; i < xy.length; i += 2) {
+    d += `${i === 0 ? "M" : "L"}${Number(xy[i]!.toFixed(4))} ${Number(xy[i + 1]!.toFixed(4))}`;
+  }
+  return xy.length === 2 ? `${d}h0` : d;
+}
+
+function writeDrawing(path: string, board: VirtualBoard, machine: MachineProfile): void {
+  try {
+    writeFileSync(path, drawnSvg(board, machine));
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
+}
+
+/** Refuses to replace anything but a link. */
+function checkLinkPlace(path: string): void {
+  try {
+    if (lstatSync(path).isSymbolicLink()) return;
+  } catch {
+    return;
+  }
+  throw new PlotwrightError("bad-setting", `${path} exists and is no link: choose another --pty path.`);
+}
+
+function link(target: string, path: string): void {
+  try {
+    if (isLink(path)) rmSync(path);
+    symlinkSync(target, path);
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be made: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
+}
+
+function isLink(path: string): boolean {
+  try {
+    readlinkSync(path);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+async function openPty(): Promise<{ pty: RawPty; path: string }> {
+  const module = await loadPty();
+  // Somebody has to hold the terminal's other end open while no program does, or reading it fails.
+  const keeper = module.spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], {
+    name: "dumb",
+    encoding: null,
+  });
+  const pty = keeper as unknown as RawPty;
+  const path = await new Promise<string>((resolve, reject) => {
+    let text = "";
+    const data = pty.onData((bytes) => {
+      text += String.fromCharCode(...bytes);
+      const match = /(\/\S+)\s/.exec(text);
+      if (match === null) return;
+      data.dispose();
+      exit.dispose();
+      resolve(match[1]!);
+    });
+    const exit = pty.onExit(() => reject(noPty(`its keeper ended: ${text.trim()}`)));
+  });
+  return { pty, path };
+}
+
+async function loadPty(): Promise<PtyModule> {
+  if (process.platform === "win32") throw noPty("Windows has none");
+  try {
+    return await import("@lydell/node-pty");
+  } catch (cause) {
+    throw noPty("the optional package @lydell/node-pty is not installed; npm install adds it", cause);
+  }
+}
+
+const noPty = (why: string, cause?: unknown): PlotwrightError =>
+  new PlotwrightError("no-board", `A pseudo-terminal is needed and can't be had: ${why}.`, { cause });
+
+function closePty(pty: RawPty): Promise<void> {
+  return new Promise((resolve) => {
+    pty.onExit(() => resolve());
+    pty.resume();
+    pty.kill("SIGKILL");
+  });
+}
