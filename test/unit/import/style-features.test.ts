@@ -105,7 +105,11 @@ describe("the cascade", () => {
       `<path ${PATH}/>`,
     ],
     ["comments", "/* a */path{/* b */stroke:/* c */red}", `<path ${PATH}/>`],
-    ["rules after a broken one", "path{stroke:blue;;x;:y} p..q{fill:red} .a{stroke:red}", `<path class="a" ${PATH}/>`],
+    [
+      "rules after a broken one",
+      "path{stroke:blue;;x;:y} p..q{fill:red} .a{stroke:red}",
+      `<path class="a" ${PATH}/>`,
+    ],
   ])("obeys %s", (_name, style, element) => {
     expect(stroke(style, element)).toEqual(["#ff0000"]);
   });
