@@ -7,6 +7,7 @@ import { performance } from "node:perf_hooks";
 import {
   DEFAULT_MOTION,
   DEFAULT_PEN,
+  MOTION_MODES,
   plan,
   type MotionSettings,
   type StrokeSet,
@@ -26,7 +27,7 @@ export default async function planBench(report: Report): Promise<void> {
   ];
   report("Planning one million segments (1 000 strokes), one thread", [
     ...rows,
-    measured("junction", drawing, { ...DEFAULT_MOTION, mode: "junction" }, floorMs),
+    ...MOTION_MODES.map((mode) => measured(mode, drawing, { ...DEFAULT_MOTION, mode }, floorMs)),
   ]);
 }
 

@@ -8,7 +8,7 @@
 const COLUMN_NAMES = ["durationS", "x", "y", "vx", "vy", "ax", "ay", "startS", "alongMm"] as const;
 
 /** Arrays longer than what is used by more than this share are cut to size at the end. */
-const WASTE = 0.1;
+const WASTE = 0.05;
 
 export class BlockColumns {
   count = 0;
@@ -70,6 +70,33 @@ export class BlockColumns {
     this.alongMm[k] = alongMm;
     this.startS[k] = this.clockS;
     this.clockS += durationS;
+    if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
+  }
+
+  /** As `push`, with jerk. */
+  pushJerk(
+    durationS: number,
+    x: number,
+    y: number,
+    vx: number,
+    vy: number,
+    ax: number,
+    ay: number,
+    jx: number,
+    jy: number,
+    alongMm: number,
+  ): void {
+    this.push(durationS, x, y, vx, vy, ax, ay, alongMm);
+    if (this.jx !== null && this.jy !== null) {
+      this.jx[this.count - 1] = jx;
+      this.jy[this.count - 1] = jy;
+    }
+  }
+
+  /** Forgets the blocks and keeps the arrays. */
+  clear(): void {
+    this.count = 0;
+    this.clockS = 0;
   }
 
   /** Cuts the arrays to what is used, where that saves enough to be worth a copy. */

@@ -28,15 +28,14 @@ const STRAIGHT = 1e-24;
 const CURVE = Math.cos(0.5) ** 2;
 
 /**
- * Fills `path.v2` with the largest speed² at every vertex (the ends are at rest), and `path.cap2`.
+ * Fills `path.v2` with the largest speed² at every vertex (the ends are at rest), and lowers `path.cap2`.
  *
  * Where the tangent circle is what limits both ends of a segment, and both turn the same way, the segment
  * is a chord of a curve and that curve's speed holds inside it too: else the pen would speed up and brake
  * on every chord.
  */
-export function limitJunctions(path: RunPath, maxSpeed: number, accel: number, deviation: number): void {
+export function limitJunctions(path: RunPath, accel: number, deviation: number): void {
   const { segmentCount: n, length, ux, uy, v2, cap2 } = path;
-  const max2 = maxSpeed * maxSpeed;
   const accelDeviation = accel * deviation;
   const halfAccel = accel / 2;
   // The tangent limit of the vertex before, signed by its turn, where it is a curve's; else 0.
@@ -48,7 +47,7 @@ export function limitJunctions(path: RunPath, maxSpeed: number, accel: number, d
     const x1 = ux[i]!;
     const y1 = uy[i]!;
     const s2 = ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)) / 4;
-    let limit = max2;
+    let limit = cap2[i - 1]! < cap2[i]! ? cap2[i - 1]! : cap2[i]!;
     let curve = 0;
     if (s2 > STRAIGHT) {
       const c2 = ((x1 + x0) * (x1 + x0) + (y1 + y0) * (y1 + y0)) / 4;
@@ -63,9 +62,8 @@ export function limitJunctions(path: RunPath, maxSpeed: number, accel: number, d
       }
     }
     v2[i] = limit;
-    cap2[i - 1] = curve * curveBefore > 0 ? Math.max(Math.abs(curve), Math.abs(curveBefore)) : max2;
+    if (curve * curveBefore > 0) cap2[i - 1] = Math.max(Math.abs(curve), Math.abs(curveBefore));
     curveBefore = curve;
   }
-  cap2[n - 1] = max2;
   v2[n] = 0;
 }

@@ -8,13 +8,14 @@
  */
 import { PlotwrightError } from "../errors.js";
 import { pointCount, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
-import { limitJunctions } from "./corner.js";
-import { lookAhead } from "./look-ahead.js";
+import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
+import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
-import type { MotionLimits, MotionSettings, PenSettings } from "./settings.js";
-import { writeTrapezoids } from "./trapezoid.js";
+import { RunWriter } from "./run-writer.js";
+import type { MotionSettings, PenSettings } from "./settings.js";
 import type { PenMove, Place, Trajectory } from "./trajectory.js";
 
 export interface PlanOptions {
@@ -25,6 +26,8 @@ export interface PlanOptions {
   readonly startY?: number | undefined;
   /** End at 0, 0 with the pen up; default true. False: rest where the last stroke ends. */
   readonly returnHome?: boolean | undefined;
+  /** Its motors' limits are kept then too: steps a second, and `motorAccelStepsPerS2`. */
+  readonly machine?: MachineProfile | undefined;
   /** Looked at before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
@@ -42,16 +45,14 @@ export function plan(
   options: PlanOptions = {},
 ): Trajectory {
   checkSettings(motion, pen);
-  if (motion.mode !== "junction") {
-    throw new PlotwrightError("bad-setting", `motion mode "${motion.mode}" is not available yet: use "junction"`);
-  }
   const from = checkPlace(options.from, strokeCount(strokes));
-  const builder = new PlanBuilder(strokes, motion, pen, options.startX ?? 0, options.startY ?? 0);
+  const { machine, startX = 0, startY = 0 } = options;
+  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY);
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
     builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0);
   }
-  builder.lift();
+  builder.lift(Infinity);
   if (options.returnHome ?? true) builder.travel(0, 0);
   return builder.finish();
 }
@@ -60,63 +61,84 @@ class PlanBuilder {
   private readonly blocks: BlockColumns;
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
+  private readonly writer: RunWriter;
   private readonly penMoves: PenMove[] = [];
   private readonly firstBlock: number[] = [];
   private readonly runStroke: number[] = [];
   private readonly runStartS: number[] = [];
+  private readonly travelLimits: RunLimits;
+  /** By layer index. */
+  private readonly drawLimits: readonly RunLimits[];
+  private readonly pens: readonly PenSettings[];
+  /** The pen that draws, or drew last. */
+  private pen: PenSettings;
   private penUp = true;
+  private heightPct: number;
   private lastLayer = -1;
 
   constructor(
     private readonly strokes: StrokeSet,
     private readonly motion: MotionSettings,
-    private readonly pen: PenSettings,
+    pen: PenSettings,
+    machine: MachineProfile | undefined,
     private x: number,
     private y: number,
   ) {
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
       throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
     }
-    this.blocks = new BlockColumns(pointCount(strokes) + strokeCount(strokes), false);
+    this.pen = pen;
+    this.heightPct = pen.upPct;
+    this.pens = strokes.layers.map((layer) => penOfLayer(pen, layer.id));
+    this.drawLimits = strokes.layers.map((l) => runLimits(drawLimitsOf(motion, l.id), motion, machine));
+    this.travelLimits = runLimits(motion.travel, motion, machine);
+    const segments = pointCount(strokes) + strokeCount(strokes);
+    this.blocks = new BlockColumns(segments, motion.mode === "scurve");
+    this.writer = new RunWriter(motion.mode, motion.fit ?? null);
   }
 
   draw(stroke: number, fromAlong: number): void {
-    const { path, strokes } = this;
+    const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke]!, strokes.offsets[stroke + 1]!, fromAlong);
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke]!;
     const x = path.x[0]!;
     const y = path.y[0]!;
-    if (layer !== this.lastLayer || this.isElsewhere(x, y)) this.lift();
+    const gap = Math.hypot(x - this.x, y - this.y);
+    if (layer !== this.lastLayer || gap >= SHORTEST_MM) this.lift(layer === this.lastLayer ? gap : Infinity);
     this.lastLayer = layer;
     this.travel(x, y);
     path.startAt(this.x, this.y);
+    this.pen = this.pens[layer]!;
     this.drop();
     this.beginRun(stroke);
-    writeRun(path, this.motion.draw, this.blocks);
+    if (motion.ease) path.ease(motion.ease.lengthMm);
+    this.writer.write(path, this.drawLimits[layer]!, this.blocks);
     this.x = path.x[path.segmentCount]!;
     this.y = path.y[path.segmentCount]!;
   }
 
   travel(x: number, y: number): void {
-    if (!this.isElsewhere(x, y)) return;
+    if (Math.hypot(x - this.x, y - this.y) < SHORTEST_MM) return;
     this.beginRun(-1);
     this.hop.setLine(this.x, this.y, x, y);
-    writeRun(this.hop, this.motion.travel, this.blocks);
+    this.writer.write(this.hop, this.travelLimits, this.blocks);
     this.x = x;
     this.y = y;
   }
 
-  lift(): void {
-    this.movePen(true, this.pen.upPct, this.pen.liftMs / 1000);
+  /** @param travelMm how far it goes with the pen up: a short hop may lift less */
+  lift(travelMm: number): void {
+    if (this.penUp) return;
+    this.heightPct = upHeight(this.pen, travelMm);
+    this.movePen(true, liftTiming(this.pen, this.heightPct));
   }
 
   private drop(): void {
-    this.movePen(false, this.pen.downPct, this.pen.dropMs / 1000);
+    if (this.penUp) this.movePen(false, dropTiming(this.pen, this.heightPct));
   }
 
-  private movePen(up: boolean, heightPct: number, waitS: number): void {
-    if (this.penUp === up) return;
+  private movePen(up: boolean, { heightPct, waitS }: PenTiming): void {
     this.penUp = up;
     const { blocks } = this;
     this.penMoves.push({ beforeRun: this.runStroke.length, up, startS: blocks.clockS, waitS, heightPct });
@@ -127,10 +149,6 @@ class PlanBuilder {
     this.firstBlock.push(this.blocks.count);
     this.runStroke.push(stroke);
     this.runStartS.push(this.blocks.clockS);
-  }
-
-  private isElsewhere(x: number, y: number): boolean {
-    return Math.hypot(x - this.x, y - this.y) >= SHORTEST_MM;
   }
 
   finish(): Trajectory {
@@ -161,13 +179,6 @@ class PlanBuilder {
       endY: this.y,
     };
   }
-}
-
-function writeRun(path: RunPath, limits: MotionLimits, blocks: BlockColumns): void {
-  if (path.segmentCount === 0) return;
-  limitJunctions(path, limits.speedMmPerS, limits.accelMmPerS2, limits.cornerMm);
-  lookAhead(path.v2, path.length, path.segmentCount, limits.accelMmPerS2);
-  writeTrapezoids(path, limits.accelMmPerS2, blocks);
 }
 
 function checkPlace(place: Place | undefined, strokes: number): Place {

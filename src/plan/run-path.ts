@@ -25,6 +25,9 @@ export class RunPath {
   cap2 = new Float64Array(0);
   /** mm along the whole stroke at the first point. */
   startAlong = 0;
+  /** Segments before this and from that one on are to be drawn at the easing speed. */
+  easeUntil = 0;
+  easeFrom = Infinity;
 
   /** The straight way between two points, at least SHORTEST_MM apart. */
   setLine(x0: number, y0: number, x1: number, y1: number): void {
@@ -39,6 +42,8 @@ export class RunPath {
     this.uy[0] = (y1 - y0) / l;
     this.segmentCount = 1;
     this.startAlong = 0;
+    this.easeUntil = 0;
+    this.easeFrom = Infinity;
   }
 
   /**
@@ -48,7 +53,9 @@ export class RunPath {
    * @throws RangeError when a coordinate is not finite, or so large that lengths are not
    */
   load(xy: Float64Array, first: number, end: number, fromAlong: number): void {
-    this.reserve(end - first);
+    this.reserve(end - first + 2);
+    this.easeUntil = 0;
+    this.easeFrom = Infinity;
     const { x, y, length, ux, uy } = this;
     let px = xy[2 * first]!;
     let py = xy[2 * first + 1]!;
@@ -103,6 +110,43 @@ export class RunPath {
     this.length[0] = l;
     this.ux[0] = (this.x[1]! - x) / l;
     this.uy[0] = (this.y[1]! - y) / l;
+  }
+
+  /** mm along the whole stroke at the last point. */
+  endAlong(): number {
+    let along = this.startAlong;
+    for (let i = 0; i < this.segmentCount; i++) along += this.length[i]!;
+    return along;
+  }
+
+  /** Marks the first and last `mm` for easing; cuts the segments in which those end. */
+  ease(mm: number): void {
+    if (this.segmentCount === 0) return;
+    const whole = this.endAlong() - this.startAlong;
+    if (whole <= 2 * mm) {
+      this.easeUntil = this.segmentCount;
+      return;
+    }
+    this.easeUntil = this.cutAt(mm);
+    this.easeFrom = this.cutAt(whole - mm);
+  }
+
+  /** Makes a point `mm` after the first one, unless there is one very near; returns its index. */
+  private cutAt(mm: number): number {
+    const { x, y, length, ux, uy } = this;
+    let i = 0;
+    let left = mm;
+    while (i < this.segmentCount - 1 && left > length[i]!) left -= length[i++]!;
+    if (left < 2 * SHORTEST_MM) return i;
+    if (length[i]! - left < 2 * SHORTEST_MM) return i + 1;
+    for (const column of [x, y]) column.copyWithin(i + 2, i + 1, this.segmentCount + 1);
+    for (const column of [length, ux, uy]) column.copyWithin(i + 1, i, this.segmentCount);
+    x[i + 1] = x[i]! + ux[i]! * left;
+    y[i + 1] = y[i]! + uy[i]! * left;
+    length[i + 1] = length[i]! - left;
+    length[i] = left;
+    this.segmentCount++;
+    return i + 1;
   }
 
   private reserve(points: number): void {

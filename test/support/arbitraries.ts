@@ -77,6 +77,11 @@ export const arbitraryStroke: fc.Arbitrary<readonly Point[]> = fc.oneof(
   { weight: 1, arbitrary: dot },
 );
 
+/** One stroke with points on a grid of 1 µm: none nearer together than that, unless equal. */
+export const arbitraryGridStroke: fc.Arbitrary<readonly Point[]> = arbitraryStroke.map((stroke) =>
+  stroke.map(([x, y]): Point => [Math.round(x * 1000) / 1000, Math.round(y * 1000) / 1000]),
+);
+
 /** No drawing, or a few strokes. */
 export const arbitraryStrokeSet: fc.Arbitrary<StrokeSet> = fc
   .array(arbitraryStroke, { maxLength: 4 })

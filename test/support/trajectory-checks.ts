@@ -23,13 +23,15 @@ export interface Worst {
   finite: boolean;
 }
 
-const SAMPLES = 9;
+const SAMPLES = 8;
 
+/** @param allowed distance from the drawing that need not be looked at more closely, mm */
 export function worstOf(
   trajectory: Trajectory,
   strokes: StrokeSet,
   draw: MotionLimits,
   travel: MotionLimits,
+  allowed = 1e-9,
 ): Worst {
   const worst: Worst = {
     speed: 0,
@@ -61,7 +63,7 @@ export function worstOf(
         const s = sample(trajectory, k, (duration * i) / SAMPLES);
         worst.speed = Math.max(worst.speed, Math.hypot(s.vx, s.vy) / limits.speedMmPerS);
         worst.accel = Math.max(worst.accel, Math.hypot(s.ax, s.ay) / limits.accelMmPerS2);
-        if (near) worst.distance = Math.max(worst.distance, near.distance(s.x, s.y));
+        if (near) worst.distance = Math.max(worst.distance, near.distance(s.x, s.y, allowed));
         if (i === 0) {
           if (end) worst.gap = Math.max(worst.gap, Math.hypot(s.x - end[0], s.y - end[1]));
           const jump = Math.hypot(s.vx - before.vx, s.vy - before.vy);
@@ -129,20 +131,20 @@ export class NearStroke {
     this.points = points;
   }
 
-  distance(x: number, y: number): number {
+  /** The distance; or, to save looking further, that of any segment found nearer than `enough`. */
+  distance(x: number, y: number, enough = 1e-9): number {
     const n = this.points.length - 1;
     let best = Infinity;
-    for (let step = 0; step < n; step++) {
+    let where = this.last;
+    for (let step = 0; step < n && best >= enough; step++) {
       const i = (this.last + step) % n;
       const d = this.toSegment(i, x, y);
       if (d < best) {
         best = d;
-        if (best < 1e-9) {
-          this.last = i;
-          break;
-        }
+        where = i;
       }
     }
+    this.last = where;
     return best;
   }
 

@@ -1,0 +1,77 @@
+/** The limits of one run in the planner's own units, from settings and machine. */
+import { TICKS_PER_S } from "../units.js";
+import type { MachineProfile } from "../machines/profile.js";
+import type { RunPath } from "./run-path.js";
+import type { LayerMotion, MotionLimits, MotionSettings } from "./settings.js";
+
+export interface RunLimits {
+  /** mm/s, mm/s², mm/s³. */
+  readonly speed: number;
+  readonly accel: number;
+  readonly jerk: number;
+  /** δ, mm. */
+  readonly corner: number;
+  /** What one motor can do, mm/s along its own axis. */
+  readonly motorSpeed: number;
+  readonly mixed: boolean;
+  /** mm/s, where the path is marked for easing. */
+  readonly easeSpeed: number;
+}
+
+/** Share of the board's highest step rate that a plan uses: rounding to whole rates must not pass it. */
+const STEP_RATE_SHARE = 0.98;
+
+/**
+ * A motor of a mixed machine (H-bot, CoreXY) sees |x ± y|: up to √2 times the carriage's acceleration. So its
+ * own acceleration limit is kept in every direction by A ≤ limit/√2; its speed limit is kept direction
+ * by direction, in `capSegments`.
+ */
+export function runLimits(
+  limits: MotionLimits,
+  motion: MotionSettings,
+  machine: MachineProfile | undefined,
+): RunLimits {
+  const { motorAccelStepsPerS2, ease } = motion;
+  const mixed = machine?.motors === "mixed";
+  const motorAccel = machine && motorAccelStepsPerS2 ? motorAccelStepsPerS2 / machine.stepsPerMm : Infinity;
+  return {
+    speed: limits.speedMmPerS,
+    accel: Math.min(limits.accelMmPerS2, mixed ? motorAccel / Math.SQRT2 : motorAccel),
+    jerk: limits.jerkMmPerS3,
+    corner: limits.cornerMm,
+    motorSpeed: machine ? (STEP_RATE_SHARE * TICKS_PER_S) / machine.stepsPerMm : Infinity,
+    mixed,
+    easeSpeed: ease ? ease.speedMmPerS : Infinity,
+  };
+}
+
+/** The limits of one layer's strokes. */
+export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLimits {
+  const own: LayerMotion = motion.layers?.[layerId] ?? {};
+  const { draw } = motion;
+  return {
+    speedMmPerS: own.speedMmPerS ?? draw.speedMmPerS,
+    accelMmPerS2: own.accelMmPerS2 ?? draw.accelMmPerS2,
+    cornerMm: own.cornerMm ?? draw.cornerMm,
+    jerkMmPerS3: own.jerkMmPerS3 ?? draw.jerkMmPerS3,
+  };
+}
+
+/** Fills `path.cap2` with the speed² that each segment's direction allows: V, and what the motors can step. */
+export function capSegments(path: RunPath, limits: RunLimits): void {
+  const { segmentCount: n, cap2, ux, uy } = path;
+  const max2 = limits.speed * limits.speed;
+  cap2.fill(max2, 0, n);
+  if (limits.easeSpeed < limits.speed) {
+    cap2.fill(limits.easeSpeed ** 2, 0, Math.min(path.easeUntil, n));
+    if (path.easeFrom < n) cap2.fill(limits.easeSpeed ** 2, path.easeFrom, n);
+  }
+  // In the worst direction a motor makes √2 (mixed) or 1 (direct) times the carriage's speed.
+  if (limits.speed <= limits.motorSpeed / (limits.mixed ? Math.SQRT2 : 1)) return;
+  for (let i = 0; i < n; i++) {
+    const ax = Math.abs(ux[i]!);
+    const ay = Math.abs(uy[i]!);
+    const motor = limits.motorSpeed / (limits.mixed ? ax + ay : Math.max(ax, ay));
+    if (motor * motor < cap2[i]!) cap2[i] = motor * motor;
+  }
+}

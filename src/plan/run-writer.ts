@@ -1,0 +1,41 @@
+/** One run from rest to rest, in the mode and with the fit that the settings ask for. */
+import { BlendPlanner } from "./blend.js";
+import { BlockColumns } from "./block-columns.js";
+import { PieceFitter } from "./fit-pieces.js";
+import { writeJunctionRun } from "./junction.js";
+import type { RunLimits } from "./limits.js";
+import type { RunPath } from "./run-path.js";
+import { SCurvePlanner } from "./scurve.js";
+import type { FitSettings, MotionMode } from "./settings.js";
+
+export class RunWriter {
+  private readonly blend = new BlendPlanner();
+  private readonly sCurve = new SCurvePlanner();
+  private readonly fitter: PieceFitter | null;
+  /** The run before fitting. */
+  private readonly unfitted: BlockColumns;
+
+  constructor(
+    private readonly mode: MotionMode,
+    fit: FitSettings | null,
+  ) {
+    this.fitter = fit ? new PieceFitter(fit, mode === "scurve") : null;
+    this.unfitted = new BlockColumns(0, mode === "scurve");
+  }
+
+  write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const n = path.segmentCount;
+    // A single straight has no piece too many.
+    if (this.fitter === null || n < 2) return this.writeMode(path, limits, out);
+    this.unfitted.clear();
+    this.writeMode(path, limits, this.unfitted);
+    this.fitter.write(this.unfitted, limits, path.x[n]!, path.y[n]!, path.endAlong(), n, out);
+  }
+
+  private writeMode(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    if (path.segmentCount === 0) return;
+    if (this.mode === "junction") writeJunctionRun(path, limits, out);
+    else if (this.mode === "blend") this.blend.write(path, limits, out);
+    else this.sCurve.write(path, limits, out);
+  }
+}

@@ -1,0 +1,131 @@
+/**
+ * Jerk limiting by a moving average: the output is the mean of the planned motion over the last w seconds.
+ *
+ *     q̄(t) = 1/w ∫ q over [t − w, t]       v̄ = (q(t) − q(t−w)) / w
+ *                                           ā = (v(t) − v(t−w)) / w,    j̄ = (a(t) − a(t−w)) / w
+ *
+ * A mean never leaves a convex limit, so |v̄| ≤ V and |ā| ≤ A; |j̄| ≤ 2 A / w, so w = 2 A / J keeps J. For an
+ * input of constant acceleration a block, j̄ is constant between the instants where t or t − w passes a
+ * block's end: the output is constant-jerk blocks, exactly. It takes w longer than the input. It leaves the
+ * line by at most A w² / 24 (the mean of A u²/2 over |u| ≤ w/2), and not at all on a straight.
+ *
+ * Source: finite-impulse-response filtering of feed rates, common in machine-tool controls.
+ */
+import type { BlockColumns } from "./block-columns.js";
+
+/** Ends of blocks nearer in time than this fall together, s. */
+const SAME_TIME = 1e-12;
+
+/** One end of the window, walking through the blocks; at rest before the first and after the last. */
+class Walker {
+  k = -1;
+  private t = 0;
+  x: number;
+  y: number;
+  vx = 0;
+  vy = 0;
+  ax = 0;
+  ay = 0;
+  along: number;
+  /** Seconds until this end reaches the end of its block. */
+  left: number;
+
+  constructor(
+    private readonly from: BlockColumns,
+    private readonly endX: number,
+    private readonly endY: number,
+    private readonly endAlong: number,
+    delay: number,
+  ) {
+    this.x = from.x[0]!;
+    this.y = from.y[0]!;
+    this.along = from.alongMm[0]!;
+    this.left = delay;
+    if (!(delay > 0)) this.enter();
+  }
+
+  advance(dt: number): void {
+    if (this.left - dt <= SAME_TIME) return this.enter();
+    this.left -= dt;
+    const { k, from } = this;
+    if (k < 0 || k >= from.count) return;
+    this.t += dt;
+    const t = this.t;
+    this.x = from.x[k]! + t * (from.vx[k]! + (t * this.ax) / 2);
+    this.y = from.y[k]! + t * (from.vy[k]! + (t * this.ay) / 2);
+    this.vx = from.vx[k]! + t * this.ax;
+    this.vy = from.vy[k]! + t * this.ay;
+    const next = k + 1 < from.count ? from.alongMm[k + 1]! : this.endAlong;
+    this.along = from.alongMm[k]! + (next - from.alongMm[k]!) * (t / from.durationS[k]!);
+  }
+
+  private enter(): void {
+    const { from } = this;
+    const k = ++this.k;
+    this.t = 0;
+    const inside = k < from.count;
+    this.left = inside ? from.durationS[k]! : Infinity;
+    this.x = inside ? from.x[k]! : this.endX;
+    this.y = inside ? from.y[k]! : this.endY;
+    this.vx = inside ? from.vx[k]! : 0;
+    this.vy = inside ? from.vy[k]! : 0;
+    this.ax = inside ? from.ax[k]! : 0;
+    this.ay = inside ? from.ay[k]! : 0;
+    this.along = inside ? from.alongMm[k]! : this.endAlong;
+  }
+}
+
+/** Where the run in `from` ends at rest, and how many segments of the drawing it stands for. */
+export interface RunEnd {
+  readonly x: number;
+  readonly y: number;
+  readonly alongMm: number;
+  readonly segmentCount: number;
+}
+
+/** Appends the mean over `window` seconds of the run in `from`. */
+export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, out: BlockColumns): void {
+  out.reserve(2 * from.count + 2, end.segmentCount);
+  const { durationS, startS, alongMm } = out;
+  const jxOut = out.jx!;
+  const jyOut = out.jy!;
+  const lead = new Walker(from, end.x, end.y, end.alongMm, 0);
+  const trail = new Walker(from, end.x, end.y, end.alongMm, window);
+  let x = lead.x;
+  let y = lead.y;
+  let k = out.count;
+  let clock = out.clockS;
+  for (;;) {
+    const dt = lead.left < trail.left ? lead.left : trail.left;
+    if (dt === Infinity) break;
+    // Within one block the mean is known exactly; differences of far coordinates would add up over a long one.
+    const same = lead.k === trail.k;
+    const vx = same ? lead.vx - (lead.ax * window) / 2 : (lead.x - trail.x) / window;
+    const vy = same ? lead.vy - (lead.ay * window) / 2 : (lead.y - trail.y) / window;
+    const ax = same ? lead.ax : (lead.vx - trail.vx) / window;
+    const ay = same ? lead.ay : (lead.vy - trail.vy) / window;
+    const jx = (lead.ax - trail.ax) / window;
+    const jy = (lead.ay - trail.ay) / window;
+    if (dt > 2 * SAME_TIME) {
+      durationS[k] = dt;
+      out.x[k] = x;
+      out.y[k] = y;
+      out.vx[k] = vx;
+      out.vy[k] = vy;
+      out.ax[k] = ax;
+      out.ay[k] = ay;
+      jxOut[k] = jx;
+      jyOut[k] = jy;
+      startS[k] = clock;
+      alongMm[k] = (lead.along + trail.along) / 2;
+      k++;
+    }
+    clock += dt;
+    x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
+    y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
+    lead.advance(dt);
+    trail.advance(dt);
+  }
+  out.count = k;
+  out.clockS = clock;
+}
