@@ -103,7 +103,7 @@ async function session(
   const page = await context.newPage();
   const shoot = async (state: string): Promise<void> => {
     const name = `${size}-${colorScheme}-${state}.png`;
-    await page.screenshot({ path: path.join(folder, name), fullPage: size === "phone" });
+    await page.screenshot({ path: path.join(folder, name), fullPage: size === "phone", timeout: 120_000 });
     console.log(name);
   };
   try {
@@ -127,7 +127,7 @@ async function pictureForReadme(browser: Browser): Promise<void> {
   try {
     await page.goto(server.url);
     await waitForPlan(page);
-    await page.waitForTimeout(500);
+    await page.waitForTimeout(1_500);
     await page.screenshot({ path: path.join(ROOT, "docs", "screenshot.png") });
   } finally {
     await page.close();
