@@ -11,6 +11,7 @@ import { PlotBar } from "./panels/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "./panels/queue.js";
 import { TopBar } from "./panels/top-bar.js";
 import { Preview } from "./preview/preview.js";
+import { TimeLine } from "./preview/time-line.js";
 import { useActions } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { DropZone } from "./ui/drop-zone.js";
@@ -29,6 +30,7 @@ export const App = () => {
         <TopBar />
         <main className="centre">
           <Preview />
+          <TimeLine />
         </main>
         <Tabs tab={tab} onChange={setTab} />
         <aside className="column column-setup" aria-label={text.tabs.setup}>

@@ -21,6 +21,9 @@ const storage = ((): TextStore | null => {
   }
 })();
 
+/** A new plan has other moments and other places. */
+const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null };
+
 const remembered = readRemembered(storage);
 const store = createPageStore(remembered);
 const planner = new Planner(
@@ -32,8 +35,8 @@ const planner = new Planner(
     },
   },
   {
-    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null }),
-    onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null }),
+    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
+    onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT }),
   },
 );
 const actions = createActions({

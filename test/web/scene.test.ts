@@ -7,6 +7,8 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
+import { hoverAt } from "../../web/preview/hover.js";
+import type { Planned } from "../../web/worker/protocol.js";
 import {
   buildScene,
   LAYER_SHORT,
@@ -145,5 +147,33 @@ describe("the scene", () => {
     const nothing = buildScene(plan(empty, DEFAULT_MOTION, DEFAULT_PEN), empty.layer);
     expect(nothing.draw.count).toBe(0);
     expect(nothing.travel.count).toBe(0);
+  });
+});
+
+describe("hovering", () => {
+  const planned = {
+    scene,
+    trajectory,
+    drawnLayers: drawing.layers,
+  } as unknown as Planned;
+  const hover = (xMm: number, yMm: number) =>
+    hoverAt(planned, { xPx: 0, yPx: 0, isRight: false, isLow: false, xMm, yMm }, 4);
+
+  it("tells speed, time, stroke and layer of the plan at that place", () => {
+    const found = hover(30, 10.2)!;
+    expect(found.layerName).toBe("Layer 0");
+    expect(found.strokeNumber).toBe(1);
+    const state = stateAt(trajectory, found.tS);
+    expect(state.x).toBeCloseTo(30, 1);
+    expect(state.y).toBeCloseTo(10, 6);
+    expect(found.speedMmPerS).toBeCloseTo(Math.hypot(state.vx, state.vy), 9);
+  });
+
+  it("knows the number of a dot", () => {
+    expect(hover(80.5, 80)).toMatchObject({ strokeNumber: 3, layerName: "Layer 2" });
+  });
+
+  it("is silent beside the strokes", () => {
+    expect(hover(200, 200)).toBeNull();
   });
 });

@@ -1,15 +1,19 @@
 import { useEffect, useRef, type RefObject } from "react";
-import type { StrokeLayer } from "../../src/index.js";
+import { stateAt, type StrokeLayer } from "../../src/index.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { layerColor } from "./color-map.js";
 import type { Desk } from "./backdrop.js";
 import { listenForGestures } from "./gestures.js";
+import type { Planned } from "../worker/protocol.js";
+import { hoverAt, type Hover } from "./hover.js";
+import { HoverTip } from "./hover-tip.js";
 import { Legend } from "./legend.js";
 import type { Marker } from "./overlay.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
+import { mmFromScreen } from "./view.js";
 
 const words = text.preview;
 const DEFAULT_LINE_MM = 0.35;
@@ -31,6 +35,7 @@ export const Preview = () => {
       <Legend />
       <PreviewTools stage={stage} />
       <PaperMessage />
+      <HoverTip />
     </section>
   );
 };
@@ -53,13 +58,18 @@ const useStage = (
       overlay: overlay.current,
     };
     const made = new Stage(canvases, deskOf(store.getState()), lookOf(store.getState()));
+    const pointAt = (at: { x: number; y: number } | null): void => {
+      const { planned, hover } = store.getState();
+      const found = at && planned ? hoverUnder(made, planned, at) : null;
+      if (found !== hover) store.setState({ hover: found });
+    };
     const stopShowing = showState(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,
       setView: (view) => made.setView(view),
       fit: () => made.fit(),
-      hover: () => undefined,
-      tap: () => undefined,
+      hover: (at) => pointAt(at),
+      tap: (at) => pointAt(at),
     });
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     const recolor = (): void => made.recolor();
@@ -84,6 +94,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
       state.view !== before?.view ||
       state.planned !== before?.planned ||
       state.live !== before?.live ||
+      state.momentS !== before?.momentS ||
       state.drawing !== before?.drawing
     ) {
       stage.setLook(lookOf(state));
@@ -93,6 +104,13 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
   };
   show(store.getState(), null);
   return store.subscribe(show);
+};
+
+const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: number }): Hover | null => {
+  const [xMm, yMm] = mmFromScreen(stage.view, x, y);
+  const { width, height } = stage.size;
+  const at = { xPx: x, yPx: y, xMm, yMm, isRight: x > width * 0.6, isLow: y > height * 0.6 };
+  return hoverAt(planned, at, stage.view.scale);
 };
 
 const deskOf = ({ settings: { prepare } }: PageState): Desk => {
@@ -110,13 +128,20 @@ const lookOf = (state: PageState): FrameLook => ({
   lineMm: DEFAULT_LINE_MM,
   layerColors: state.planned ? layerColorsOf(state.planned.drawnLayers) : [],
   // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
-  untilS: state.live && state.live.jobId === state.drawing?.jobId ? state.live.planS : null,
+  untilS: state.momentS ?? livePlanS(state),
 });
+
+const livePlanS = ({ live, drawing }: PageState): number | null =>
+  live && live.jobId === drawing?.jobId ? live.planS : null;
 
 export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
   layers.map(({ color }, index) => color ?? layerColor(index));
 
 const markerOf = (state: PageState): Marker | null => {
+  if (state.momentS !== null && state.planned) {
+    const { x, y, penUp } = stateAt(state.planned.trajectory, state.momentS);
+    return { xMm: x, yMm: y, penUp };
+  }
   const plotter = currentPlotter(state);
   if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
   return { xMm: plotter.xMm, yMm: plotter.yMm, penUp: plotter.penUp ?? true };

@@ -8,6 +8,7 @@
  * One piece is PIECE_BYTES:  f32 x0 y0 x1 y1 (mm)  f32 t0 t1 (s)  u16 speed0 speed1 (of topMmPerS)  u16 layer 0
  */
 import type { Trajectory } from "../../src/index.js";
+import { buildPickGrid, type PickGrid } from "./pick.js";
 
 export const PIECE_BYTES = 32;
 export const PIECE_FLOATS = 8;
@@ -34,6 +35,8 @@ export interface Scene {
   readonly topDrawMmPerS: number;
   readonly topTravelMmPerS: number;
   readonly totalS: number;
+  /** For finding the piece under the pointer among `draw`. */
+  readonly grid: PickGrid;
 }
 
 /** `strokeLayer` is StrokeSet.layer of the strokes that were planned. Linear in blocks. */
@@ -61,12 +64,14 @@ export const buildScene = (trajectory: Trajectory, strokeLayer: Uint16Array): Sc
       writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
     }
   }
+  const drawn = { count: counts.draw, bytes: draw.bytes };
   return {
-    draw: { count: counts.draw, bytes: draw.bytes },
+    draw: drawn,
     travel: { count: counts.travel, bytes: travel.bytes },
     topDrawMmPerS: tops.draw,
     topTravelMmPerS: tops.travel,
     totalS: trajectory.totalS,
+    grid: buildPickGrid(drawn),
   };
 };
 

@@ -65,6 +65,11 @@ export class Stage {
     return this.#view;
   }
 
+  /** Of the preview, CSS px. */
+  get size(): Size {
+    return this.#size;
+  }
+
   setView(view: View): void {
     this.#view = view;
     this.#isFitted = false;

@@ -21,6 +21,7 @@ export type Theme = (typeof THEMES)[number];
 export interface ViewSettings {
   readonly showTravel: boolean;
   readonly colorBy: ColorMode;
+  readonly showGraph: boolean;
   readonly theme: Theme;
   /** Ids of the groups of settings that are folded open. */
   readonly openGroups: readonly string[];
@@ -29,6 +30,7 @@ export interface ViewSettings {
 export const DEFAULT_VIEW: ViewSettings = {
   showTravel: false,
   colorBy: "speed",
+  showGraph: false,
   theme: "auto",
   openGroups: ["drawing", "paper", "layers", "motion"],
 };
@@ -36,6 +38,7 @@ export const DEFAULT_VIEW: ViewSettings = {
 const viewSchema = z.object({
   showTravel: z.boolean(),
   colorBy: z.enum(COLOR_MODES),
+  showGraph: z.boolean(),
   theme: z.enum(THEMES),
   openGroups: z.array(z.string().max(50)).max(50),
 }) satisfies z.ZodType<ViewSettings>;

@@ -1,6 +1,7 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
 import type { Job, PlotSettings, Plotter } from "../../src/schema/index.js";
+import type { Hover } from "../preview/hover.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
@@ -47,6 +48,12 @@ export interface PageState {
   readonly isPlanning: boolean;
   readonly fault: PlanFault | null;
 
+  /** The moment of the plan that is looked at, s; null for the whole plot (or the live one). */
+  readonly momentS: number | null;
+  readonly isPlaying: boolean;
+  readonly playRate: number;
+  readonly hover: Hover | null;
+
   readonly link: ServerLink;
   readonly version: string | null;
   readonly plotters: readonly Plotter[];
@@ -70,6 +77,10 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     planned: null,
     isPlanning: false,
     fault: null,
+    momentS: null,
+    isPlaying: false,
+    playRate: 10,
+    hover: null,
     link: "connecting",
     version: null,
     plotters: [],

@@ -221,6 +221,25 @@ export const en = {
     noGl: "Drawn without the graphics card: large drawings move slowly here.",
   },
 
+  hover: {
+    speed: "Speed",
+    accel: "Acceleration",
+    time: "At",
+    stroke: "Stroke",
+    strokeOf: (number: string, count: string) => `${number} of ${count}`,
+  },
+
+  timeLine: {
+    title: "Time line",
+    play: "Play the plot",
+    pause: "Stop playing",
+    scrub: "Moment of the plot",
+    rate: "Playing speed",
+    graph: "Speed and acceleration over time",
+    speed: "Speed, mm/s",
+    accel: "Acceleration, mm/s²",
+  },
+
   field: {
     between: (min: string, max: string, unit: string) => `Between ${min} and ${max} ${unit}`.trim(),
     notANumber: "Type a number",

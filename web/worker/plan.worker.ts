@@ -119,7 +119,12 @@ const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
 
 /** The trajectory's columns and the scene's buffers, each once. */
 function transferables({ trajectory, scene }: Planned): Transferable[] {
-  const buffers = new Set<ArrayBufferLike>([scene.draw.bytes, scene.travel.bytes]);
+  const buffers = new Set<ArrayBufferLike>([
+    scene.draw.bytes,
+    scene.travel.bytes,
+    scene.grid.starts.buffer,
+    scene.grid.items.buffer,
+  ]);
   for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
   return [...buffers] as ArrayBuffer[];
 }

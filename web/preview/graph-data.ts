@@ -1,0 +1,29 @@
+/** Speed and acceleration over time, sampled for a graph of a given width. */
+import { stateAt, type Trajectory } from "../../src/index.js";
+
+export interface GraphData {
+  readonly tS: Float64Array;
+  readonly speedMmPerS: Float64Array;
+  readonly accelMmPerS2: Float64Array;
+}
+
+/** Where a point of the graph stands for several instants, the highest of them is shown: peaks stay. */
+const LOOKS_A_POINT = 4;
+
+/** `count` points from `fromS` to `toS`: O(count log blocks), whatever the plan's size. */
+export const graphData = (trajectory: Trajectory, fromS: number, toS: number, count: number): GraphData => {
+  const tS = new Float64Array(count);
+  const speedMmPerS = new Float64Array(count);
+  const accelMmPerS2 = new Float64Array(count);
+  const state = stateAt(trajectory, fromS);
+  const step = (toS - fromS) / Math.max(1, count - 1);
+  for (let i = 0; i < count; i++) {
+    tS[i] = fromS + i * step;
+    for (let k = 0; k < LOOKS_A_POINT; k++) {
+      stateAt(trajectory, Math.min(toS, tS[i]! + (k / LOOKS_A_POINT) * step), state);
+      speedMmPerS[i] = Math.max(speedMmPerS[i]!, Math.hypot(state.vx, state.vy));
+      accelMmPerS2[i] = Math.max(accelMmPerS2[i]!, Math.hypot(state.ax, state.ay));
+    }
+  }
+  return { tS, speedMmPerS, accelMmPerS2 };
+};

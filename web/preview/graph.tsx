@@ -1,0 +1,144 @@
+import { useEffect, useRef } from "react";
+import UPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import type { Trajectory } from "../../src/index.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { formatMoment, formatNumber } from "../ui/format.js";
+import { graphData } from "./graph-data.js";
+
+const words = text.timeLine;
+const HEIGHT_PX = 132;
+
+/** Speed and acceleration over the plot's time. A drag zooms, a double click shows all, a click goes there. */
+export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
+  const box = useRef<HTMLDivElement>(null);
+  const store = usePageStore();
+  const trajectory = usePageState((state) => state.planned?.trajectory ?? null);
+  const theme = usePageState((state) => state.view.theme);
+  useEffect(() => {
+    if (!box.current || !trajectory) return;
+    const element = box.current;
+    const plot = makePlot(element, trajectory, () => store.getState().momentS, onSeek);
+    const stop = store.subscribe((state, before) => {
+      if (state.momentS !== before.momentS) plot.redraw(false);
+    });
+    const observer = new ResizeObserver(() =>
+      plot.setSize({ width: element.clientWidth, height: HEIGHT_PX }),
+    );
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      stop();
+      plot.destroy();
+    };
+  }, [store, trajectory, theme, onSeek]);
+  return <div className="graph" ref={box} role="img" aria-label={words.graph} />;
+};
+
+const makePlot = (
+  element: HTMLElement,
+  trajectory: Trajectory,
+  momentS: () => number | null,
+  onSeek: (tS: number) => void,
+): UPlot => {
+  const style = getComputedStyle(element);
+  const color = (name: string): string => style.getPropertyValue(name).trim();
+  const grid = { stroke: color("--line"), width: 1 };
+  const axis = {
+    stroke: color("--text-soft"),
+    grid,
+    ticks: { show: false },
+    font: "11px Helvetica, Arial, sans-serif",
+  };
+  const sample = (fromS: number, toS: number): UPlot.AlignedData => {
+    const { tS, speedMmPerS, accelMmPerS2 } = graphData(
+      trajectory,
+      fromS,
+      toS,
+      Math.max(200, element.clientWidth),
+    );
+    return [tS, speedMmPerS, accelMmPerS2];
+  };
+  let pressedAtPx = 0;
+  return new UPlot(
+    {
+      width: element.clientWidth,
+      height: HEIGHT_PX,
+      legend: { show: false },
+      cursor: { points: { size: 6 }, drag: { x: true, y: false, setScale: false } },
+      scales: { x: { time: false }, speed: { range: fromZero }, accel: { range: fromZero } },
+      axes: [
+        { ...axis, size: 22, values: (_plot, splits) => splits.map((tS) => formatMoment(tS)) },
+        {
+          ...axis,
+          scale: "speed",
+          size: 44,
+          values: (_plot, splits) => splits.map((v) => formatNumber(v, 0)),
+        },
+        {
+          ...axis,
+          scale: "accel",
+          side: 1,
+          size: 52,
+          grid: { show: false },
+          values: (_plot, splits) => splits.map((v) => formatNumber(v, 0)),
+        },
+      ],
+      series: [
+        {},
+        {
+          label: words.speed,
+          scale: "speed",
+          stroke: color("--accent"),
+          width: 1.5,
+          points: { show: false },
+        },
+        {
+          label: words.accel,
+          scale: "accel",
+          stroke: color("--desk-accent"),
+          width: 1,
+          alpha: 0.65,
+          points: { show: false },
+        },
+      ],
+      hooks: {
+        draw: [(plot) => drawMoment(plot, momentS(), color("--text"))],
+        setSelect: [
+          (plot) => {
+            if (plot.select.width < 4) return;
+            const fromS = plot.posToVal(plot.select.left, "x");
+            const toS = plot.posToVal(plot.select.left + plot.select.width, "x");
+            plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+            plot.setData(sample(Math.max(0, fromS), Math.min(trajectory.totalS, toS)));
+          },
+        ],
+        ready: [
+          (plot) => {
+            plot.over.addEventListener("mousedown", (event) => (pressedAtPx = event.offsetX));
+            plot.over.addEventListener("click", (event) => {
+              if (Math.abs(event.offsetX - pressedAtPx) < 4) onSeek(plot.posToVal(event.offsetX, "x"));
+            });
+            plot.over.addEventListener("dblclick", () => plot.setData(sample(0, trajectory.totalS)));
+          },
+        ],
+      },
+    },
+    sample(0, trajectory.totalS),
+    element,
+  );
+};
+
+const fromZero = (_plot: UPlot, _min: number, max: number): [number, number] => [0, Math.max(1, max * 1.08)];
+
+const drawMoment = (plot: UPlot, tS: number | null, color: string): void => {
+  if (tS === null) return;
+  const x = Math.round(plot.valToPos(tS, "x", true));
+  const { left, top, width, height } = plot.bbox;
+  if (x < left || x > left + width) return;
+  plot.ctx.save();
+  plot.ctx.fillStyle = color;
+  plot.ctx.fillRect(x, top, Math.max(1, devicePixelRatio), height);
+  plot.ctx.restore();
+};

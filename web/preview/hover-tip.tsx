@@ -1,0 +1,37 @@
+import { usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { formatCount, formatMoment, formatNumber } from "../ui/format.js";
+
+const words = text.hover;
+
+/** The numbers of the stroke under the pointer, beside it. */
+export const HoverTip = () => {
+  const hover = usePageState((state) => state.hover);
+  const strokeCount = usePageState((state) => state.planned?.strokeCount ?? 0);
+  if (!hover) return null;
+  const figures = [
+    [words.speed, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
+    [words.accel, `${formatNumber(hover.accelMmPerS2, 0)} mm/s²`],
+    [words.time, formatMoment(hover.tS)],
+    [words.stroke, words.strokeOf(formatCount(hover.strokeNumber), formatCount(strokeCount))],
+  ] as const;
+  return (
+    <div
+      className="hover-tip"
+      role="tooltip"
+      data-right={hover.isRight || undefined}
+      data-low={hover.isLow || undefined}
+      style={{ left: hover.xPx, top: hover.yPx }}
+    >
+      <strong>{hover.layerName}</strong>
+      <dl>
+        {figures.map(([label, value]) => (
+          <div key={label}>
+            <dt>{label}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+    </div>
+  );
+};

@@ -1,0 +1,119 @@
+import { lazy, Suspense, useMemo } from "react";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { formatMoment } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
+import { PLAY_RATES, Player } from "./player.js";
+
+const words = text.timeLine;
+const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
+const STEPS = 2_000;
+
+/** The plot as time: drag through it, play it, see speed and acceleration under it. */
+export const TimeLine = () => {
+  const store = usePageStore();
+  const player = useMemo(() => new Player(store), [store]);
+  const totalS = usePageState((state) => state.planned?.trajectory.totalS ?? 0);
+  const isOpen = usePageState((state) => state.view.showGraph);
+  if (totalS === 0) return null;
+  return (
+    <section className="time-line" aria-label={words.title}>
+      <div className="time-row">
+        <PlayButton player={player} />
+        <Scrubber player={player} totalS={totalS} />
+        <Moment totalS={totalS} />
+        <RateSelect />
+        <GraphButton />
+      </div>
+      {isOpen && (
+        <Suspense fallback={<div className="graph" />}>
+          <Graph onSeek={(tS) => player.seek(tS)} />
+        </Suspense>
+      )}
+    </section>
+  );
+};
+
+const PlayButton = ({ player }: { player: Player }) => {
+  const isPlaying = usePageState((state) => state.isPlaying);
+  const label = isPlaying ? words.pause : words.play;
+  return (
+    <button type="button" className="tool" aria-label={label} title={label} onClick={() => player.toggle()}>
+      <Icon name={isPlaying ? "pause" : "play"} />
+    </button>
+  );
+};
+
+/** Where the plot is: the moment looked at, else how far the plotter is with this drawing, else the end. */
+const useMoment = (): number | null =>
+  usePageState(
+    (state) =>
+      state.momentS ?? (state.live && state.live.jobId === state.drawing?.jobId ? state.live.planS : null),
+  );
+
+const Scrubber = ({ player, totalS }: { player: Player; totalS: number }) => {
+  const momentS = useMoment() ?? totalS;
+  return (
+    <input
+      type="range"
+      aria-label={words.scrub}
+      aria-valuetext={formatMoment(momentS)}
+      min={0}
+      max={totalS}
+      step={totalS / STEPS}
+      value={momentS}
+      onChange={(event) => {
+        player.pause();
+        player.seek(Number(event.target.value));
+      }}
+    />
+  );
+};
+
+const Moment = ({ totalS }: { totalS: number }) => {
+  const momentS = useMoment();
+  return (
+    <span className="moment">
+      {formatMoment(momentS ?? totalS)}
+      <span className="note"> / {formatMoment(totalS)}</span>
+    </span>
+  );
+};
+
+const RateSelect = () => {
+  const store = usePageStore();
+  const playRate = usePageState((state) => state.playRate);
+  return (
+    <label className="tool-select">
+      <span className="visually-hidden">{words.rate}</span>
+      <select
+        value={playRate}
+        title={words.rate}
+        onChange={(event) => store.setState({ playRate: Number(event.target.value) })}
+      >
+        {PLAY_RATES.map((rate) => (
+          <option key={rate} value={rate}>
+            {rate}×
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+};
+
+const GraphButton = () => {
+  const showGraph = usePageState((state) => state.view.showGraph);
+  const { changeView } = useActions();
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={words.graph}
+      title={words.graph}
+      aria-pressed={showGraph}
+      onClick={() => changeView({ showGraph: !showGraph })}
+    >
+      <Icon name="graph" />
+    </button>
+  );
+};
