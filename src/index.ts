@@ -51,9 +51,15 @@ export {
 
 // plan
 export {
+  DEFAULT_FIT,
   DEFAULT_MOTION,
   DEFAULT_PEN,
   MOTION_MODES,
+  type EaseSettings,
+  type FitSettings,
+  type HopSettings,
+  type LayerMotion,
+  type LayerPen,
   type MotionLimits,
   type MotionMode,
   type MotionSettings,

@@ -35,6 +35,9 @@ const STUCK_S = 2;
 /** How long a board that is just connected may still be moving. */
 const STILL_S = 2;
 
+/** What the board's layer variable holds while its counters count from home. */
+const PLACE_KNOWN = 113;
+
 const EMPTY = {
   xy: new Float64Array(0),
   offsets: new Uint32Array(1),
@@ -73,12 +76,43 @@ export class Carriage {
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
     if (!features.hasStepQuery) return;
     await this.untilStill();
-    const [steps1, steps2] = parseSteps(await session.query("QS"));
-    if (steps1 === 0 && steps2 === 0) return;
-    // The accumulators cannot be read: clear them, and the counters with them.
-    await session.send("CS");
-    this.origin = [steps1, steps2];
-    this.state = { steps1, steps2, acc1: 0, acc2: 0 };
+    if (!(await this.isMarked())) return;
+    await this.findPlace();
+    this.motorsOn = true;
+  }
+
+  /** Reads back where the motors are, after they did something else than was planned. */
+  async findPlace(): Promise<void> {
+    const { session, features } = this.connection;
+    await this.untilStill();
+    if (!features.hasStepQuery) throw placeUnknown();
+    const [counter1, counter2] = parseSteps(await session.query("QS"));
+    const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
+    if (features.hasClear) {
+      // The accumulators cannot be read. One tick at the lowest rate sets them to 1, and moves nothing.
+      await session.send("LT,1,1,0,1,0,3");
+      this.state = { steps1, steps2, acc1: 1, acc2: 1 };
+    } else {
+      await session.send("CS");
+      this.origin = [steps1, steps2];
+      this.state = { steps1, steps2, acc1: 0, acc2: 0 };
+    }
+    this.events.changed();
+  }
+
+  /**
+   * The board's own layer variable, 0 after every start of the board, says that the counters still count from
+   * home. Without the clearing commands of 2.7 they do not always, see `findPlace`.
+   */
+  private async isMarked(): Promise<boolean> {
+    const { session, features } = this.connection;
+    if (!features.hasClear) return false;
+    return Number(await session.query(features.hasFutureSyntax ? "QL,0" : "QL")) === PLACE_KNOWN;
+  }
+
+  private async mark(value: number): Promise<void> {
+    const { session, features } = this.connection;
+    if (features.hasClear) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 
   /** A board that was left in mid-plot still plays what it had; it may stand blocked by a long move. */
@@ -97,6 +131,7 @@ export class Carriage {
     if (this.state) return this.state;
     const { session, features } = this.connection;
     for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
+    await this.mark(PLACE_KNOWN);
     this.origin = [0, 0];
     this.motorsOn = true;
     this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
@@ -184,6 +219,7 @@ export class Carriage {
 
   /** Lets the carriage be moved by hand; where it is after that, only the user knows. */
   async motorsOff(): Promise<void> {
+    await this.mark(0);
     await this.connection.session.send("EM,0,0");
     this.motorsOn = false;
     this.state = null;
@@ -225,3 +261,9 @@ function planWalk(
     endY: trajectory.endY + toY,
   };
 }
+
+const placeUnknown = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "This firmware cannot say where its motors are: set home again, then go on from the stroke.",
+  );

@@ -1,15 +1,16 @@
 /** Questions that a driver asks of a plan: where the pen is up, which stroke comes next, how far a place is. */
 import {
   machineById,
+  stateAt,
   xFromMotors,
   yFromMotors,
   type BoardState,
   type CommandStream,
   type MachineProfile,
   type Place,
+  type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
-import type { PlannedPlot } from "./types.js";
 
 /** Rounding between a command's plan time and the trajectory's. */
 const SAME_TIME_S = 1e-7;
@@ -43,16 +44,6 @@ export function isPenUpBefore(trajectory: Trajectory, planS: number): boolean {
   return up;
 }
 
-/** The first command from `index` on before which the carriage rests with the pen up; `count` at the latest. */
-export function nextRestIndex(plot: PlannedPlot, index: number): number {
-  const { commands, trajectory } = plot;
-  for (let i = Math.max(index, 1); i < commands.count; i++) {
-    const rests = commands.run[i]! < 0 || commands.run[i] !== commands.run[i - 1];
-    if (rests && isPenUpBefore(trajectory, commands.planS[i]!)) return i;
-  }
-  return commands.count;
-}
-
 /** The first place that is still to be drawn at `planS`, when the carriage rests there; null when none is. */
 export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
   const { runs } = trajectory;
@@ -63,6 +54,145 @@ export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
     return { stroke: runs.stroke[run]!, alongMm: isDot ? 0 : trajectory.alongMm[block]! };
   }
   return null;
+}
+
+/** The place at `planS` where a stroke is being drawn, else the next one to be drawn. */
+export function placeAt(trajectory: Trajectory, planS: number): Place | null {
+  const state = stateAt(trajectory, planS);
+  return state.stroke >= 0 ? { stroke: state.stroke, alongMm: state.alongMm } : nextPlace(trajectory, planS);
+}
+
+/** The time within `aroundS` of `planS` at which the trajectory comes nearest to a point. */
+export function nearestTime(
+  trajectory: Trajectory,
+  planS: number,
+  aroundS: number,
+  x: number,
+  y: number,
+): number {
+  const distanceAt = (tS: number): number => {
+    const state = stateAt(trajectory, tS);
+    return Math.hypot(state.x - x, state.y - y);
+  };
+  let best = planS;
+  let stepS = 0.002;
+  let fromS = Math.max(0, planS - aroundS);
+  let toS = Math.min(trajectory.totalS, planS + aroundS);
+  for (let pass = 0; pass < 3; pass++) {
+    let nearest = Infinity;
+    for (let tS = fromS; tS <= toS; tS += stepS) {
+      const distance = distanceAt(tS);
+      if (distance < nearest) {
+        nearest = distance;
+        best = tS;
+      }
+    }
+    fromS = Math.max(0, best - stepS);
+    toS = Math.min(trajectory.totalS, best + stepS);
+    stepS /= 20;
+  }
+  return best;
+}
+
+/** A place moved along the drawing by whole strokes or by mm; it stays within the drawing. */
+export function movedPlace(
+  strokes: StrokeSet,
+  place: Place,
+  by: { readonly strokes?: number | undefined; readonly mm?: number | undefined },
+): Place {
+  const last = strokes.offsets.length - 2;
+  let { stroke, alongMm } = place;
+  if (by.strokes) {
+    // Back from the middle of a stroke means to its beginning first.
+    const back = by.strokes < 0 && alongMm > 0 ? 1 : 0;
+    stroke = Math.min(last, Math.max(0, stroke + by.strokes + back));
+    alongMm = 0;
+  }
+  alongMm += by.mm ?? 0;
+  while (alongMm < 0 && stroke > 0) alongMm += strokeLengthMm(strokes, --stroke);
+  while (stroke < last && alongMm > strokeLengthMm(strokes, stroke)) {
+    alongMm -= strokeLengthMm(strokes, stroke++);
+  }
+  return { stroke, alongMm: Math.min(Math.max(0, alongMm), strokeLengthMm(strokes, stroke)) };
+}
+
+export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): number {
+  let lengthMm = 0;
+  for (let i = offsets[stroke]! + 1; i < offsets[stroke + 1]!; i++) {
+    lengthMm += Math.hypot(xy[2 * i]! - xy[2 * i - 2]!, xy[2 * i + 1]! - xy[2 * i - 1]!);
+  }
+  return lengthMm;
+}
+
+/** The point of the drawing at a place, mm. */
+export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: number; y: number } {
+  let leftMm = place.alongMm;
+  const end = offsets[place.stroke + 1]! - 1;
+  for (let i = offsets[place.stroke]!; i < end; i++) {
+    const x = xy[2 * i]!;
+    const y = xy[2 * i + 1]!;
+    const dx = xy[2 * i + 2]! - x;
+    const dy = xy[2 * i + 3]! - y;
+    const lengthMm = Math.hypot(dx, dy);
+    if (leftMm <= lengthMm && lengthMm > 0) {
+      return { x: x + (dx * leftMm) / lengthMm, y: y + (dy * leftMm) / lengthMm };
+    }
+    leftMm -= lengthMm;
+  }
+  return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
+}
+
+/**
+ * The place on the same stroke nearest to a point, not further than `withinMm` along from the given one: where
+ * the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not quite the same.
+ */
+export function snappedPlace(
+  { xy, offsets }: StrokeSet,
+  place: Place,
+  x: number,
+  y: number,
+  withinMm: number,
+): Place {
+  let bestMm = place.alongMm;
+  let nearest = Infinity;
+  let fromMm = 0;
+  for (let i = offsets[place.stroke]!; i + 1 < offsets[place.stroke + 1]!; i++) {
+    const dx = xy[2 * i + 2]! - xy[2 * i]!;
+    const dy = xy[2 * i + 3]! - xy[2 * i + 1]!;
+    const lengthMm = Math.hypot(dx, dy);
+    const low = Math.max(0, place.alongMm - withinMm - fromMm);
+    const high = Math.min(lengthMm, place.alongMm + withinMm - fromMm);
+    if (lengthMm > 0 && low <= high) {
+      const along = ((x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy) / lengthMm;
+      const at = Math.min(high, Math.max(low, along));
+      const gap = Math.hypot(
+        xy[2 * i]! + (dx * at) / lengthMm - x,
+        xy[2 * i + 1]! + (dy * at) / lengthMm - y,
+      );
+      if (gap < nearest) {
+        nearest = gap;
+        bestMm = fromMm + at;
+      }
+    }
+    fromMm += lengthMm;
+  }
+  return { stroke: place.stroke, alongMm: bestMm };
+}
+
+/** A stream without its first commands. */
+export function streamFrom(stream: CommandStream, index: number): CommandStream {
+  return {
+    ...stream,
+    count: stream.count - index,
+    textOffsets: stream.textOffsets.subarray(index),
+    boardS: stream.boardS.subarray(index),
+    planS: stream.planS.subarray(index),
+    steps1: stream.steps1.subarray(index),
+    steps2: stream.steps2.subarray(index),
+    acc1: stream.acc1.subarray(index),
+    acc2: stream.acc2.subarray(index),
+    run: stream.run.subarray(index),
+  };
 }
 
 /** Finds a place's time in a trajectory quickly, as often as progress is told. */

@@ -1,64 +1,93 @@
 /**
  * One plot on a carriage: plan, stream, and what the user asks of it on the way.
  *
- *              ┌────────────── resume: plan what is left ───────────────┐
- *   plan ──> streaming ──pause──> comes to rest, pen up ──> held ───────┘
- *               │  └──cancel──> comes to rest, pen up ──> walks home ──> cancelled
+ *              ┌──────── resume: plan what is left, from the very place ────────┐
+ *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
+ *               │   │  └──emergency──> ES, counters read back, lifts ──> held
+ *               │   └──cancel──> slows down, lifts, walks home ──> cancelled
  *               └──> done
+ *
+ * What has been written to the board plays out, at most the streamer's window; everything after it is new.
  */
 import {
+  comeToRest,
+  compile,
   PlotwrightError,
-  stateAt,
   strokeCount,
-  type MotionState,
+  type BoardState,
+  type CommandStream,
   type Place,
   type Streamer,
-  type StreamReport,
-  type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
-import { isPenUpBefore, machineOf, nextPlace, nextRestIndex, PlaceTimes } from "./plan-places.js";
-import type { PlannedPlot, PlotOutcome, PlotPlanner, PlotProgress, PlotRun } from "./types.js";
+import {
+  boardStateBefore,
+  isPenUpBefore,
+  machineOf,
+  movedPlace,
+  nearestTime,
+  placeAt,
+  pointOfPlace,
+  snappedPlace,
+  streamFrom,
+} from "./plan-places.js";
+import { RunProgress, type Part } from "./run-progress.js";
+import type {
+  LivePlotRun,
+  PlannedPlot,
+  PlotChange,
+  PlotOutcome,
+  PlotPlanner,
+  PlotProgress,
+  PlotStart,
+} from "./types.js";
 
-/** Between two reports of progress, seconds of ours. */
+/** Between two reports of progress, and two journal entries, seconds of ours. */
 const PROGRESS_S = 0.06;
+const JOURNAL_S = 0.25;
+/** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
+const CHANGE_LEAD_S = 0.15;
+const CHANGE_TRIES = 4;
+/** How far mm along the plan and mm along the drawing may be apart. */
+const SNAP_MM = 2;
+/** The pen is at a point of the drawing: half a tenth of rounding and a microstep. */
+const SAME_POINT_MM = 0.08;
 
 type Wish = "run" | "hold" | "cancel";
 
-export class CarriageRun implements PlotRun {
+export class CarriageRun implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
+  /** Where the plot goes on from while held, and where it began. */
+  holdPlace: Place | null;
 
   private wish: Wish = "run";
   private held = false;
-  private playing: { readonly streamer: Streamer; readonly plot: PlannedPlot } | null = null;
+  private streamer: Streamer | null = null;
+  private readonly progress = new RunProgress();
+  /** Set when the stream was stopped on purpose: what is still to be drawn then. */
+  private stopped: { readonly place: Place | null } | null = null;
+  private emergency = false;
+  private settings: PlotSettings;
+  private speedPct = 100;
+  private planningS = 0;
+  private changing: Promise<void> | null = null;
+  private journalDueS = -Infinity;
   private wakeWisher: (() => void) | null = null;
+  private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   private readonly heldListeners: ((held: boolean) => void)[] = [];
   private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
-  /** Called when a pause, resume or cancel has taken effect, or the run has ended. */
   private waiters: { until: () => boolean; resolve: () => void; reject: (error: Error) => void }[] = [];
   private ended: Error | true | null = null;
-
-  private first: { readonly trajectory: Trajectory; readonly times: PlaceTimes } | null = null;
-  private elapsedBeforeS = 0;
-  private readonly motion: MotionState = {
-    x: 0,
-    y: 0,
-    vx: 0,
-    vy: 0,
-    ax: 0,
-    ay: 0,
-    penUp: true,
-    stroke: -1,
-    alongMm: 0,
-  };
-  private progress: PlotProgress | null = null;
 
   constructor(
     private readonly carriage: Carriage,
     private readonly planner: PlotPlanner,
-    private readonly settings: PlotSettings,
+    settings: PlotSettings,
+    private readonly start: PlotStart = {},
   ) {
+    this.settings = settings;
+    this.holdPlace = start.from ?? null;
     this.finished = this.run().then(
       (outcome) => {
         this.end(true);
@@ -75,7 +104,7 @@ export class CarriageRun implements PlotRun {
 
   onProgress(listener: (progress: PlotProgress) => void): void {
     this.progressListeners.push(listener);
-    if (this.progress) listener(this.progress);
+    if (this.progress.latest) listener(this.progress.latest);
   }
 
   onHeld(listener: (held: boolean) => void): void {
@@ -94,79 +123,243 @@ export class CarriageRun implements PlotRun {
 
   cancel(): Promise<void> {
     this.ask("cancel");
+    this.cancelPlanning?.(cancelled());
     return this.until(() => false);
+  }
+
+  emergencyStop(): Promise<void> {
+    if (this.wish === "run") this.wish = "hold";
+    const { streamer } = this;
+    if (streamer?.playing) {
+      this.emergency = true;
+      this.carriage.connection.session.write([{ line: "ES" }]);
+      streamer.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
+    }
+    return this.until(() => this.held || this.wish === "cancel");
+  }
+
+  async change(change: PlotChange): Promise<void> {
+    const { pen = this.settings.pen, motion = this.settings.motion } = change;
+    this.settings = { ...this.settings, pen, motion };
+    this.speedPct = change.speedPct ?? this.speedPct;
+    // One after the other; the last one plans with everything that was asked for.
+    this.changing = (this.changing ?? Promise.resolve()).then(() => this.changeInMotion());
+    await this.changing;
+  }
+
+  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
+    const place = this.heldPlace();
+    this.holdPlace = movedPlace(this.planner.strokes, place, by);
+    return this.holdPlace;
+  }
+
+  async checkHoldPlace(): Promise<void> {
+    const { x, y } = pointOfPlace(this.planner.strokes, this.heldPlace());
+    await this.carriage.walk(x, y, this.settings);
+  }
+
+  private heldPlace(): Place {
+    if (!this.held || !this.holdPlace) {
+      throw new PlotwrightError("conflict", "The plot is not held: pause it first.");
+    }
+    return this.holdPlace;
   }
 
   private ask(wish: Wish): void {
     this.wish = wish;
-    this.bringToRest();
+    this.slowToRest();
     this.wakeWisher?.();
   }
 
-  /** Ends the stream where the pen is next up and the carriage rests. */
-  private bringToRest(): void {
-    if (this.wish === "run" || !this.playing?.streamer.playing) return;
-    const { streamer, plot } = this.playing;
-    const index = nextRestIndex(plot, streamer.nextIndex);
-    // With nothing left to draw, the way home is quicker than a stop.
-    if (index < plot.commands.count && nextPlace(plot.trajectory, plot.commands.planS[index]!)) {
-      streamer.cutAt(index);
-    }
-  }
-
   private async run(): Promise<PlotOutcome> {
-    let from: Place | null = null;
-    for (;;) {
-      const plot = await this.plan(from);
-      if (this.wish === "hold") await this.hold();
-      if (this.wish === "cancel") return this.goHome();
-      const report = await this.play(plot);
-      const planS = plot.commands.planS[report.end.commandIndex + 1]!;
-      this.carriage.penUp = isPenUpBefore(plot.trajectory, report.complete ? Infinity : planS);
-      if (report.complete) return { kind: "done" };
-      from = nextPlace(plot.trajectory, planS);
-      if (!from) return this.goHome();
-    }
-  }
-
-  private async plan(from: Place | null): Promise<PlannedPlot> {
-    const machine = machineOf(this.settings);
-    const board = await this.carriage.ready(machine, this.settings.pen);
-    const place = this.carriage.place(machine)!;
-    if (from === null && strokeCount(this.planner.strokes) === 0) {
+    if (strokeCount(this.planner.strokes) === 0) {
       throw new PlotwrightError(
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
+    for (;;) {
+      if (this.wish === "hold") await this.hold();
+      if (this.wish === "cancel") return this.goHome();
+      const plot = await this.planFromRest().catch((error: unknown) => {
+        if (this.wish === "cancel") return null;
+        throw error;
+      });
+      if (!plot) return this.goHome();
+      if (this.wish !== "run") continue;
+      this.stopped = null;
+      await this.play(plot);
+      const stopped = this.stopped as { readonly place: Place | null } | null;
+      if (!stopped) return { kind: "done" };
+      if (!stopped.place) return this.goHome();
+      this.holdPlace = stopped.place;
+    }
+  }
+
+  private async planFromRest(): Promise<PlannedPlot> {
+    const machine = machineOf(this.settings);
+    const board = await this.carriage.ready(machine, this.settings.pen);
+    const { x, y } = this.carriage.place(machine)!;
+    const planning = this.plan(this.holdPlace, x, y, board);
+    const cancel = new Promise<never>((_, reject) => {
+      this.cancelPlanning = reject;
+    });
+    try {
+      return await Promise.race([planning, cancel]);
+    } finally {
+      this.cancelPlanning = null;
+      planning.catch(() => undefined);
+    }
+  }
+
+  private async plan(from: Place | null, x: number, y: number, board: BoardState): Promise<PlannedPlot> {
+    const clock = this.carriage.connection.boardClock;
+    const startS = clock.nowS();
+    const start = this.planStart(from, x, y);
     const plot = await this.planner.plan({
       from,
-      startXMm: place.x,
-      startYMm: place.y,
-      settings: this.settings,
+      startXMm: start.x,
+      startYMm: start.y,
+      settings: this.plannedSettings(),
       firmware: this.carriage.connection.features.version,
       board,
     });
-    this.first ??= { trajectory: plot.trajectory, times: new PlaceTimes(plot.trajectory) };
+    this.planningS = clock.nowS() - startS;
     return plot;
   }
 
-  private async play(plot: PlannedPlot): Promise<StreamReport> {
+  private plannedSettings(): PlotSettings {
+    const share = this.speedPct / 100;
+    if (share === 1) return this.settings;
+    const { draw, travel } = this.settings.motion;
+    return {
+      ...this.settings,
+      motion: {
+        ...this.settings.motion,
+        draw: { ...draw, speedMmPerS: draw.speedMmPerS * share },
+        travel: { ...travel, speedMmPerS: travel.speedMmPerS * share },
+      },
+    };
+  }
+
+  private async play(plot: PlannedPlot): Promise<void> {
     if (this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
+    this.progress.add({ ...plot, start: this.carriage.boardState! });
     const streamer = this.carriage.streamer();
     const played = this.carriage.play(streamer, plot);
-    this.playing = { streamer, plot };
-    this.bringToRest();
+    this.streamer = streamer;
+    // A wish from the time before there was a stream.
+    this.slowToRest();
     const stopTicking = this.tick();
     try {
       const report = await played;
-      this.tellProgress(plot, report.complete ? plot.trajectory.totalS : report.end.planS);
-      this.elapsedBeforeS += report.end.planS;
-      return report;
+      const { trajectory } = this.progress.partOf(report.end.stream);
+      const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
+      this.carriage.penUp = isPenUpBefore(trajectory, report.complete ? Infinity : planS);
+      this.tell(this.progress.update({ ...report.end, planS: report.complete ? trajectory.totalS : planS }));
+    } catch (error) {
+      if (!this.emergency) throw error;
+      await this.afterEmergency(streamer);
     } finally {
       stopTicking();
-      this.playing = null;
+      this.streamer = null;
+      this.writeJournal();
     }
+    if (this.stopped && this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
+  }
+
+  /** Cuts the stream where the board has not got it yet, and puts the way to rest in its place. */
+  private slowToRest(): void {
+    const { streamer } = this;
+    if (this.wish === "run" || !streamer?.playing || this.stopped) return;
+    const cut = streamer.cut();
+    const part = this.progress.partOf(cut.stream);
+    const rest = this.restAt(part, cut.commandIndex, true);
+    this.stopped = { place: rest.place };
+    this.progress.add(rest.part);
+    streamer.replace(rest.part.commands);
+  }
+
+  /** The way to rest from before a command that is still to be written. */
+  private restAt(
+    part: Part,
+    index: number,
+    lifts: boolean,
+  ): { part: Part; place: Place | null; state: BoardState } {
+    const { commands, trajectory } = part;
+    const { draw, travel } = this.settings.motion;
+    const { trajectory: restTrajectory, planS } = comeToRest(
+      trajectory,
+      commands.planS[index]!,
+      { drawAccel: draw.accelMmPerS2, travelAccel: travel.accelMmPerS2 },
+      lifts ? this.settings.pen : null,
+    );
+    const start = boardStateBefore(commands, index, part.start);
+    const restCommands = compile(restTrajectory, {
+      machine: machineOf(this.settings),
+      firmware: this.carriage.connection.features.version,
+      pen: this.settings.pen,
+      start,
+    });
+    const state = boardStateBefore(restCommands, restCommands.count, start);
+    return {
+      part: { commands: restCommands, trajectory: restTrajectory, start },
+      place: this.snapped(placeAt(trajectory, planS), restTrajectory.endX, restTrajectory.endY),
+      state,
+    };
+  }
+
+  /** The place of the drawing where the pen stands, when it stands in the middle of a stroke. */
+  private snapped(place: Place | null, x: number, y: number): Place | null {
+    if (!place || place.alongMm === 0) return place;
+    return snappedPlace(this.planner.strokes, place, x, y, SNAP_MM);
+  }
+
+  /**
+   * Where the plan of what is left shall begin. Within what rounding a corner allows, at the drawing itself and
+   * not where the pen stands: the first command brings it there, instead of a travel move with the pen up.
+   */
+  private planStart(from: Place | null, x: number, y: number): { x: number; y: number } {
+    if (!from || from.alongMm === 0) return { x, y };
+    const point = pointOfPlace(this.planner.strokes, from);
+    return Math.hypot(point.x - x, point.y - y) < SAME_POINT_MM ? point : { x, y };
+  }
+
+  /** Plans what is left with the new settings, and goes over to it at a place that the board has not got yet. */
+  private async changeInMotion(): Promise<void> {
+    for (let attempt = 0; attempt < CHANGE_TRIES; attempt++) {
+      const { streamer } = this;
+      if (!streamer?.playing || this.wish !== "run") return;
+      const { speed } = this.carriage.connection;
+      const part = this.progress.partOf(streamer.nextStream);
+      const leadS = CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** attempt;
+      const index = commandAfter(part.commands, streamer.nextIndex, leadS);
+      if (index >= part.commands.count) return;
+      const rest = this.restAt(part, index, false);
+      if (!rest.place) return;
+      const { trajectory } = rest.part;
+      const plot = await this.plan(rest.place, trajectory.endX, trajectory.endY, rest.state);
+      const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
+      const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
+      if (this.wish !== "run" || this.streamer !== streamer) return;
+      if (streamer.nextStream !== part.commands) continue;
+      if (!streamer.cutAt(index, rest.part.commands, commands)) continue;
+      this.progress.add(rest.part);
+      this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state });
+      return;
+    }
+  }
+
+  /** The board has dropped its queue: what it has drawn is what its counters say. */
+  private async afterEmergency(streamer: Streamer): Promise<void> {
+    this.emergency = false;
+    const at = streamer.place();
+    await this.carriage.findPlace();
+    const { trajectory } = this.progress.partOf(at.stream);
+    const { x, y } = this.carriage.place(machineOf(this.settings))!;
+    const planS = nearestTime(trajectory, at.planS, 1, x, y);
+    this.stopped = { place: this.snapped(placeAt(trajectory, planS) ?? this.progress.place, x, y) };
+    this.carriage.penUp = null;
   }
 
   private async hold(): Promise<void> {
@@ -192,39 +385,31 @@ export class CarriageRun implements PlotRun {
   }
 
   private tick(): () => void {
-    const clock = this.carriage.connection.boardClock;
-    const everyS = PROGRESS_S * this.carriage.connection.speed;
+    const { boardClock, speed } = this.carriage.connection;
     let cancel = (): void => undefined;
     const next = (): void => {
-      if (this.playing) this.tellProgress(this.playing.plot, this.playing.streamer.place().planS);
-      cancel = clock.after(everyS, next);
+      if (this.streamer) {
+        this.tell(this.progress.update(this.streamer.place()));
+        if (boardClock.nowS() >= this.journalDueS) this.writeJournal();
+      }
+      cancel = boardClock.after(PROGRESS_S * speed, next);
     };
     next();
     return () => cancel();
   }
 
-  private tellProgress(plot: PlannedPlot, planS: number): void {
-    const now = stateAt(plot.trajectory, planS, this.motion);
-    const elapsedS = this.elapsedBeforeS + planS;
-    const remainingS = Math.max(0, plot.trajectory.totalS - planS);
-    this.progress = {
-      progress: elapsedS + remainingS > 0 ? elapsedS / (elapsedS + remainingS) : 1,
-      elapsedS,
-      remainingS,
-      planS: this.firstPlanS(plot, planS, now),
-      xMm: now.x,
-      yMm: now.y,
-      penUp: now.penUp,
-    };
-    for (const listener of this.progressListeners) listener(this.progress);
+  private tell(progress: PlotProgress): void {
+    for (const listener of this.progressListeners) listener(progress);
   }
 
-  /** The same place's time in the first plan, which is the one that the page has. */
-  private firstPlanS(plot: PlannedPlot, planS: number, now: MotionState): number {
-    if (!this.first || plot.trajectory === this.first.trajectory) return planS;
-    const timeS = now.stroke >= 0 ? this.first.times.timeOf(now) : null;
-    const leftS = plot.trajectory.totalS - planS;
-    return timeS ?? Math.max(0, this.first.trajectory.totalS - leftS);
+  private writeJournal(): void {
+    const { latest, place } = this.progress;
+    const { boardClock, speed } = this.carriage.connection;
+    this.journalDueS = boardClock.nowS() + JOURNAL_S * speed;
+    const left = this.stopped?.place ?? place;
+    if (!latest || !left) return;
+    const { xMm, yMm, penUp, elapsedS } = latest;
+    this.start.journal?.record({ place: left, xMm, yMm, penUp, elapsedS });
   }
 
   private until(condition: () => boolean): Promise<void> {
@@ -249,3 +434,20 @@ export class CarriageRun implements PlotRun {
     });
   }
 }
+
+/** The first command that begins `leadS` after command `index` or later. */
+function commandAfter(commands: CommandStream, index: number, leadS: number): number {
+  const fromS = commands.boardS[index]! + leadS;
+  let i = index;
+  while (i < commands.count && commands.boardS[i]! < fromS) i++;
+  return i;
+}
+
+/** A plan begins with the pen coming down; here it is down already. */
+function withoutDrop(commands: CommandStream): CommandStream {
+  let first = 0;
+  while (first < commands.count && commands.run[first]! < 0) first++;
+  return streamFrom(commands, first);
+}
+
+const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

@@ -13,7 +13,7 @@ import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
 import { machineOf } from "./plan-places.js";
 import { CarriageRun } from "./plot-run.js";
-import type { PlotPlanner, PlotRun } from "./types.js";
+import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
   /** "auto" (an EiBotBoard where one is plugged in, else the virtual board), "virtual", or a serial port's path. */
@@ -91,10 +91,10 @@ export class PlotterDriver {
   }
 
   /** Begins a plot. Rejects with `busy`, or with what keeps the board from being there. */
-  async plot(planner: PlotPlanner, settings: PlotSettings): Promise<PlotRun> {
+  async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
     const carriage = await this.idleCarriage();
     this.settings = settings;
-    const run = new CarriageRun(carriage, planner, settings);
+    const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
     this.tell({ connection: "busy" });
     run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));

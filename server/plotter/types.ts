@@ -2,7 +2,15 @@
  * Between the queue (which job, which drawing) and the driver (which board): a job's planner goes in,
  * a run comes out. The driver never plans; the planner (a worker thread) never sees the board.
  */
-import type { BoardState, CommandStream, Place, StrokeSet, Trajectory } from "../../src/index.js";
+import type {
+  BoardState,
+  CommandStream,
+  MotionSettings,
+  PenSettings,
+  Place,
+  StrokeSet,
+  Trajectory,
+} from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
 export interface PlannedPlot {
@@ -53,4 +61,46 @@ export interface PlotRun {
   resume(): Promise<void>;
   /** Lifts, goes home; `finished` then resolves with "cancelled". */
   cancel(): Promise<void>;
+}
+
+/** What may be changed while a plot runs or is held; what is not named stays. */
+export interface PlotChange {
+  readonly pen?: PenSettings | undefined;
+  readonly motion?: MotionSettings | undefined;
+  /** Of the motion's speeds, drawing and travelling; accelerations stay. 100 = as set. */
+  readonly speedPct?: number | undefined;
+}
+
+/** Everything that can be asked of a plot under way. */
+export interface LivePlotRun extends PlotRun {
+  /** Stops at once, without slowing down (ES), then reads back where the motors are; the plot is held. */
+  emergencyStop(): Promise<void>;
+  /** Takes effect within a second while running, at the hold point while held, by planning only what is left. */
+  change(change: PlotChange): Promise<void>;
+  /** While held: where the plot goes on from. */
+  readonly holdPlace: Place | null;
+  /** While held: moves the hold point along the drawing, forward or back; mm run on into the next stroke. */
+  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place;
+  /** While held: walks to the hold point with the pen up, to look whether it is the right one. */
+  checkHoldPlace(): Promise<void>;
+}
+
+/** Where a plot has come to, kept on disk by whoever gives a journal in: enough to go on after a crash. */
+export interface JournalEntry {
+  /** The first place not drawn yet, at most half a second old. */
+  readonly place: Place;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+  readonly elapsedS: number;
+}
+
+export interface PlotJournal {
+  record(entry: JournalEntry): void;
+}
+
+export interface PlotStart {
+  /** Where in the drawing to begin: after a crash, the journal's place. Default: its beginning. */
+  readonly from?: Place | null | undefined;
+  readonly journal?: PlotJournal | undefined;
 }

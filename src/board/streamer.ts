@@ -94,8 +94,8 @@ export class Streamer {
   private next = 0;
   /** Board time line at `stream`'s second 0. */
   private offsetS = 0;
-  /** Nothing from `atIndex` on is written; `then`, when there is one, goes on from there. */
-  private limit: { readonly atIndex: number; readonly then: CommandStream | null } | null = null;
+  /** Nothing from `atIndex` on is written; the streams of `then`, when there are any, go on from there. */
+  private limit: { readonly atIndex: number; readonly then: readonly CommandStream[] } | null = null;
   private flight: InFlight[] = [];
   private writtenCount = 0;
   private ackedCount = 0;
@@ -126,7 +126,7 @@ export class Streamer {
       this.settle = { resolve, reject };
       this.lastWritten = null;
       this.schedulePoll();
-      this.take(stream);
+      this.take(stream, []);
     });
   }
 
@@ -135,30 +135,36 @@ export class Streamer {
     return this.next;
   }
 
+  /** The stream that it belongs to. */
+  get nextStream(): CommandStream {
+    if (!this.stream) throw new TypeError("nothing is being played");
+    return this.stream;
+  }
+
   /** Writes nothing more of the stream. Returns the first command that the board will not get. */
   cut(): StreamPlace {
     const stream = this.stream;
     if (!stream || !this.playing) throw new TypeError("nothing is being played");
-    this.limit = { atIndex: this.next, then: null };
+    this.limit = { atIndex: this.next, then: [] };
     // Not before the caller has had the chance to put another stream in its place.
     this.sleep(0);
     return { stream, commandIndex: this.next, planS: stream.planS[this.next]! };
   }
 
   /**
-   * Ends the stream before `atIndex`, or goes over to `then` there, which was compiled from the state at that
-   * command. False when the command has been written already: too late.
+   * Ends the stream before `atIndex`, or goes over to other streams there, one after the other; the first was
+   * compiled from the state at that command. False when the command has been written already: too late.
    */
-  cutAt(atIndex: number, then: CommandStream | null = null): boolean {
+  cutAt(atIndex: number, ...then: readonly CommandStream[]): boolean {
     if (!this.playing || this.next > atIndex) return false;
     this.limit = { atIndex, then };
     this.pump();
     return true;
   }
 
-  /** After a cut: goes on with a stream that was compiled from the state at the cut. False: it came to rest. */
-  replace(stream: CommandStream): boolean {
-    return this.cutAt(this.next, stream);
+  /** After a cut: goes on with streams compiled from the state at the cut. False: the board has come to rest. */
+  replace(...then: readonly CommandStream[]): boolean {
+    return this.cutAt(this.next, ...then);
   }
 
   /** True while a stream can still be cut and replaced without the board coming to rest. */
@@ -194,12 +200,16 @@ export class Streamer {
     this.fail(error);
   }
 
-  private take(stream: CommandStream): void {
+  private take(stream: CommandStream, followers: readonly CommandStream[]): void {
     this.stream = stream;
     this.next = 0;
     this.offsetS = this.lastWrittenEndS - stream.boardS[0]!;
-    this.limit = null;
+    this.limit = followers.length > 0 ? { atIndex: stream.count, then: followers } : null;
     this.pump();
+  }
+
+  private takeNext(then: readonly CommandStream[]): void {
+    this.take(then[0]!, then.slice(1));
   }
 
   /** Estimated board time, held back where the board has not acknowledged as far. */
@@ -233,7 +243,7 @@ export class Streamer {
     }
     if (batch.length > 0) this.session.write(batch);
     if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
-    else if (this.limit?.then) this.take(this.limit.then);
+    else if (this.limit && this.limit.then.length > 0) this.takeNext(this.limit.then);
     else this.awaitEnd(boardS);
   }
 

@@ -1,0 +1,103 @@
+/** How far a plot is: translates the place of whatever stream is playing into the terms of the whole plot. */
+import {
+  stateAt,
+  type BoardState,
+  type CommandStream,
+  type MotionState,
+  type Place,
+  type StreamPlace,
+  type Trajectory,
+} from "../../src/index.js";
+import { nextPlace, PlaceTimes } from "./plan-places.js";
+import type { PlotProgress } from "./types.js";
+
+/** A stretch of motion that is or will be streamed, and the plan that it came from. */
+export interface Part {
+  readonly commands: CommandStream;
+  readonly trajectory: Trajectory;
+  /** What the board holds before its first command. */
+  readonly start: BoardState;
+}
+
+export class RunProgress {
+  latest: PlotProgress | null = null;
+  /** The first place that is still to be drawn. */
+  place: Place | null = null;
+
+  private parts: Part[] = [];
+  private part: Part | null = null;
+  private firstTrajectory: Trajectory | null = null;
+  private times: PlaceTimes | null = null;
+  /** Of the parts that are over. */
+  private doneS = 0;
+  /** Of the part that plays. */
+  private partS = 0;
+  private partStartS = 0;
+  private readonly motion: MotionState = {
+    x: 0,
+    y: 0,
+    vx: 0,
+    vy: 0,
+    ax: 0,
+    ay: 0,
+    penUp: true,
+    stroke: -1,
+    alongMm: 0,
+  };
+
+  /** A part that will be streamed; the first of all is the plan that the page has too. */
+  add(part: Part): void {
+    if (!this.firstTrajectory) {
+      this.firstTrajectory = part.trajectory;
+      this.times = new PlaceTimes(part.trajectory);
+    }
+    this.parts.push(part);
+  }
+
+  partOf(commands: CommandStream): Part {
+    const found = this.parts.find((part) => part.commands === commands);
+    if (!found) throw new TypeError("a stream plays that was never announced");
+    return found;
+  }
+
+  /** Where the board is now. */
+  update(at: StreamPlace): PlotProgress {
+    const part = this.partOf(at.stream);
+    if (part !== this.part) this.enter(part, at.stream.planS[0]!);
+    this.partS = Math.max(this.partS, at.planS - this.partStartS);
+    const now = stateAt(part.trajectory, at.planS, this.motion);
+    const left =
+      now.stroke >= 0 ? { stroke: now.stroke, alongMm: now.alongMm } : nextPlace(part.trajectory, at.planS);
+    if (left) this.place = left;
+    const elapsedS = this.doneS + this.partS;
+    const remainingS = Math.max(0, part.trajectory.totalS - at.planS);
+    const progress = elapsedS + remainingS > 0 ? elapsedS / (elapsedS + remainingS) : 1;
+    this.latest = {
+      progress: Math.max(progress, this.latest?.progress ?? 0),
+      elapsedS,
+      remainingS,
+      planS: this.firstPlanS(part.trajectory, at.planS, now),
+      xMm: now.x,
+      yMm: now.y,
+      penUp: now.penUp,
+    };
+    return this.latest;
+  }
+
+  private enter(part: Part, startS: number): void {
+    this.doneS += this.partS;
+    this.partS = 0;
+    this.partStartS = startS;
+    this.part = part;
+    // What has been left is never played again.
+    this.parts = this.parts.slice(this.parts.indexOf(part));
+  }
+
+  /** The same place's time in the first plan. */
+  private firstPlanS(trajectory: Trajectory, planS: number, now: MotionState): number {
+    if (!this.firstTrajectory || trajectory === this.firstTrajectory) return planS;
+    const timeS = now.stroke >= 0 ? this.times!.timeOf(now) : null;
+    const leftS = trajectory.totalS - planS;
+    return timeS ?? this.latest?.planS ?? Math.max(0, this.firstTrajectory.totalS - leftS);
+  }
+}
