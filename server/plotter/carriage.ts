@@ -35,6 +35,8 @@ const STUCK_S = 2;
 /** How long a board that is just connected may still be moving. */
 const STILL_S = 2;
 
+/** The board begins a little after the command was written, and ends as much later. */
+const SETTLE_S = 0.02;
 /** What the board's layer variable holds while its counters count from home. */
 const PLACE_KNOWN = 113;
 
@@ -212,7 +214,7 @@ export class Carriage {
       penCommand(machine, up, pct, Math.abs(pen.upPct - pen.downPct), waitMs),
       waitMs / 1000,
     );
-    await new Promise<void>((resolve) => void boardClock.after(waitMs / 1000, resolve));
+    await new Promise<void>((resolve) => void boardClock.after(waitMs / 1000 + SETTLE_S, resolve));
     this.penUp = up;
     this.events.changed();
   }

@@ -195,6 +195,35 @@ export function streamFrom(stream: CommandStream, index: number): CommandStream 
   };
 }
 
+/** A stream of commands in which the motors rest: each with the seconds that it holds the board's queue. */
+export function restingStream(
+  lines: readonly (readonly [line: string, durationS: number])[],
+  state: BoardState,
+  planS: number,
+): CommandStream {
+  const count = lines.length;
+  const characters = lines.map(([line]) => `${line}\r`).join("");
+  const textOffsets = new Uint32Array(count + 1);
+  const boardS = new Float64Array(count + 1);
+  lines.forEach(([line, durationS], i) => {
+    textOffsets[i + 1] = textOffsets[i]! + line.length + 1;
+    boardS[i + 1] = boardS[i]! + durationS;
+  });
+  return {
+    count,
+    text: Uint8Array.from(characters, (character) => character.charCodeAt(0)),
+    textOffsets,
+    boardS,
+    planS: new Float64Array(count + 1).fill(planS),
+    steps1: new Int32Array(count).fill(state.steps1),
+    steps2: new Int32Array(count).fill(state.steps2),
+    acc1: new Uint32Array(count).fill(state.acc1),
+    acc2: new Uint32Array(count).fill(state.acc2),
+    run: new Int32Array(count).fill(-1),
+    warnings: [],
+  };
+}
+
 /** Finds a place's time in a trajectory quickly, as often as progress is told. */
 export class PlaceTimes {
   private readonly runOfStroke = new Map<number, number>();

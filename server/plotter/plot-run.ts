@@ -12,10 +12,13 @@
 import {
   comeToRest,
   compile,
+  penCommand,
+  penSetUpCommands,
   PlotwrightError,
   strokeCount,
   type BoardState,
   type CommandStream,
+  type PenSettings,
   type Place,
   type Streamer,
 } from "../../src/index.js";
@@ -28,6 +31,7 @@ import {
   movedPlace,
   nearestTime,
   placeAt,
+  restingStream,
   pointOfPlace,
   snappedPlace,
   streamFrom,
@@ -54,6 +58,9 @@ const SNAP_MM = 2;
 /** The pen is at a point of the drawing: half a tenth of rounding and a microstep. */
 const SAME_POINT_MM = 0.08;
 
+/** A pen that is down already changes its height in this time. */
+const RESEAT_MS = 60;
+
 type Wish = "run" | "hold" | "cancel";
 
 export class CarriageRun implements LivePlotRun {
@@ -70,6 +77,8 @@ export class CarriageRun implements LivePlotRun {
   private emergency = false;
   private settings: PlotSettings;
   private speedPct = 100;
+  /** The heights that the board moves the pen to. */
+  private boardPen: PenSettings;
   private planningS = 0;
   private changing: Promise<void> | null = null;
   private journalDueS = -Infinity;
@@ -87,7 +96,9 @@ export class CarriageRun implements LivePlotRun {
     private readonly start: PlotStart = {},
   ) {
     this.settings = settings;
+    this.boardPen = settings.pen;
     this.holdPlace = start.from ?? null;
+    if (start.held ?? this.holdPlace !== null) this.wish = "hold";
     this.finished = this.run().then(
       (outcome) => {
         this.end(true);
@@ -244,6 +255,7 @@ export class CarriageRun implements LivePlotRun {
 
   private async play(plot: PlannedPlot): Promise<void> {
     if (this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
+    this.boardPen = this.settings.pen;
     this.progress.add({ ...plot, start: this.carriage.boardState! });
     const streamer = this.carriage.streamer();
     const played = this.carriage.play(streamer, plot);
@@ -343,11 +355,26 @@ export class CarriageRun implements LivePlotRun {
       const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
       if (this.wish !== "run" || this.streamer !== streamer) return;
       if (streamer.nextStream !== part.commands) continue;
-      if (!streamer.cutAt(index, rest.part.commands, commands)) continue;
+      const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
+      if (!streamer.cutAt(index, rest.part.commands, heights, commands)) continue;
+      this.boardPen = this.settings.pen;
       this.progress.add(rest.part);
+      this.progress.add({ commands: heights, trajectory, start: rest.state });
       this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state });
       return;
     }
+  }
+
+  /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
+  private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
+    const { pen } = this.settings;
+    const machine = machineOf(this.settings);
+    const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
+    const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
+    if (isDown && byPct > 0) {
+      lines.push([penCommand(machine, false, pen.downPct, byPct, RESEAT_MS), RESEAT_MS / 1000]);
+    }
+    return restingStream(lines, state, planS);
   }
 
   /** The board has dropped its queue: what it has drawn is what its counters say. */

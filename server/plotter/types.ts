@@ -102,5 +102,7 @@ export interface PlotJournal {
 export interface PlotStart {
   /** Where in the drawing to begin: after a crash, the journal's place. Default: its beginning. */
   readonly from?: Place | null | undefined;
+  /** Begins held, with nothing moved: default where `from` is given, so that the user has the word. */
+  readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;
 }

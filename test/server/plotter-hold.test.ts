@@ -126,3 +126,129 @@ describe("a hold at any instant", () => {
     expectDrawn(board, DRAWING, 0.05);
   });
 });
+
+describe("an emergency stop at any instant", () => {
+  it.each(["2.8.1", "3.0.3"])(
+    "is gone on from without a gap, and ends exactly, on firmware %s",
+    async (firmware) => {
+      const random = seeded(41);
+      for (let i = 0; i < 40; i++) {
+        const { world, board, run } = await plotting("junction", firmware);
+        await world.advance(0.3 + 12 * random());
+        const beforeS = world.nowS();
+        await world.run(run.emergencyStop());
+        expect(world.nowS() - beforeS).toBeLessThan(HELD_WITHIN_S);
+        expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+        await world.run(run.resume());
+        expect(await world.run(run.finished)).toEqual({ kind: "done" });
+        expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+        expect(Math.max(0, ...seamsMm(board))).toBeLessThan(0.02);
+        expectDrawn(board, DRAWING, 0.05);
+      }
+    },
+  );
+
+  it("stops a 3.x board in the middle of its move", async () => {
+    const { world, board, run } = await plotting("junction", "3.0.3");
+    await world.advance(3);
+    const stopped = run.emergencyStop();
+    const at = board.state();
+    await world.advance(0.01);
+    expect(board.state()).toMatchObject({ steps1: at.steps1, steps2: at.steps2 });
+    await world.run(stopped);
+  });
+});
+
+describe("changes while it runs", () => {
+  it("slows down within a second to the percentage asked for, without leaving the line", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    const speed = async (): Promise<number> => {
+      const from = board.state();
+      await world.advance(0.1);
+      const to = board.state();
+      return Math.hypot(to.xMm - from.xMm, to.yMm - from.yMm) / 0.1;
+    };
+    expect(await speed()).toBeGreaterThan(45);
+    const changed = run.change({ speedPct: 40 });
+    await world.advance(0.9);
+    await changed;
+    expect(await speed()).toBeCloseTo(20, 0);
+    expect(board.state().penUp).toBe(false);
+    await world.run(run.change({ speedPct: 100 }));
+    await world.advance(1);
+    expect(await speed()).toBeGreaterThan(45);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it("presses harder at once where the pen is down, and from then on", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 20 } }));
+    await world.advance(1);
+    expect(board.state()).toMatchObject({ penUp: false });
+    expect(board.state().penPct).toBeCloseTo(20, 0);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
+  });
+
+  it("takes new settings at the hold point while held", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.pause());
+    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 10 } }));
+    await world.run(run.resume());
+    await world.advance(1);
+    expect(board.state().penPct).toBeCloseTo(10, 0);
+    await world.run(run.finished);
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it.each([0, 1, 2, 3, 4])("can be asked for at any instant, many times (run %i)", async (seed) => {
+    const { world, board, run } = await plotting("junction");
+    const random = seeded(seed + 1);
+    for (let i = 0; i < 8; i++) {
+      await world.advance(random());
+      await world.run(run.change({ speedPct: 20 + Math.floor(150 * random()) }));
+    }
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(board.statistics().penMoveCount).toBe(8);
+    expectDrawn(board, DRAWING, 0.05);
+  });
+});
+
+describe("the hold point", () => {
+  it("can be moved back, looked at with the pen up, and gone on from", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(5);
+    await world.run(run.pause());
+    const held = run.holdPlace!;
+    expect(run.moveHoldPlace({ mm: -10 })).toEqual({ stroke: held.stroke, alongMm: held.alongMm - 10 });
+    const before = board.state();
+    await world.run(run.checkHoldPlace());
+    const there = board.state();
+    expect(there.penUp).toBe(true);
+    const movedMm = Math.hypot(there.xMm - before.xMm, there.yMm - before.yMm);
+    expect(movedMm).toBeGreaterThan(9);
+    expect(movedMm).toBeLessThanOrEqual(10.05);
+    await world.run(run.resume());
+    await world.run(run.finished);
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it("moves by whole strokes and stays within the drawing", async () => {
+    const { world, run } = await plotting("junction");
+    await world.advance(5);
+    await world.run(run.pause());
+    const { stroke } = run.holdPlace!;
+    expect(run.moveHoldPlace({ strokes: -1 })).toEqual({ stroke, alongMm: 0 });
+    expect(run.moveHoldPlace({ strokes: 2 })).toEqual({ stroke: stroke + 2, alongMm: 0 });
+    expect(run.moveHoldPlace({ strokes: -99 })).toEqual({ stroke: 0, alongMm: 0 });
+    expect(run.moveHoldPlace({ mm: 1e6 }).stroke).toBe(3);
+    await world.run(Promise.all([run.cancel(), run.finished]));
+  });
+});
