@@ -25,9 +25,17 @@ export {
   type ImportOptions,
   type Pause,
 } from "./import/import-svg.js";
+export {
+  importDrawing,
+  importDrawingWithPauses,
+  formatOf,
+  DRAWING_FORMATS,
+  type DrawingFormat,
+} from "./import/import-drawing.js";
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";
+export { placeDrawing, type Placement } from "./prepare/place.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { checkBounds } from "./prepare/check-bounds.js";
 export type { Work } from "./prepare/work.js";

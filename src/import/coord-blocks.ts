@@ -53,6 +53,13 @@ export class CoordBlocks {
     return box;
   }
 
+  /** The block that holds the number at `offset`, and where in it. */
+  find(offset: number): { readonly block: Float64Array; readonly at: number } {
+    let index = 0;
+    while (offset >= this.used[index]) offset -= this.used[index++];
+    return { block: this.blocks[index], at: offset };
+  }
+
   /** Everything as one array; the blocks are given up as they are copied. */
   take(): Float64Array {
     const all = new Float64Array(this.length);

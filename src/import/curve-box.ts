@@ -3,9 +3,17 @@ import { PAIRS_OF_VERB, VERB_CUBIC } from "../drawing/drawing.js";
 import { EMPTY_BOX, type Box } from "../geometry/box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 
-export function curveBox(shape: ShapeBuffer): Box {
-  const verbs = shape.verbs;
-  const c = shape.coords.data;
+export const curveBox = (shape: ShapeBuffer): Box =>
+  curveBoxOf(shape.verbs.data, 0, shape.verbs.length, shape.coords.data, 0);
+
+/** Of the verbs [verbFrom, verbTo), whose coordinates begin at `at`. */
+export function curveBoxOf(
+  verbs: Uint8Array,
+  verbFrom: number,
+  verbTo: number,
+  c: Float64Array,
+  at: number,
+): Box {
   let { x0, y0, x1, y1 } = EMPTY_BOX;
   const add = (x: number, y: number): void => {
     x0 = Math.min(x0, x);
@@ -13,9 +21,8 @@ export function curveBox(shape: ShapeBuffer): Box {
     y0 = Math.min(y0, y);
     y1 = Math.max(y1, y);
   };
-  for (let i = 0, at = 0; i < verbs.length; i++) {
-    const verb = verbs.data[i];
-    const pairs = PAIRS_OF_VERB[verb];
+  for (let i = verbFrom; i < verbTo; i++) {
+    const verb = verbs[i];
     if (verb === VERB_CUBIC) {
       for (const axis of [0, 1]) {
         for (const t of extremes(c[at - 2 + axis], c[at + axis], c[at + 2 + axis], c[at + 4 + axis])) {
@@ -24,6 +31,7 @@ export function curveBox(shape: ShapeBuffer): Box {
         }
       }
     }
+    const pairs = PAIRS_OF_VERB[verb];
     at += 2 * pairs;
     if (pairs > 0) add(c[at - 2], c[at - 1]);
   }

@@ -8,10 +8,11 @@ import {
   type DrawingGroup,
 } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
-import { boxOfPoints, type Box } from "../geometry/box.js";
+import { boxOfPoints, EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, type PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
 import { CoordBlocks } from "./coord-blocks.js";
+import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
@@ -106,6 +107,17 @@ export class DrawingBuilder {
   /** The box of shapes [from, to). */
   boxOfShapes(from: number, to: number): Box {
     return this.coords.boxOf(this.coordOffsets.data[from], this.coordOffsets.data[to]);
+  }
+
+  /** The box of all curves themselves, where `boxOfShapes` has that of their control points. */
+  extent(): Box {
+    let box = EMPTY_BOX;
+    for (let i = 0; i < this.shapeCount; i++) {
+      const { block, at } = this.coords.find(this.coordOffsets.data[i]);
+      const verbs = this.verbOffsets.data;
+      box = uniteBoxes(box, curveBoxOf(this.verbs.data, verbs[i], verbs[i + 1], block, at));
+    }
+    return box;
   }
 
   /** Moves everything: for files that do not say where their page is. */

@@ -9,9 +9,10 @@
  * Time and memory are linear in the text and in what copies (`use`) add, and copies are bounded.
  */
 import type { Drawing } from "../drawing/drawing.js";
-import { MM_PER_INCH, PX_PER_INCH } from "../units.js";
+import { PX_PER_INCH } from "../units.js";
 import { Cascade, type Declared } from "./cascade.js";
 import { DrawingBuilder } from "./drawing-builder.js";
+import { finishAroundDrawing } from "./finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
 import { SvgClips } from "./svg-clips.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
@@ -147,17 +148,9 @@ const isShown = (style: Style, root: Declared): boolean =>
 
 function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
   if (page.sizeFrom !== "none") return builder.finish(page.widthMm, page.heightMm);
-  const box = builder.boxOfShapes(0, builder.shapeCount);
-  const widthMm = box.x1 - box.x0;
-  const heightMm = box.y1 - box.y0;
-  if (!(widthMm > 0 || heightMm > 0)) return builder.finish(page.widthMm, page.heightMm);
-  builder.translate(-box.x0, -box.y0);
-  warnings.translate(-box.x0, -box.y0);
-  const size = `taken from the drawing: ${widthMm.toFixed(1)} × ${heightMm.toFixed(1)} mm`;
+  if (builder.shapeCount === 0) return builder.finish(page.widthMm, page.heightMm);
+  const { x0, y0, x1, y1 } = builder.extent();
+  const size = `taken from the drawing: ${(x1 - x0).toFixed(1)} × ${(y1 - y0).toFixed(1)} mm`;
   warnings.add("page-size", undefined, size);
-  // A drawing of one straight line still has a page with an area.
-  return builder.finish(
-    Math.max(widthMm, MM_PER_INCH / PX_PER_INCH),
-    Math.max(heightMm, MM_PER_INCH / PX_PER_INCH),
-  );
+  return finishAroundDrawing(builder, warnings);
 }

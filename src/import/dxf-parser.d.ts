@@ -1,0 +1,61 @@
+/** The bundled build: its own types would bring Node's into this folder. Only what import-dxf reads. */
+declare module "dxf-parser/dist/dxf-parser.js" {
+  export interface DxfPoint {
+    readonly x: number;
+    readonly y: number;
+    readonly bulge?: number;
+    readonly splineControlPoint?: boolean;
+  }
+  export interface DxfEntity {
+    readonly type: string;
+    readonly layer?: string;
+    readonly visible?: boolean;
+    readonly colorIndex?: number;
+    readonly color?: number;
+    readonly inPaperSpace?: boolean;
+    readonly vertices?: readonly DxfPoint[];
+    readonly points?: readonly DxfPoint[];
+    readonly shape?: boolean;
+    readonly center?: DxfPoint;
+    readonly radius?: number;
+    readonly startAngle?: number;
+    readonly endAngle?: number;
+    readonly majorAxisEndPoint?: DxfPoint;
+    readonly axisRatio?: number;
+    readonly controlPoints?: readonly DxfPoint[];
+    readonly fitPoints?: readonly DxfPoint[];
+    readonly knotValues?: readonly number[];
+    readonly degreeOfSplineCurve?: number;
+    readonly closed?: boolean;
+    readonly position?: DxfPoint;
+    readonly name?: string;
+    readonly block?: string;
+    readonly xScale?: number;
+    readonly yScale?: number;
+    readonly rotation?: number;
+    readonly columnCount?: number;
+    readonly rowCount?: number;
+    readonly columnSpacing?: number;
+    readonly rowSpacing?: number;
+    readonly extrusionDirection?: { readonly z: number };
+    readonly extrusionDirectionZ?: number;
+  }
+  export interface DxfLayer {
+    readonly name: string;
+    readonly visible?: boolean;
+    readonly frozen?: boolean;
+    readonly colorIndex?: number;
+    readonly color?: number;
+  }
+  export interface Dxf {
+    readonly header?: Readonly<Record<string, unknown>>;
+    readonly entities?: readonly DxfEntity[];
+    readonly blocks?: Readonly<
+      Record<string, { readonly position?: DxfPoint; readonly entities?: readonly DxfEntity[] }>
+    >;
+    readonly tables?: { readonly layer?: { readonly layers?: Readonly<Record<string, DxfLayer>> } };
+  }
+  export default class DxfParser {
+    parseSync(text: string): Dxf | null;
+  }
+}

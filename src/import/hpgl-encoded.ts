@@ -1,0 +1,58 @@
+/**
+ * HP-GL/2's encoded polyline (PE): numbers in base 64 or 32, least significant digit first, the last digit
+ * marked by its range; zigzag signed. Flags: ":" pen, "<" up, "=" absolute, ">" fraction bits, "7" base 32.
+ */
+export interface EncodedTarget {
+  pen(pen: number): void;
+  move(x: number, y: number, isUp: boolean, isAbsolute: boolean): void;
+}
+
+export function readEncodedPolyline(text: string, target: EncodedTarget): void {
+  let at = 0;
+  let base = 64;
+  let fractionBits = 0;
+  let isUp = false;
+  let isAbsolute = false;
+
+  /** The next number, or null at the end. */
+  const read = (): number | null => {
+    let value = 0;
+    let place = 1;
+    while (at < text.length) {
+      const code = text.charCodeAt(at++) & (base === 32 ? 0x7f : 0xff);
+      const first = 63;
+      const last = base === 64 ? 191 : 95;
+      if (code < first) continue;
+      const isLast = code >= last;
+      value += (code - (isLast ? last : first)) * place;
+      place *= base;
+      if (isLast) return value % 2 === 1 ? -(value - 1) / 2 : value / 2;
+    }
+    return null;
+  };
+
+  while (at < text.length) {
+    const flag = text[at];
+    if (flag === "7") base = 32;
+    else if (flag === "<") isUp = true;
+    else if (flag === "=") isAbsolute = true;
+    else if (flag === ":" || flag === ">") {
+      at++;
+      const value = read();
+      if (value === null) return;
+      if (flag === ":") target.pen(value);
+      else fractionBits = Math.max(-26, Math.min(26, value));
+      continue;
+    } else if (text.charCodeAt(at) >= 63) {
+      const x = read();
+      const y = read();
+      if (x === null || y === null) return;
+      const unit = 2 ** -fractionBits;
+      target.move(x * unit, y * unit, isUp, isAbsolute);
+      isUp = false;
+      isAbsolute = false;
+      continue;
+    }
+    at++;
+  }
+}
