@@ -36,8 +36,6 @@ export interface CompileOptions {
 }
 
 const TICKS_PER_MS = TICKS_PER_S / 1_000;
-/** A turning point of a motor closer than this to the start of a leg is not worth a command: it moves 1 µm. */
-const TURN_MIN_TICKS = 50;
 /** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
 
@@ -140,6 +138,13 @@ class Compiler {
     } else {
       end = this.withinBlock(tick, block, soonest, end);
     }
+    if (writer.turnTicks > 0) {
+      const turn = this.firstTurn(tick, block, k, soonest, end);
+      if (turn < end) {
+        end = turn;
+        k = walk.blockAt(end, block);
+      }
+    }
     // What is left of the run must be enough for a command.
     if (end < runEnd && runEnd - end < writer.minTicks) {
       const earlier = runEnd - writer.minTicks;
@@ -153,18 +158,27 @@ class Compiler {
     this.cutIsRunEnd = end >= runEnd;
   }
 
-  /** Where to cut inside a block that is long enough: by the longest command, and where a motor turns back. */
+  /** Where to cut inside a block that is long enough: by the longest command. */
   private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
     const { walk, writer } = this;
     const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
     const longest = Math.max(Math.min(writer.maxTicks, jerkTicks), soonest - tick);
     const pieces = Math.ceil((blockEnd - tick) / longest);
-    let end = pieces > 1 ? tick + Math.round((blockEnd - tick) / pieces) : blockEnd;
-    if (writer.needsMonotone) {
-      const from = Math.max(tick + TURN_MIN_TICKS, soonest - writer.minTicks);
-      end = Math.min(end, walk.turnTick(block, from, end - TURN_MIN_TICKS));
-    }
+    const end = pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
     return end;
+  }
+
+  /** Where a motor turns back within a leg; Infinity where none does. */
+  private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
+    const { walk, writer } = this;
+    const earliest = Math.max(tick + writer.turnTicks, soonest - writer.minTicks);
+    const latest = end - writer.turnTicks;
+    for (let k = from; k <= to; k++) {
+      const after = k === from ? earliest : Math.max(earliest, walk.endTick(k - 1));
+      const turn = walk.turnTick(k, after, k === to ? latest : Math.min(latest, walk.endTick(k)));
+      if (turn !== Infinity) return turn;
+    }
+    return Infinity;
   }
 
   private aim(leg: Leg, tick: number, block: number): void {
@@ -173,14 +187,17 @@ class Compiler {
     walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
     leg.ticks = this.cutTick - tick;
     leg.isParabola = block === this.cutBlock && !walk.hasJerk(block);
-    leg.isLast = this.cutIsRunEnd;
+    leg.isLast = this.cutIsRunEnd && this.run_ === this.trajectory.runs.count - 1;
     this.slowDown(leg);
   }
 
   /** Takes more time where a motor would have to step too fast, or a whole run is too short for a command. */
   private slowDown(leg: Leg): void {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
-    const ticks = Math.max(Math.ceil((leg.ticks * peak) / HIGHEST_RATE), leg.isLast ? SHORTEST_TICKS : 1);
+    const ticks = Math.max(
+      Math.ceil((leg.ticks * peak) / HIGHEST_RATE),
+      this.cutIsRunEnd ? SHORTEST_TICKS : 1,
+    );
     if (ticks <= leg.ticks) return;
     if (peak > HIGHEST_RATE) this.columns.warnOnce(TOO_FAST);
     const part = leg.ticks / ticks;
@@ -194,7 +211,8 @@ class Compiler {
 
   /** Writes a leg as one command, or two where one acceleration cannot join the speeds. False: nothing to do yet. */
   private write(leg: Leg): boolean {
-    if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * TURN_MIN_TICKS) return this.put(leg);
+    if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
+      return this.put(leg);
     if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.put(leg);
     const { half } = this;
     half.ticks = leg.ticks >> 1;

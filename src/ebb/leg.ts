@@ -20,7 +20,7 @@ export interface Leg {
   readonly m2: MotorLeg;
   /** The plan's acceleration is constant from end to end. */
   isParabola: boolean;
-  /** The run ends with it: what is off has to be made good now. */
+  /** The trajectory ends with it: what is off has to be made good now. */
   isLast: boolean;
 }
 
@@ -35,8 +35,11 @@ export interface LegWriter {
   /** Ticks that a command needs at least. */
   readonly minTicks: number;
   readonly maxTicks: number;
-  /** A motor must not turn back within a leg. */
-  readonly needsMonotone: boolean;
+  /**
+   * A motor must not turn back within a leg; but a turning point so near to one end of it, where the motor
+   * moves a few µm, is not worth a command. 0: motors may turn as they like.
+   */
+  readonly turnTicks: number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
   /** Longest leg of a plan with this jerk (counts a tick³ of the faster motor); Infinity for none. */
@@ -60,5 +63,5 @@ export function correction(errorSteps: number, ticks: number, isLast: boolean): 
   return Math.max(-limit, Math.min(limit, errorSteps));
 }
 
-/** 24 steps/s: 0.3 mm/s at 80 steps/mm, too little to be seen in the line's speed. */
-const MAX_CORRECTION_STEPS_PER_TICK = 24 / 25_000;
+/** 12 steps/s: 0.15 mm/s at 80 steps/mm, too little to be seen in the line's speed. */
+const MAX_CORRECTION_STEPS_PER_TICK = 12 / 25_000;

@@ -29,7 +29,7 @@ interface Arguments {
 export class SignedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly maxTicks = 3_750;
-  readonly needsMonotone = false;
+  readonly turnTicks = 0;
   readonly joinsAnySpeeds = true;
   private readonly a1: Arguments = { rate: 0, accel: 0, jerk: 0 };
   private readonly a2: Arguments = { rate: 0, accel: 0, jerk: 0 };

@@ -18,7 +18,7 @@ const TICKS_PER_MS = TICKS_PER_S / 1_000;
 export class SliceWriter implements LegWriter {
   readonly minTicks = 10 * TICKS_PER_MS + 1;
   readonly maxTicks = 14 * TICKS_PER_MS;
-  readonly needsMonotone = true;
+  readonly turnTicks = 120;
   readonly joinsAnySpeeds = true;
 
   constructor(

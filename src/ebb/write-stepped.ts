@@ -29,7 +29,7 @@ interface Arguments {
 export class SteppedWriter implements LegWriter {
   readonly minTicks = 200;
   readonly maxTicks = 3_750;
-  readonly needsMonotone = true;
+  readonly turnTicks = 120;
   readonly joinsAnySpeeds = false;
   private readonly a1: Arguments = { rate: 0, accel: 0, steps: 0 };
   private readonly a2: Arguments = { rate: 0, accel: 0, steps: 0 };

@@ -30,7 +30,7 @@ interface Arguments {
 export class TimedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly maxTicks = 3_750;
-  readonly needsMonotone = true;
+  readonly turnTicks = 30;
   readonly joinsAnySpeeds = false;
   private readonly a1: Arguments = { rate: 0, accel: 0, clear: false };
   private readonly a2: Arguments = { rate: 0, accel: 0, clear: false };
