@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../src/index.js";
 import type { Plotter, PlotSettings } from "../src/schema/index.js";
 import { PlotterDriver, type PlotterOptions } from "./plotter/plotter.js";
-import type { PlotPlanner, PlotRun } from "./plotter/types.js";
+import type { LivePlotRun, PlotPlanner, PlotStart } from "./plotter/types.js";
 import type { PlotterPort } from "./queue/plotter-port.js";
 
 export interface DeviceChoice {
@@ -64,8 +64,8 @@ class DrivenPlotter implements PlotterPort {
     this.#driver.onChange(() => listener(this.snapshot()));
   }
 
-  plot(planner: PlotPlanner, settings: PlotSettings): Promise<PlotRun> {
-    return this.#driver.plot(planner, settings);
+  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> {
+    return this.#driver.plot(planner, settings, start);
   }
 
   pen(up: boolean, heightPct?: number): Promise<void> {
@@ -74,6 +74,10 @@ class DrivenPlotter implements PlotterPort {
 
   motorsOff(): Promise<void> {
     return this.#driver.motorsOff();
+  }
+
+  log(): string {
+    return this.#driver.log();
   }
 
   home(): Promise<void> {

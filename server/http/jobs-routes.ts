@@ -4,8 +4,10 @@ import { basename } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
+  jobChangeSchema,
   jobPatchSchema,
   moveJobSchema,
+  movePlaceSchema,
   newJobSchema,
   plotSettingsSchema,
   type Job,
@@ -59,12 +61,29 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
     resume: (id) => queue.resume(id),
     cancel: (id) => queue.cancel(id),
     requeue: (id) => queue.requeue(id),
+    recover: (id) => queue.recover(id),
   };
   for (const [name, act] of Object.entries(actions)) {
     router.post(`/:id/${name}`, (request, response) => {
       response.json(act(request.params.id));
     });
   }
+
+  router.post("/:id/emergency-stop", async (request, response) => {
+    response.json(await queue.emergencyStop(request.params.id));
+  });
+
+  router.post("/:id/change", small, async (request, response) => {
+    response.json(await queue.change(request.params.id, parseWith(jobChangeSchema, request.body)));
+  });
+
+  router.post("/:id/place", small, (request, response) => {
+    response.json(queue.movePlace(request.params.id, parseWith(movePlaceSchema, request.body)));
+  });
+
+  router.post("/:id/check-place", async (request, response) => {
+    response.json(await queue.checkPlace(request.params.id));
+  });
 
   router.delete("/:id", async (request, response) => {
     await queue.remove(request.params.id);

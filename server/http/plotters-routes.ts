@@ -27,6 +27,11 @@ export function plottersRoutes(plotters: ReadonlyMap<string, PlotterPort>, queue
     response.json(find(request.params.id).snapshot());
   });
 
+  router.get("/:id/log", (request, response) => {
+    const plotter = find(request.params.id);
+    response.attachment(`plotwright-${plotter.id}.log`).type("text/plain; charset=utf-8").send(plotter.log());
+  });
+
   router.post("/:id/pen", async (request, response) => {
     const { up, heightPct } = parseWith(penRequestSchema, request.body);
     const plotter = findFree(request.params.id);

@@ -2,14 +2,16 @@
  * What may happen to a job, as one pure function: (job, event) -> job, or a `conflict`.
  *
  *   queued ──start──> plotting ──finish──> done
- *                       │  ^ └──fail──> failed ──requeue──> queued (so do done and cancelled)
+ *                       │  ^ └──fail──> failed ──requeue──> queued (so from done, cancelled, interrupted)
  *                  hold v  │ release
- *                      paused ──cancel──> cancelled      (cancel works in queued and plotting too)
+ *                      paused ──cancel──> cancelled      (cancel works in every state that is no end)
+ *
+ *   plotting, paused ──interrupt──> interrupted ──recover──> plotting, held at once
  *
  * Nothing here knows of disks, boards or sockets; the queue applies, stores and announces.
  */
 import { PlotwrightError } from "../../src/index.js";
-import type { Job, JobState } from "../../src/schema/index.js";
+import type { Job, JobPlace, JobState } from "../../src/schema/index.js";
 
 export type JobEvent =
   | { readonly type: "start" }
@@ -17,6 +19,8 @@ export type JobEvent =
   | { readonly type: "release" }
   | { readonly type: "finish" }
   | { readonly type: "fail"; readonly message: string }
+  | { readonly type: "interrupt"; readonly message: string; readonly place: JobPlace | null }
+  | { readonly type: "recover" }
   | { readonly type: "cancel" }
   | { readonly type: "requeue" };
 
@@ -29,8 +33,10 @@ export const TRANSITIONS: Readonly<
   release: { from: ["paused"], to: "plotting" },
   finish: { from: ["plotting"], to: "done" },
   fail: { from: ["plotting", "paused"], to: "failed" },
-  cancel: { from: ["queued", "plotting", "paused"], to: "cancelled" },
-  requeue: { from: ["done", "failed", "cancelled"], to: "queued" },
+  interrupt: { from: ["plotting", "paused"], to: "interrupted" },
+  recover: { from: ["interrupted"], to: "plotting" },
+  cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled" },
+  requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued" },
 };
 
 /** The job after the event, at the given time (ISO 8601); throws `conflict` when it can't happen now. */
@@ -43,15 +49,27 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
       return { ...next, startedAt: nowIso };
     case "hold":
     case "release":
+    case "recover":
       return next;
+    case "interrupt":
+      return { ...next, message: event.message, place: event.place };
     case "finish":
-      return { ...next, progress: 1, remainingS: 0, endedAt: nowIso };
+      return { ...next, progress: 1, place: null, remainingS: 0, endedAt: nowIso };
     case "fail":
       return { ...next, message: event.message, remainingS: null, endedAt: nowIso };
     case "cancel":
       return { ...next, remainingS: null, endedAt: nowIso };
     case "requeue":
-      return { ...next, progress: 0, elapsedS: 0, remainingS: null, startedAt: null, endedAt: null };
+      return {
+        ...next,
+        place: null,
+        speedPct: 100,
+        progress: 0,
+        elapsedS: 0,
+        remainingS: null,
+        startedAt: null,
+        endedAt: null,
+      };
   }
 }
 
@@ -61,6 +79,8 @@ const VERBS: Readonly<Record<JobEvent["type"], string>> = {
   release: "resumed",
   finish: "finished",
   fail: "failed",
+  interrupt: "interrupted",
+  recover: "taken up again",
   cancel: "cancelled",
   requeue: "queued again",
 };

@@ -5,12 +5,16 @@
  * Progress is the exception: it is announced as it comes and written only with the next change of state.
  */
 import { randomUUID } from "node:crypto";
-import { PlotwrightError } from "../../src/index.js";
+import { z } from "zod";
+import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
 import {
   ENDED_STATES,
   type Job,
+  type JobChange,
   type JobPatch,
+  type JobPlace,
   type JobStats,
+  type MovePlace,
   type PlotSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
@@ -21,8 +25,18 @@ import type { PlotterPort } from "./plotter-port.js";
 import { Runner, type RunEnd } from "./runner.js";
 import type { Store } from "./store.js";
 
-export const INTERRUPTED_MESSAGE =
-  "The server stopped while this was plotting. Check the pen and the paper, set the carriage home, then queue it again.";
+export const SERVER_STOPPED =
+  "The server stopped while this was plotting. Check pen and paper, then go on from where it was.";
+
+/** The board's faults, after which a plot can go on from where it was; others would only come again. */
+const INTERRUPTIONS: readonly ErrorCode[] = [
+  "no-board",
+  "disconnected",
+  "board-error",
+  "board-timeout",
+  "busy",
+  "not-allowed",
+];
 
 export interface Planning {
   measure(
@@ -55,13 +69,13 @@ export class JobQueue {
   readonly #runners = new Map<string, { readonly jobId: string; readonly runner: Runner }>();
   #closing = false;
 
-  /** Loads what is on disk; a job that was plotting when the server ended becomes failed, with the reason. */
+  /** Loads what is on disk; a job that was plotting when the server ended becomes interrupted. */
   constructor(parts: QueueParts) {
     this.#parts = parts;
     for (const job of parts.store.jobs()) {
       const wasRunning = job.state === "plotting" || job.state === "paused";
       this.#jobs.set(job.id, job);
-      if (wasRunning) this.#apply(job.id, { type: "fail", message: INTERRUPTED_MESSAGE });
+      if (wasRunning) this.#interrupt(job.id, SERVER_STOPPED);
     }
   }
 
@@ -108,6 +122,8 @@ export class JobQueue {
       elapsedS: 0,
       remainingS: stats.durationS,
       message: null,
+      place: null,
+      speedPct: 100,
       createdAt: this.#parts.nowIso(),
       startedAt: null,
       endedAt: null,
@@ -141,29 +157,60 @@ export class JobQueue {
 
   /** Throws `busy` while its plotter plots another job. */
   start(id: string): Job {
-    const job = this.get(id);
-    const plotter = this.#plotter(job.plotterId);
-    const other = this.#runners.get(plotter.id);
-    if (other !== undefined && other.jobId !== id) {
-      throw new PlotwrightError(
-        "busy",
-        `"${this.get(other.jobId).name}" is on the plotter. Wait for it to end, or cancel it.`,
-      );
-    }
-    mustBeThere(plotter);
+    const plotter = this.#freePlotter(id);
     const started = this.#apply(id, { type: "start" });
     this.#begin(plotter, started);
     return started;
   }
 
+  /** Takes an interrupted job up at its place, held: nothing moves until it is resumed. */
+  recover(id: string): Job {
+    const plotter = this.#freePlotter(id);
+    const job = this.#apply(id, { type: "recover" });
+    this.#begin(plotter, job);
+    const isLost = plotter.snapshot().xMm === null;
+    return this.#note(
+      id,
+      isLost
+        ? "The board has lost its place: push the carriage to home by hand before you go on."
+        : "The board still knows its place. Check it with the pen up, then go on.",
+    );
+  }
+
+  /** Heights and speeds while it plots or is held. */
+  async change(id: string, change: JobChange): Promise<Job> {
+    await this.#runnerOf(id, ["plotting", "paused"], "changed").change(change);
+    const job = this.get(id);
+    const { pen = job.settings.pen, motion = job.settings.motion, speedPct = job.speedPct } = change;
+    return this.#save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
+  }
+
+  /** Stops without slowing down; the job is held then. */
+  async emergencyStop(id: string): Promise<Job> {
+    await this.#runnerOf(id, ["plotting", "paused"], "stopped").live.emergencyStop();
+    return this.get(id);
+  }
+
+  /** Moves the place from which a held job goes on. */
+  movePlace(id: string, by: MovePlace): Job {
+    const place = this.#runnerOf(id, ["paused"], "moved along").live.moveHoldPlace(by);
+    return this.#save({ ...this.get(id), place: jobPlace(place) });
+  }
+
+  /** Walks to the place of a held job with the pen up. */
+  async checkPlace(id: string): Promise<Job> {
+    await this.#runnerOf(id, ["paused"], "checked").live.checkHoldPlace();
+    return this.get(id);
+  }
+
   pause(id: string): Job {
-    const runner = this.#runnerOf(id, "plotting", "paused");
+    const runner = this.#runnerOf(id, ["plotting"], "paused");
     runner.pause();
     return this.#note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
   }
 
   resume(id: string): Job {
-    const runner = this.#runnerOf(id, "paused", "resumed");
+    const runner = this.#runnerOf(id, ["paused"], "resumed");
     runner.resume();
     return this.#note(id, "Going on.");
   }
@@ -205,7 +252,7 @@ export class JobQueue {
     return this.#runners.has(plotterId);
   }
 
-  /** Cancels what is plotting (the pen lifts) and waits for it; the jobs are marked interrupted. */
+  /** Stops what is plotting (the pen lifts and goes home) and waits for it; the jobs are interrupted then. */
   async close(): Promise<void> {
     this.#closing = true;
     const running = [...this.#runners.values()];
@@ -216,10 +263,15 @@ export class JobQueue {
   #begin(plotter: PlotterPort, job: Job): void {
     const drawing = this.#parts.store.drawingOf(job.id);
     const runner = new Runner(
-      plotter,
-      job.settings,
-      (signal) => this.#parts.planning.open(drawing, job.settings, signal),
       {
+        plotter,
+        settings: job.settings,
+        open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
+        from: job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm },
+        speedPct: job.speedPct,
+      },
+      {
+        journal: (entry) => this.#parts.store.saveJournal(job.id, entry),
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
         held: (held) => this.#held(job.id, held),
         refused: (message) => void this.#note(job.id, message),
@@ -231,7 +283,10 @@ export class JobQueue {
 
   #progress(id: string, plotterId: string, progress: PlotProgress): void {
     const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp } = progress;
-    this.#jobs.set(id, { ...this.get(id), progress: part, elapsedS, remainingS });
+    // The way home of a cancelled plot is no progress of the drawing.
+    if (this.#runners.get(plotterId)?.runner.isCancelling !== true) {
+      this.#jobs.set(id, { ...this.get(id), progress: part, elapsedS, remainingS });
+    }
     this.#parts.announce({
       type: "progress",
       jobId: id,
@@ -248,22 +303,46 @@ export class JobQueue {
 
   #held(id: string, held: boolean): void {
     const { state } = this.get(id);
-    if (held && state === "plotting") this.#apply(id, { type: "hold" });
-    if (!held && state === "paused") this.#apply(id, { type: "release" });
+    if (held && state === "plotting") {
+      const place = this.#holdPlace(id);
+      this.#save({ ...this.#apply(id, { type: "hold" }), place });
+    }
+    if (!held && state === "paused") this.#save({ ...this.#apply(id, { type: "release" }), place: null });
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
     this.#runners.delete(plotterId);
     // A hold that was never released before the end (cancelled while paused) needs no step between.
-    if (end.kind === "failed") this.#apply(id, { type: "fail", message: end.error.message });
-    else if (end.kind === "cancelled" && this.#closing)
-      this.#apply(id, { type: "fail", message: INTERRUPTED_MESSAGE });
+    const { store } = this.#parts;
+    if (end.kind === "failed" && canGoOn(end.error) && store.journal(id) !== undefined) {
+      this.#interrupt(id, end.error.message);
+    } else if (end.kind === "failed") {
+      this.#apply(id, { type: "fail", message: end.error.message });
+    } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, SERVER_STOPPED);
     else if (end.kind === "cancelled") this.#apply(id, { type: "cancel" });
     else {
       if (this.get(id).state === "paused") this.#apply(id, { type: "release" });
       this.#apply(id, { type: "finish" });
     }
+    if (ENDED_STATES.includes(this.get(id).state)) store.clearJournal(id);
     this.#announceOrder();
+  }
+
+  /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
+  #interrupt(id: string, message: string): void {
+    const entry = journalSchema.safeParse(this.#parts.store.journal(id));
+    const { place } = this.get(id);
+    this.#apply(id, {
+      type: "interrupt",
+      message,
+      place: entry.success ? jobPlace(entry.data.place) : place,
+    });
+  }
+
+  #holdPlace(id: string): JobPlace | null {
+    const running = [...this.#runners.values()].find((one) => one.jobId === id);
+    const place = running?.runner.live.holdPlace ?? null;
+    return place === null ? null : jobPlace(place);
   }
 
   #apply(id: string, event: JobEvent): Job {
@@ -307,13 +386,27 @@ export class JobQueue {
     }
   }
 
-  #runnerOf(id: string, state: Job["state"], verb: string): Runner {
+  #runnerOf(id: string, states: readonly Job["state"][], verb: string): Runner {
     const job = this.get(id);
     const running = this.#runners.get(job.plotterId);
-    if (running?.jobId !== id || job.state !== state) {
+    if (running?.jobId !== id || !states.includes(job.state)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
     }
     return running.runner;
+  }
+
+  /** The job's plotter, when it is there and has no other job. */
+  #freePlotter(id: string): PlotterPort {
+    const plotter = this.#plotter(this.get(id).plotterId);
+    const other = this.#runners.get(plotter.id);
+    if (other !== undefined && other.jobId !== id) {
+      throw new PlotwrightError(
+        "busy",
+        `"${this.get(other.jobId).name}" is on the plotter. Wait for it to end, or cancel it.`,
+      );
+    }
+    mustBeThere(plotter);
+    return plotter;
   }
 
   #plotter(id: string): PlotterPort {
@@ -328,6 +421,16 @@ export class JobQueue {
     return first;
   }
 }
+
+const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
+
+const canGoOn = (error: Error): boolean =>
+  error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
+
+/** What Store.journal gives back: written by this program, but perhaps by another version of it. */
+const journalSchema = z.object({
+  place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
+});
 
 function mustBeThere(plotter: PlotterPort): void {
   const { connection, message, name } = plotter.snapshot();

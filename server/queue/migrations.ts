@@ -30,6 +30,12 @@ const MIGRATIONS: readonly string[] = [
      key        TEXT PRIMARY KEY,
      value      TEXT NOT NULL         -- JSON
    );`,
+  `ALTER TABLE jobs ADD COLUMN place TEXT;                          -- JSON
+   ALTER TABLE jobs ADD COLUMN speed_pct REAL NOT NULL DEFAULT 100;
+   CREATE TABLE journal (
+     job_id     TEXT PRIMARY KEY REFERENCES jobs (id) ON DELETE CASCADE,
+     entry      TEXT NOT NULL         -- JSON: how far the pen has come
+   );`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

@@ -2,9 +2,16 @@
  * One plotter's run: opens the job's planner, gives it to the driver, and reports what becomes of it.
  * It decides nothing about jobs; the queue does, from these reports.
  */
-import { PlotwrightError } from "../../src/index.js";
+import { PlotwrightError, type Place } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { PlotOutcome, PlotPlanner, PlotProgress, PlotRun } from "../plotter/types.js";
+import type {
+  JournalEntry,
+  LivePlotRun,
+  PlotChange,
+  PlotOutcome,
+  PlotPlanner,
+  PlotProgress,
+} from "../plotter/types.js";
 import type { PlotterPort } from "./plotter-port.js";
 
 export type OpenPlanner = (signal: AbortSignal) => Promise<PlotPlanner>;
@@ -13,34 +20,42 @@ export type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Er
 
 export interface RunReports {
   progress(progress: PlotProgress): void;
+  journal(entry: JournalEntry): void;
   held(held: boolean): void;
   /** A request (pause, resume) that could not be carried out; the plot itself goes on. */
   refused(message: string): void;
   ended(end: RunEnd): void;
 }
 
+export interface RunPlan {
+  readonly plotter: PlotterPort;
+  readonly settings: PlotSettings;
+  readonly open: OpenPlanner;
+  /** Where to begin; null for the drawing's beginning. A run that begins in the middle begins held. */
+  readonly from: Place | null;
+  /** Percent of the set speeds, as it was before an interruption. */
+  readonly speedPct: number;
+}
+
 export class Runner {
-  readonly #plotter: PlotterPort;
-  readonly #settings: PlotSettings;
-  readonly #open: OpenPlanner;
+  readonly #plan: RunPlan;
   readonly #reports: RunReports;
   readonly #abort = new AbortController();
-  #run: PlotRun | null = null;
-  #pauseWanted = false;
+  #run: LivePlotRun | null = null;
+  #pauseWanted: boolean;
   /** Settles after `ended` has been reported; never rejects. */
   readonly finished: Promise<void>;
 
-  constructor(plotter: PlotterPort, settings: PlotSettings, open: OpenPlanner, reports: RunReports) {
-    this.#plotter = plotter;
-    this.#settings = settings;
-    this.#open = open;
+  constructor(plan: RunPlan, reports: RunReports) {
+    this.#plan = plan;
     this.#reports = reports;
+    this.#pauseWanted = plan.from !== null;
     this.finished = this.#go();
   }
 
   pause(): void {
     this.#pauseWanted = true;
-    if (this.#run !== null) this.#ask(this.#run.pause());
+    if (this.#run !== null) this.#ask(this.#hold(this.#run));
   }
 
   resume(): void {
@@ -53,27 +68,50 @@ export class Runner {
     if (this.#run !== null) this.#ask(this.#run.cancel());
   }
 
+  /** The plot under way, for what can be asked of it beyond that; throws `conflict` while it is planned. */
+  get live(): LivePlotRun {
+    if (this.#run !== null) return this.#run;
+    throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
+  }
+
+  async change(change: PlotChange): Promise<void> {
+    await this.live.change(change);
+  }
+
+  get isCancelling(): boolean {
+    return this.#abort.signal.aborted;
+  }
+
+  /** A run that begins in the middle is held before anyone could listen for it. */
+  async #hold(run: LivePlotRun): Promise<void> {
+    await run.pause();
+    if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true);
+  }
+
   async #go(): Promise<void> {
     const end = await this.#plot().catch((error: unknown): RunEnd => {
-      const wanted =
-        this.#abort.signal.aborted && error instanceof PlotwrightError && error.code === "cancelled";
+      const wanted = this.isCancelling && error instanceof PlotwrightError && error.code === "cancelled";
       return wanted
         ? { kind: "cancelled" }
         : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
     });
+    this.#run = null;
     this.#reports.ended(end);
   }
 
   async #plot(): Promise<PlotOutcome> {
-    const planner = await this.#open(this.#abort.signal);
+    const { plotter, settings, open, from, speedPct } = this.#plan;
+    const planner = await open(this.#abort.signal);
     try {
-      const run = await this.#plotter.plot(planner, this.#settings);
+      const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
+      const run = await plotter.plot(planner, settings, { from, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held) => this.#reports.held(held));
       // Wishes from the time when there was only a planner.
-      if (this.#abort.signal.aborted) this.#ask(run.cancel());
-      else if (this.#pauseWanted) this.#ask(run.pause());
+      if (this.isCancelling) this.#ask(run.cancel());
+      else if (this.#pauseWanted) this.#ask(this.#hold(run));
+      if (speedPct !== 100) this.#ask(run.change({ speedPct }));
       return await run.finished;
     } finally {
       await planner.close();

@@ -19,7 +19,10 @@ type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
 
 const COLUMNS =
-  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, created_at, started_at, ended_at";
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, created_at, started_at, ended_at";
+const PLACES = COLUMNS.split(", ")
+  .map(() => "?")
+  .join(", ");
 const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
 
 export class Store {
@@ -92,17 +95,14 @@ export class Store {
       this.#run("INSERT OR IGNORE INTO drawings (id, bytes) VALUES (?, ?)", [drawing.id, drawing.bytes]);
       this.#run(
         `INSERT INTO jobs (position, drawing, ${COLUMNS})
-         VALUES ((SELECT COALESCE(MAX(position), 0) + 1 FROM jobs), ?, ${"?, ".repeat(13)}?)`,
+         VALUES ((SELECT COALESCE(MAX(position), 0) + 1 FROM jobs), ?, ${PLACES})`,
         [drawing.id, ...rowFromJob(job)],
       );
     });
   }
 
   saveJob(job: Job): void {
-    this.#run(`UPDATE jobs SET (${COLUMNS}) = (${"?, ".repeat(13)}?) WHERE id = ?`, [
-      ...rowFromJob(job),
-      job.id,
-    ]);
+    this.#run(`UPDATE jobs SET (${COLUMNS}) = (${PLACES}) WHERE id = ?`, [...rowFromJob(job), job.id]);
   }
 
   /** To stand before another job of the queue, or last with null. */
@@ -131,6 +131,31 @@ export class Store {
       if (!this.isUsed(drawing)) this.#run("DELETE FROM drawings WHERE id = ?", [drawing]);
     });
     return this.isUsed(drawing) ? null : drawing;
+  }
+
+  /**
+   * How far a job has come. Safe against a kill of the program, not against a power cut (that would cost a
+   * flush of the disk twice a second, for which the stream to the board would have to wait).
+   */
+  saveJournal(id: string, entry: unknown): void {
+    this.#db.exec("PRAGMA synchronous = NORMAL");
+    try {
+      this.#run(
+        "INSERT INTO journal (job_id, entry) VALUES (?, ?) ON CONFLICT (job_id) DO UPDATE SET entry = excluded.entry",
+        [id, JSON.stringify(entry)],
+      );
+    } finally {
+      this.#db.exec("PRAGMA synchronous = FULL");
+    }
+  }
+
+  journal(id: string): unknown {
+    const row = this.#db.get("SELECT entry FROM journal WHERE job_id = ?", [id]) as Row | null;
+    return row === null ? undefined : (JSON.parse(String(row["entry"])) as unknown);
+  }
+
+  clearJournal(id: string): void {
+    this.#run("DELETE FROM journal WHERE job_id = ?", [id]);
   }
 
   /** A JSON value kept under a name, undefined when there is none; parse it with its schema. */
@@ -185,6 +210,8 @@ function rowFromJob(job: Job): Value[] {
     job.elapsedS,
     job.remainingS,
     job.message,
+    job.place === null ? null : JSON.stringify(job.place),
+    job.speedPct,
     job.createdAt,
     job.startedAt,
     job.endedAt,
@@ -205,6 +232,8 @@ function jobFromRow(row: Row): Job {
     elapsedS: row["elapsed_s"],
     remainingS: row["remaining_s"],
     message: row["message"],
+    place: row["place"] === null ? null : (JSON.parse(String(row["place"])) as unknown),
+    speedPct: row["speed_pct"],
     createdAt: row["created_at"],
     startedAt: row["started_at"],
     endedAt: row["ended_at"],

@@ -10,17 +10,23 @@
  *   PATCH  /api/v1/jobs/:id                   JobPatch → Job (settings only while queued)
  *   POST   /api/v1/jobs/:id/move              MoveJob → { ok: true }
  *   POST   /api/v1/jobs/:id/(start|pause|resume|cancel|requeue)  → Job
+ *   POST   /api/v1/jobs/:id/emergency-stop    stops at once, then held → Job
+ *   POST   /api/v1/jobs/:id/change            JobChange → Job (heights, speeds: while plotting or held)
+ *   POST   /api/v1/jobs/:id/recover           an interrupted job, held at its place, nothing drawn yet → Job
+ *   POST   /api/v1/jobs/:id/place             MovePlace: moves the place of a held job → Job
+ *   POST   /api/v1/jobs/:id/check-place       walks to the place with the pen up → Job
  *   DELETE /api/v1/jobs/:id                   → { ok: true }  (not while plotting or paused)
  *   POST   /api/v1/plotters/:id/pen           { up: boolean, heightPct? } → Plotter
  *   POST   /api/v1/plotters/:id/motors-off    → Plotter
  *   POST   /api/v1/plotters/:id/home          walks to home, pen up → Plotter
+ *   GET    /api/v1/plotters/:id/log           commands and replies of this connection, as text
  *   GET    /api/v1/samples                    → { samples: [{ name, title }] }
  *   GET    /api/v1/samples/:name              → SVG text
  */
 import { z } from "zod";
 import { ERROR_CODES } from "../errors.js";
 import { jobSchema } from "./job.js";
-import { plotSettingsSchema } from "./settings.js";
+import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
 
 export const newJobSchema = z.object({
   name: z.string().trim().min(1).max(200),
@@ -38,6 +44,22 @@ export type JobPatch = z.infer<typeof jobPatchSchema>;
 /** Moves a queued job to stand before another, or to the end with null. */
 export const moveJobSchema = z.object({ beforeId: z.string().nullable() });
 export type MoveJob = z.infer<typeof moveJobSchema>;
+
+/** While plotting or held; takes effect within a second, and is kept with the job. */
+export const jobChangeSchema = z
+  .object({
+    pen: penSettingsSchema,
+    motion: motionSettingsSchema,
+    speedPct: z.number().min(10).max(200),
+  })
+  .partial();
+export type JobChange = z.infer<typeof jobChangeSchema>;
+
+/** Forward, or back with less than 0. */
+export const movePlaceSchema = z
+  .object({ strokes: z.int().min(-1_000_000).max(1_000_000), mm: z.number().min(-1e7).max(1e7) })
+  .partial();
+export type MovePlace = z.infer<typeof movePlaceSchema>;
 
 export const penRequestSchema = z.object({
   up: z.boolean(),

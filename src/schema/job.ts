@@ -4,11 +4,19 @@ import { plotSettingsSchema } from "./settings.js";
 
 /**
  *   queued ──start──> plotting ──> done
- *     ^                │  ^  └──> failed
- *     │        pause   v  │ resume
- *     └─(requeue)─── paused ──cancel──> cancelled
+ *     ^                │  ^  └──> failed           board or server lost in mid-plot:
+ *     │        pause   v  │ resume                 plotting, paused ──> interrupted ──recover──> paused
+ *     └─(requeue)─── paused ──cancel──> cancelled                          at the place it had come to
  */
-export const JOB_STATES = ["queued", "plotting", "paused", "done", "failed", "cancelled"] as const;
+export const JOB_STATES = [
+  "queued",
+  "plotting",
+  "paused",
+  "interrupted",
+  "done",
+  "failed",
+  "cancelled",
+] as const;
 export const jobStateSchema = z.enum(JOB_STATES);
 export type JobState = z.infer<typeof jobStateSchema>;
 
@@ -24,6 +32,14 @@ export const jobStatsSchema = z.object({
   durationS: z.number(),
 });
 export type JobStats = z.infer<typeof jobStatsSchema>;
+
+/** A place in the drawing, as far as the pen has come. */
+export const jobPlaceSchema = z.object({
+  strokeIndex: z.int().min(0),
+  /** mm along that stroke. */
+  alongMm: z.number().min(0),
+});
+export type JobPlace = z.infer<typeof jobPlaceSchema>;
 
 export const jobSchema = z.object({
   id: z.string(),
@@ -41,6 +57,10 @@ export const jobSchema = z.object({
   remainingS: z.number().nullable(),
   /** What is happening or what went wrong, for the user; null when there is nothing to say. */
   message: z.string().nullable(),
+  /** Where it goes on when held or interrupted; null when it begins at the beginning, or is plotting. */
+  place: jobPlaceSchema.nullable().default(null),
+  /** Percent of the set speeds, changed while plotting. */
+  speedPct: z.number().default(100),
   createdAt: z.string(),
   startedAt: z.string().nullable(),
   endedAt: z.string().nullable(),

@@ -89,13 +89,40 @@ export const motionSettingsSchema = z.object({
   mode: z.enum(MOTION_MODES),
   draw: motionLimitsSchema,
   travel: motionLimitsSchema,
+  fit: z
+    .object({ toleranceMm: z.number().min(0.001).max(1), floorMs: nonNegative(200) })
+    .nullable()
+    .optional(),
+  ease: z
+    .object({ lengthMm: positive(1_000), speedMmPerS: positive(1_000) })
+    .nullable()
+    .optional(),
+  motorAccelStepsPerS2: positive(100_000_000).nullable().optional(),
+  layers: z.record(z.string().max(500), motionLimitsSchema.partial()).optional(),
 }) satisfies z.ZodType<MotionSettings>;
+
+const layerPenSchema = z
+  .object({
+    upPct: nonNegative(100),
+    downPct: nonNegative(100),
+    liftMs: nonNegative(10_000),
+    dropMs: nonNegative(10_000),
+  })
+  .partial();
 
 export const penSettingsSchema = z.object({
   upPct: nonNegative(100),
   downPct: nonNegative(100),
   liftMs: nonNegative(10_000),
   dropMs: nonNegative(10_000),
+  liftPctPerS: positive(10_000).nullable().optional(),
+  dropPctPerS: positive(10_000).nullable().optional(),
+  clearPct: nonNegative(100).optional(),
+  hop: z
+    .object({ longestMm: positive(1_000), upPct: nonNegative(100) })
+    .nullable()
+    .optional(),
+  layers: z.record(z.string().max(500), layerPenSchema).optional(),
 }) satisfies z.ZodType<PenSettings>;
 
 /** Everything that decides what a job puts on paper. Kept whole with every job. */

@@ -12,6 +12,8 @@ const event: fc.Arbitrary<JobEvent> = fc.constantFrom<JobEvent>(
   { type: "release" },
   { type: "finish" },
   { type: "fail", message: "The board went away." },
+  { type: "interrupt", message: "The server stopped.", place: { strokeIndex: 2, alongMm: 3 } },
+  { type: "recover" },
   { type: "cancel" },
   { type: "requeue" },
 );
@@ -35,7 +37,7 @@ describe("a job", () => {
           if (job.state === "queued") expect(job.startedAt).toBeNull();
           if (job.state === "plotting" || job.state === "paused") expect(job.startedAt).not.toBeNull();
           if (job.state === "done") expect(job.progress).toBe(1);
-          if (job.state === "failed") expect(job.message).not.toBeNull();
+          if (job.state === "failed" || job.state === "interrupted") expect(job.message).not.toBeNull();
         }
       }),
     );
@@ -45,7 +47,7 @@ describe("a job", () => {
     for (const state of JOB_STATES) {
       const isEnd = ENDED_STATES.includes(state);
       expect(TRANSITIONS.cancel.from.includes(state)).toBe(!isEnd);
-      expect(TRANSITIONS.requeue.from.includes(state)).toBe(isEnd);
+      expect(TRANSITIONS.requeue.from.includes(state)).toBe(isEnd || state === "interrupted");
     }
   });
 

@@ -5,7 +5,7 @@ import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/data-dir.js";
 import { DrawingFiles } from "../../server/queue/drawing-files.js";
-import { INTERRUPTED_MESSAGE, JobQueue, type Planning } from "../../server/queue/job-queue.js";
+import { SERVER_STOPPED, JobQueue, type Planning } from "../../server/queue/job-queue.js";
 import { Store } from "../../server/queue/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
@@ -145,8 +145,61 @@ describe("the queue", () => {
     await plotter.nextRun();
     store.close();
     openQueue();
-    expect(names()).toEqual(["ivy queued", "moss queued", "fern failed"]);
-    expect(queue.get(jobs[0]!.id).message).toBe(INTERRUPTED_MESSAGE);
+    expect(names()).toEqual(["fern interrupted", "ivy queued", "moss queued"]);
+    expect(queue.get(jobs[0]!.id).message).toBe(SERVER_STOPPED);
+  });
+
+  it("takes an interrupted job up where the journal says, held, and the place can be moved", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const broken = await plotter.nextRun();
+    await settled();
+    broken.record({ place: { stroke: 3, alongMm: 4.5 } });
+    broken.record({ place: { stroke: 7, alongMm: 1.25 } });
+    broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({
+      state: "interrupted",
+      message: "The board was unplugged.",
+      place: { strokeIndex: 7, alongMm: 1.25 },
+    });
+    expect(queue.recover(id).state).toBe("plotting");
+    const run = await plotter.nextRun();
+    await settled();
+    expect(run.asked).toEqual(["pause"]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
+    expect(queue.movePlace(id, { strokes: -2, mm: 3 }).place).toEqual({ strokeIndex: 5, alongMm: 4.25 });
+    await queue.checkPlace(id);
+    queue.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id).state).toBe("done");
+  });
+
+  it("knows after a kill how far a job had come, and nothing moves before the user's word", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
+    store.close();
+    openQueue();
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 12, alongMm: 8 } });
+    expect(plotter.runs).toEqual([]);
+    queue.requeue(id);
+    expect(queue.get(id)).toMatchObject({ state: "queued", place: null });
+  });
+
+  it("keeps heights and speeds that were changed while plotting", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    await plotter.nextRun();
+    await settled();
+    const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
+    await queue.change(id, { pen, speedPct: 60 });
+    expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
+    await queue.emergencyStop(id);
+    expect(queue.get(id).state).toBe("paused");
   });
 
   it("changes settings only while queued, and the name at any time", async () => {
@@ -225,6 +278,8 @@ describe("the queue", () => {
           if (ask === "reopen") {
             store.close();
             openQueue();
+            // Interrupted, and the user gives it up.
+            if (plotting !== null) queue.cancel(plotting);
             if (plotting !== null) ended.push(plotting);
             open = open.filter((id) => id !== plotting);
             plotting = null;

@@ -12,6 +12,8 @@ export const makeJob = (id: string, more: Partial<Job> = {}): Job => ({
   elapsedS: 0,
   remainingS: null,
   message: null,
+  place: null,
+  speedPct: 100,
   createdAt: "2026-01-01T00:00:00.000Z",
   startedAt: null,
   endedAt: null,

@@ -1,19 +1,32 @@
 /** A plotter and a planner without hardware or threads, led by the test. */
 import type { PlotterPort } from "../../../server/queue/plotter-port.js";
 import type { Planning } from "../../../server/queue/job-queue.js";
-import type { PlotOutcome, PlotPlanner, PlotProgress, PlotRun } from "../../../server/plotter/types.js";
-import type { Plotter } from "../../../src/schema/index.js";
+import type {
+  JournalEntry,
+  LivePlotRun,
+  PlotChange,
+  PlotOutcome,
+  PlotPlanner,
+  PlotProgress,
+  PlotStart,
+} from "../../../server/plotter/types.js";
+import type { Place } from "../../../src/index.js";
+import type { Plotter, PlotSettings } from "../../../src/schema/index.js";
 import { STATS } from "./jobs.js";
 
-export class LedRun implements PlotRun {
+export class LedRun implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
   end!: (outcome: PlotOutcome) => void;
   fail!: (error: Error) => void;
   progress: (progress: PlotProgress) => void = () => undefined;
   held: (held: boolean) => void = () => undefined;
   readonly asked: string[] = [];
+  holdPlace: Place | null;
+  readonly #start: PlotStart;
 
-  constructor() {
+  constructor(start: PlotStart) {
+    this.#start = start;
+    this.holdPlace = start.from ?? null;
     this.finished = new Promise((resolve, reject) => {
       this.end = resolve;
       this.fail = reject;
@@ -31,6 +44,34 @@ export class LedRun implements PlotRun {
   pause(): Promise<void> {
     this.asked.push("pause");
     this.held(true);
+    return Promise.resolve();
+  }
+
+  /** The driver writes how far the pen has come. */
+  record(entry: Partial<JournalEntry>): void {
+    const place = { stroke: 0, alongMm: 0 };
+    this.#start.journal?.record({ place, xMm: 0, yMm: 0, penUp: true, elapsedS: 0, ...entry });
+  }
+
+  emergencyStop(): Promise<void> {
+    this.asked.push("emergency stop");
+    this.held(true);
+    return Promise.resolve();
+  }
+
+  change(change: PlotChange): Promise<void> {
+    this.asked.push(`change ${Object.keys(change).join(" ")}`);
+    return Promise.resolve();
+  }
+
+  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
+    const { stroke = 0, alongMm = 0 } = this.holdPlace ?? {};
+    this.holdPlace = { stroke: stroke + (by.strokes ?? 0), alongMm: alongMm + (by.mm ?? 0) };
+    return this.holdPlace;
+  }
+
+  checkHoldPlace(): Promise<void> {
+    this.asked.push("check place");
     return Promise.resolve();
   }
 
@@ -76,8 +117,8 @@ export class LedPlotter implements PlotterPort {
 
   onChange(): void {}
 
-  plot(): PlotRun {
-    const run = new LedRun();
+  plot(_planner: PlotPlanner, _settings: PlotSettings, start: PlotStart = {}): LedRun {
+    const run = new LedRun(start);
     this.runs.push(run);
     this.#onRun.splice(0).forEach((tell) => tell());
     return run;
@@ -98,6 +139,10 @@ export class LedPlotter implements PlotterPort {
   motorsOff(): Promise<void> {
     this.asked.push("motors off");
     return Promise.resolve();
+  }
+
+  log(): string {
+    return "V\nEBB";
   }
 
   home(): Promise<void> {

@@ -24,6 +24,8 @@ export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
     elapsedS: 0,
     remainingS: 12,
     message: null,
+    place: null,
+    speedPct: 100,
     createdAt: "2026-01-01T00:00:00.000Z",
     startedAt: null,
     endedAt: null,
