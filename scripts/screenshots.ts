@@ -103,7 +103,7 @@ async function session(
   const page = await context.newPage();
   const shoot = async (state: string): Promise<void> => {
     const name = `${size}-${colorScheme}-${state}.png`;
-    await page.screenshot({ path: path.join(folder, name), fullPage: size === "phone", timeout: 120_000 });
+    await page.screenshot({ path: path.join(folder, name), timeout: 120_000 });
     console.log(name);
   };
   try {

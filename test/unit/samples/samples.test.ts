@@ -2,7 +2,7 @@
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
-import { importSvg } from "../../../src/index.js";
+import { DEFAULT_PREPARE, importSvg, prepare } from "../../../src/index.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
 const files = readdirSync(FOLDER).filter((file) => file.endsWith(".svg"));
@@ -28,6 +28,10 @@ describe("the samples", () => {
       expect(coords[i + 1]).toBeGreaterThan(10);
       expect(coords[i + 1]).toBeLessThan(200);
     }
+  });
+
+  it.each(files)("%s loses nothing when it is fitted to the paper", (file) => {
+    expect(prepare(drawingOf(file), DEFAULT_PREPARE).warnings).toEqual([]);
   });
 
   it("cover what pens are asked to do: layers by pen, one long curve, thousands of short strokes", () => {
