@@ -127,7 +127,11 @@ async function pictureForReadme(browser: Browser): Promise<void> {
   try {
     await page.goto(server.url);
     await waitForPlan(page);
-    await page.waitForTimeout(1_500);
+    await dropFile(page, "three-colour-hills.svg", sample("three-colour-hills"));
+    await page.getByText("1 Sun").waitFor();
+    await waitForPlan(page);
+    // Without a graphics card a frame may take seconds.
+    await page.waitForTimeout(10_000);
     await page.screenshot({ path: path.join(ROOT, "docs", "screenshot.png") });
   } finally {
     await page.close();
@@ -140,10 +144,10 @@ ensureBuild();
 mkdirSync(folder, { recursive: true });
 const browser = await launchBrowser();
 try {
+  await pictureForReadme(browser);
   await session(browser, "desk", "light");
   await session(browser, "phone", "light");
   await session(browser, "desk", "dark");
-  await pictureForReadme(browser);
 } finally {
   await browser.close();
 }
