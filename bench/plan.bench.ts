@@ -5,6 +5,7 @@
  */
 import { performance } from "node:perf_hooks";
 import {
+  DEFAULT_FIT,
   DEFAULT_MOTION,
   DEFAULT_PEN,
   MOTION_MODES,
@@ -27,8 +28,20 @@ export default async function planBench(report: Report): Promise<void> {
   ];
   report("Planning one million segments (1 000 strokes), one thread", [
     ...rows,
-    ...MOTION_MODES.map((mode) => measured(mode, drawing, { ...DEFAULT_MOTION, mode }, floorMs)),
+    ...MOTION_MODES.map((mode) => measured(mode, drawing, { ...DEFAULT_MOTION, mode, fit: null }, floorMs)),
+    measured("blend, fitted", drawing, { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }, floorMs),
   ]);
+  report("Growth with the number of segments, blend", growth());
+}
+
+/** Time for each segment at two sizes: equal when growth is linear. */
+function growth(): Record<string, string | number>[] {
+  return [100_000, 1_000_000].map((segments) => {
+    const drawing = scribble(segments, segments / 1000);
+    const motion: MotionSettings = { ...DEFAULT_MOTION, mode: "blend", fit: null };
+    const ms = best(() => void plan(drawing, motion, DEFAULT_PEN));
+    return { segments, ms: Math.round(ms), "ns/segment": Math.round((1e6 * ms) / segments) };
+  });
 }
 
 function measured(what: string, drawing: StrokeSet, motion: MotionSettings, floorMs: number) {
@@ -118,7 +131,7 @@ function prepareFloor(drawing: StrokeSet): Floor {
     v2: make(segments + 1),
     columns: Array.from({ length: 9 }, () => make(3 * segments)),
   };
-  const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction" }, DEFAULT_PEN);
+  const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
   // The corner limits: the speeds that the plan itself found.
   for (let i = 0; i <= segments; i++) {
     floor.x[i] = drawing.xy[2 * i]!;

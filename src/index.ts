@@ -22,9 +22,13 @@ export {
   importSvg,
   importSvgSteps,
   importSvgWithPauses,
+  TEXT_MODES,
   type ImportOptions,
   type Pause,
+  type TextMode,
 } from "./import/import-svg.js";
+export { openOutlineFont } from "./import/outline-font.js";
+export type { TextFont } from "./import/text-font.js";
 export {
   importDrawing,
   importDrawingWithPauses,

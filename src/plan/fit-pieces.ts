@@ -172,7 +172,7 @@ export class PieceFitter {
       ax += h * jx;
       ay += h * jy;
       const v2 = Math.max(mx * mx + my * my, vx * vx + vy * vy);
-      if (ax * ax + ay * ay > (accel * SLACK) ** 2 || v2 > (speed * SLACK) ** 2) return false;
+      if (ax * ax + ay * ay > (accel * SLACK) ** 2 || v2 > speed * speed) return false;
     }
     return true;
   }

@@ -28,7 +28,7 @@ export class RunWriter {
     // A single straight has no piece too many.
     if (this.fitter === null || n < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
-    this.writeMode(path, limits, this.unfitted);
+    this.writeMode(path, isDense(path, limits.speed) ? withMargin(limits) : limits, this.unfitted);
     this.fitter.write(this.unfitted, limits, path.x[n]!, path.y[n]!, path.endAlong(), n, out);
   }
 
@@ -38,4 +38,21 @@ export class RunWriter {
     else if (this.mode === "blend") this.blend.write(path, limits, out);
     else this.sCurve.write(path, limits, out);
   }
+}
+
+/** Room that a dense curve's plan leaves for the fit: pieces longer than its own swing a little around it. */
+const ACCEL_MARGIN = 0.95;
+const SPEED_MARGIN = 0.985;
+
+/** A segment passed in less than this is a sample of a curve, s. */
+const DENSE_S = 0.03;
+
+function isDense(path: RunPath, speed: number): boolean {
+  let short = 0;
+  for (let i = 0; i < path.segmentCount; i++) if (path.length[i]! < speed * DENSE_S) short++;
+  return 2 * short > path.segmentCount;
+}
+
+function withMargin(limits: RunLimits): RunLimits {
+  return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed: limits.speed * SPEED_MARGIN };
 }

@@ -93,7 +93,11 @@ describe("trajectoryToSvg", () => {
   });
 
   it("covers every stroke's points and shows travel only when asked", () => {
-    const reached = [...svg.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]);
+    const exact = plan(strokes, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
+    const reached = [...trajectoryToSvg(exact, PAPER).matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map((m) => [
+      Number(m[1]),
+      Number(m[2]),
+    ]);
     for (let k = 0; k < strokes.xy.length; k += 2) {
       const near = reached.some(([x, y]) => Math.hypot(x - strokes.xy[k], y - strokes.xy[k + 1]) < 0.06);
       expect(near, `${strokes.xy[k]}, ${strokes.xy[k + 1]}`).toBe(true);

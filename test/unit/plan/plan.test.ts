@@ -10,7 +10,7 @@ import {
 } from "../../../src/index.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
-const motion: MotionSettings = { ...DEFAULT_MOTION, mode: "junction" };
+const motion: MotionSettings = { ...DEFAULT_MOTION, mode: "junction", fit: null };
 const square: Point[] = [
   [10, 10],
   [20, 10],

@@ -1,0 +1,86 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { DEFAULT_PEN, plan, type MotionMode } from "../../../src/index.js";
+import { arbitraryLimits, strokeSetOf, type Point } from "../../support/arbitraries.js";
+import { optimalRunTime } from "../../support/path-optimum.js";
+import { cornersOf, distance, type Limits } from "../../support/reference-planners/polyline.js";
+import { junctionDeviation } from "../../support/reference-planners/systems.js";
+
+const RUNS = { numRuns: 500 };
+const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
+
+/** Small paths of 0.1 to 50 mm a segment, with turns up to nearly all the way round. */
+const smallPath: fc.Arbitrary<Point[]> = fc
+  .tuple(
+    fc.constantFrom(1, 5, 25),
+    fc.array(fc.tuple(real(0.1, 2), real(-3, 3)), { minLength: 2, maxLength: 10 }),
+  )
+  .map(([size, steps]) => {
+    const points: Point[] = [[0, 0]];
+    let heading = 0;
+    for (const [length, turn] of steps) {
+      heading += turn;
+      const [x, y] = points[points.length - 1]!;
+      points.push([x + size * length * Math.cos(heading), y + size * length * Math.sin(heading)]);
+    }
+    return points;
+  });
+
+const NO_PEN = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
+
+describe("the time of a small path", () => {
+  it("in junction mode is that of the fastest profile under the corner limits, within 0.5 %", () => {
+    fc.assert(
+      fc.property(smallPath, arbitraryLimits, (points, draw) => {
+        const time = planned(points, "junction", draw).totalS;
+        const { speedMmPerS: speed, accelMmPerS2: accel, cornerMm: deviation } = draw;
+        const optimum = fastestProfile(points, { speed, accel, deviation });
+        expect(time).toBeLessThanOrEqual(1.005 * optimum);
+        expect(time).toBeGreaterThanOrEqual(0.9999 * optimum);
+      }),
+      RUNS,
+    );
+  });
+
+  it("in blend mode is at most 1.10 times the time-optimal one on its own line, and never less", () => {
+    fc.assert(
+      fc.property(smallPath, arbitraryLimits, (points, draw) => {
+        const trajectory = planned(points, "blend", draw);
+        const optimum = optimalRunTime(trajectory, 0, draw.speedMmPerS, draw.accelMmPerS2);
+        expect(trajectory.totalS).toBeLessThanOrEqual(1.1 * optimum);
+        expect(trajectory.totalS).toBeGreaterThanOrEqual(0.998 * optimum);
+      }),
+      RUNS,
+    );
+  });
+});
+
+function planned(points: readonly Point[], mode: MotionMode, draw: Parameters<typeof plan>[1]["draw"]) {
+  return plan(strokeSetOf([points]), { mode, draw, travel: draw }, NO_PEN, { returnHome: false });
+}
+
+/**
+ * By the definition of the optimum and by brute force: speed² at a place is the least, over all limits, of the
+ * limit and 2 A times the way to it; the time is integrated over a fine grid.
+ */
+function fastestProfile(points: readonly Point[], limits: Limits): number {
+  const { speed, accel } = limits;
+  const places = [0];
+  points.slice(1).forEach((p, i) => places.push(places[i]! + distance(points[i]!, p)));
+  const corners = cornersOf(points).map((corner) => {
+    const circle = (accel * Math.min(corner.before, corner.after)) / 2 / Math.tan(corner.turn / 2);
+    return Math.min(junctionDeviation(corner, limits) ** 2, circle);
+  });
+  const limit2 = [0, ...corners, 0];
+  const v = (s: number): number =>
+    Math.sqrt(Math.min(speed ** 2, ...limit2.map((l, i) => l + 2 * accel * Math.abs(s - places[i]!))));
+  let time = 0;
+  const cells = 400;
+  for (let i = 0; i + 1 < places.length; i++) {
+    const length = places[i + 1]! - places[i]!;
+    // Cells crowd at both ends, where speed changes most.
+    const at = (k: number): number => places[i]! + (length * (1 - Math.cos((Math.PI * k) / cells))) / 2;
+    for (let k = 0; k < cells; k++) time += (2 * (at(k + 1) - at(k))) / (v(at(k)) + v(at(k + 1)));
+  }
+  return time;
+}

@@ -1,0 +1,15 @@
+import type { MachineProfile } from "../../src/index.js";
+
+/** A mixed-axes machine of 80 microsteps a millimetre. */
+export const AXIDRAW_LIKE: MachineProfile = {
+  id: "test-mixed",
+  name: "Test machine",
+  widthMm: 300,
+  heightMm: 218,
+  stepsPerMm: 80,
+  motors: "mixed",
+  microstepMode: 1,
+  servoPosAt0Pct: 9855,
+  servoPosAt100Pct: 27831,
+  servoPin: 4,
+};

@@ -1,0 +1,230 @@
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_FIT,
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  MOTION_MODES,
+  plan,
+  trajectoryStats,
+  type MotionMode,
+  type MotionSettings,
+  type PenSettings,
+  type Trajectory,
+} from "../../../src/index.js";
+import { AXIDRAW_LIKE } from "../../support/machine.js";
+import { strokeSetOf, type Point } from "../../support/arbitraries.js";
+import { worstOf } from "../../support/trajectory-checks.js";
+
+const square: Point[] = [
+  [10, 10],
+  [30, 10],
+  [30, 30],
+  [10, 30],
+  [10, 10],
+];
+
+describe.each(MOTION_MODES)("on a finely sampled circle, mode %s", (mode) => {
+  it("never takes the curve faster than √(1.01 A r), whatever the sampling", () => {
+    const draw = { speedMmPerS: 500, accelMmPerS2: 200, cornerMm: 0.05, jerkMmPerS3: 10_000 };
+    for (const radius of [1, 2, 5, 10]) {
+      for (const step of [0.02, 0.05, 0.2]) {
+        for (const fit of [null, DEFAULT_FIT]) {
+          const strokes = strokeSetOf([circle(radius, step, 2)]);
+          const t = plan(strokes, { mode, draw, travel: draw, fit }, DEFAULT_PEN);
+          // A fitted piece's own curvature differs a little from the circle's: there |a| itself tells.
+          if (fit === null) expect(topSpeed(t, 1) ** 2 / radius).toBeLessThanOrEqual(1.01 * 200);
+          const worst = worstOf(t, strokes, draw, draw, 0.05);
+          expect(worst.accel).toBeLessThanOrEqual(1.001);
+        }
+      }
+    }
+  });
+});
+
+describe("fitting", () => {
+  const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
+  const strokes = strokeSetOf([circle(20, 0.05, 2)]);
+
+  it("draws a circle of 20 mm radius at 50 mm/s in pieces of 80 ms and more, within ε", () => {
+    for (const mode of MOTION_MODES) {
+      const t = plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN);
+      const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
+      const drawS = t.penMoves[1]!.startS - t.runs.startS[1]!;
+      expect(drawS / (end - first)).toBeGreaterThan(0.08);
+      expect(worstOf(t, strokes, draw, draw, 0).distance).toBeLessThan(
+        0.02 + sagitta(20, 0.05) + draw.cornerMm,
+      );
+      expect(farthestFromCircle(t, first, end, 20)).toBeLessThan(DEFAULT_FIT.toleranceMm + draw.cornerMm);
+    }
+  });
+
+  it("keeps velocity continuous in blend mode, and acceleration in scurve mode", () => {
+    const fitted = (mode: MotionMode) =>
+      worstOf(
+        plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN),
+        strokes,
+        draw,
+        draw,
+        1,
+      );
+    expect(fitted("blend").velocityJump).toBeLessThan(1e-9);
+    expect(fitted("blend").gap).toBeLessThan(1e-9);
+    expect(fitted("scurve").accelJump).toBeLessThan(1e-6);
+    expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
+  });
+
+  it("leaves a polygon's blocks as they are", () => {
+    const motion: MotionSettings = { mode: "blend", draw, travel: draw };
+    const plain = plan(strokeSetOf([square]), motion, DEFAULT_PEN);
+    const fitted = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
+    expect(fitted.blockCount).toBe(plain.blockCount);
+    expect(fitted.totalS).toBeCloseTo(plain.totalS, 9);
+  });
+});
+
+describe("corners", () => {
+  const draw = { speedMmPerS: 500, accelMmPerS2: 1000, cornerMm: 0.05, jerkMmPerS3: 1e12 };
+  const corner: Point[] = [
+    [0, 0],
+    [50, 0],
+    [50, 50],
+  ];
+
+  it("in blend mode are one block: a right angle at v² = 4 A δ, at δ from the corner", () => {
+    const t = plan(strokeSetOf([corner]), { mode: "blend", draw, travel: draw }, DEFAULT_PEN);
+    const k = Array.from({ length: t.blockCount }, (_, i) => i).find((i) => t.ax[i]! < -1 && t.ay[i]! > 1)!;
+    expect(t.vx[k]! ** 2).toBeCloseTo(4 * 1000 * 0.05, 6);
+    expect(Math.hypot(t.ax[k]!, t.ay[k]!)).toBeCloseTo(1000, 6);
+    const half = t.durationS[k]! / 2;
+    const x = t.x[k]! + t.vx[k]! * half + (t.ax[k]! * half * half) / 2;
+    const y = t.y[k]! + (t.ay[k]! * half * half) / 2;
+    expect(Math.hypot(x - 50, y)).toBeCloseTo(0.05, 9);
+  });
+
+  it("in scurve mode with hardly any limit on jerk take as long as in blend mode", () => {
+    const time = (mode: MotionMode) =>
+      plan(strokeSetOf([corner]), { mode, draw, travel: draw }, DEFAULT_PEN).totalS;
+    expect(time("scurve") / time("blend")).toBeCloseTo(1, 3);
+  });
+});
+
+describe("settings beyond speed and acceleration", () => {
+  const base: MotionSettings = { ...DEFAULT_MOTION, fit: null };
+
+  it("draw the first and last millimetres slowly when asked to, in every mode", () => {
+    for (const mode of MOTION_MODES) {
+      const motion = { ...base, mode, ease: { lengthMm: 5, speedMmPerS: 10 } };
+      const t = plan(strokeSetOf([[[0, 0], [40, 0]]]), motion, DEFAULT_PEN); // prettier-ignore
+      for (let k = t.runs.firstBlock[0]!; k < t.runs.firstBlock[1]!; k++) {
+        if (t.x[k]! < 4.9 || t.x[k]! > 35.1) expect(Math.abs(t.vx[k]!)).toBeLessThanOrEqual(10.0001);
+      }
+      expect(topSpeed(t, 0)).toBeGreaterThan(40);
+    }
+  });
+
+  it("give a layer its own limits and its own pen", () => {
+    const strokes = strokeSetOf([square, square.map(([x, y]): Point => [x + 40, y])], [0, 1]);
+    const motion = { ...base, layers: { l1: { speedMmPerS: 5 } } };
+    const pen: PenSettings = { ...DEFAULT_PEN, layers: { l1: { downPct: 10, dropMs: 900 } } };
+    const t = plan(strokes, motion, pen);
+    expect(topSpeed(t, 1)).toBeGreaterThan(20);
+    expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
+    expect(t.penMoves.map((m) => [m.heightPct, m.waitS])).toEqual([
+      [30, 0.3],
+      [60, 0.25],
+      [10, 0.9],
+      [60, 0.25],
+    ]);
+  });
+
+  it("lift the pen less for short hops, and start moving once it is clear", () => {
+    const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]], [[100, 100], [90, 90]]]); // prettier-ignore
+    const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
+    const lifts = plan(strokes, base, pen).penMoves.filter((m) => m.up);
+    expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
+    expect(lifts[0]!.waitS).toBeCloseTo(0.25 / 3 / 2, 9);
+    expect(lifts[1]!.waitS).toBeCloseTo(0.125, 9);
+  });
+
+  it("time the pen by its rate and delay", () => {
+    const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
+    const t = plan(strokeSetOf([square]), base, pen);
+    expect(t.penMoves[0]!.waitS).toBeCloseTo(0.05 + 1, 9);
+    expect(t.penMoves[1]!.waitS).toBeCloseTo(0.02 + 0.1, 9);
+  });
+
+  it("keep every motor below the board's step rate, diagonals too", () => {
+    const travel = { ...base.travel, speedMmPerS: 1000, accelMmPerS2: 20_000 };
+    for (const mode of MOTION_MODES) {
+      const t = plan(strokeSetOf([[[150, 150], [150, 0], [0, 150]]]), { ...base, mode, draw: travel, travel }, DEFAULT_PEN, { machine: AXIDRAW_LIKE }); // prettier-ignore
+      expect(topMotorSpeed(t) * AXIDRAW_LIKE.stepsPerMm).toBeLessThan(25_000);
+      expect(trajectoryStats(t).maxSpeed).toBeGreaterThan(220);
+    }
+  });
+
+  it("that contradict each other are refused in plain words", () => {
+    const wrong: [Partial<MotionSettings>, Partial<PenSettings>, RegExp][] = [
+      [{ fit: { toleranceMm: 0, floorMs: 15 } }, {}, /fit tolerance is 0/],
+      [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /slow-in speed/],
+      [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
+      [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
+      [{}, { dropPctPerS: 0 }, /drop rate/],
+      [{}, { clearPct: 120 }, /clear share/],
+      [{}, { hop: { longestMm: 3, upPct: 20 } }, /hop height 20 % is not above/],
+      [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
+    ];
+    for (const [motion, pen, message] of wrong) {
+      const run = () => plan(strokeSetOf([square]), { ...base, ...motion }, { ...DEFAULT_PEN, ...pen });
+      expect(run).toThrow(message);
+    }
+  });
+});
+
+function circle(radius: number, step: number, turns: number): Point[] {
+  const count = Math.round((2 * Math.PI * radius) / step);
+  return Array.from({ length: turns * count + 1 }, (_, i): Point => [
+    100 + radius * Math.cos((2 * Math.PI * i) / count),
+    100 + radius * Math.sin((2 * Math.PI * i) / count),
+  ]);
+}
+
+const sagitta = (radius: number, chord: number): number => (chord * chord) / (8 * radius);
+
+function eachSample(
+  t: Trajectory,
+  first: number,
+  end: number,
+  see: (x: number, y: number, vx: number, vy: number) => void,
+) {
+  for (let k = first; k < end; k++) {
+    for (let i = 0; i <= 8; i++) {
+      const u = (t.durationS[k]! * i) / 8;
+      const [jx, jy] = [t.jx ? t.jx[k]! : 0, t.jy ? t.jy[k]! : 0];
+      see(
+        t.x[k]! + u * (t.vx[k]! + (u * t.ax[k]!) / 2 + (u * u * jx) / 6),
+        t.y[k]! + u * (t.vy[k]! + (u * t.ay[k]!) / 2 + (u * u * jy) / 6),
+        t.vx[k]! + u * (t.ax[k]! + (u * jx) / 2),
+        t.vy[k]! + u * (t.ay[k]! + (u * jy) / 2),
+      );
+    }
+  }
+}
+
+function topSpeed(t: Trajectory, run: number): number {
+  let top = 0;
+  const [first, end] = [t.runs.firstBlock[run]!, t.runs.firstBlock[run + 1]!];
+  eachSample(t, first, end, (_x, _y, vx, vy) => (top = Math.max(top, Math.hypot(vx, vy))));
+  return top;
+}
+
+function topMotorSpeed(t: Trajectory): number {
+  let top = 0;
+  eachSample(t, 0, t.blockCount, (_x, _y, vx, vy) => (top = Math.max(top, Math.abs(vx) + Math.abs(vy))));
+  return top;
+}
+
+function farthestFromCircle(t: Trajectory, first: number, end: number, radius: number): number {
+  let far = 0;
+  eachSample(t, first, end, (x, y) => (far = Math.max(far, Math.abs(Math.hypot(x - 100, y - 100) - radius))));
+  return far;
+}
