@@ -7,7 +7,6 @@
  */
 import {
   compile,
-  DEFAULT_MOTION,
   parseSteps,
   plan,
   PlotwrightError,
@@ -19,6 +18,7 @@ import {
   type MachineProfile,
   type PenSettings,
   type StreamReport,
+  type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
@@ -40,7 +40,7 @@ const SETTLE_S = 0.02;
 /** What the board's layer variable holds while its counters count from home. */
 const PLACE_KNOWN = 113;
 
-const EMPTY = {
+const NO_STROKES: StrokeSet = {
   xy: new Float64Array(0),
   offsets: new Uint32Array(1),
   layer: new Uint16Array(0),
@@ -109,6 +109,8 @@ export class Carriage {
   private async isMarked(): Promise<boolean> {
     const { session, features } = this.connection;
     if (!features.hasClear) return false;
+    // A board that has started anew has its motors off (QE: from 2.8.0).
+    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return false;
     return Number(await session.query(features.hasFutureSyntax ? "QL,0" : "QL")) === PLACE_KNOWN;
   }
 
@@ -191,8 +193,21 @@ export class Carriage {
     const from = this.place(machine)!;
     const trajectory = planWalk(from.x, from.y, x, y, settings);
     if (trajectory.blockCount === 0) return;
+    await this.playTrajectory(trajectory, settings);
+  }
+
+  /** Draws strokes given in mm from where the carriage stands, and comes back there. */
+  async drawHere(strokes: StrokeSet, settings: PlotSettings): Promise<void> {
+    const machine = machineOf(settings);
+    await this.ready(machine, settings.pen);
+    if (this.penUp !== true) await this.movePen(true, settings);
+    const { x, y } = this.place(machine)!;
+    await this.playTrajectory(shifted(plan(strokes, settings.motion, settings.pen), x, y), settings);
+  }
+
+  private async playTrajectory(trajectory: Trajectory, settings: PlotSettings): Promise<void> {
     const commands = compile(trajectory, {
-      machine,
+      machine: machineOf(settings),
       firmware: this.connection.features.version,
       pen: settings.pen,
       start: this.state!,
@@ -228,10 +243,39 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** What keeps the stream's time true and tells of the button. */
+  /** Here is home from now on. */
+  async setHome(machine: MachineProfile, pen: PenSettings): Promise<void> {
+    await this.ready(machine, pen);
+    const { session, features } = this.connection;
+    const { steps1, steps2, acc1, acc2 } = this.state!;
+    if (features.hasStepQuery) {
+      await session.send("CS");
+      this.origin = [0, 0];
+      this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+    } else {
+      this.origin = [this.origin[0] - steps1, this.origin[1] - steps2];
+      this.state = { steps1: 0, steps2: 0, acc1, acc2 };
+    }
+    this.events.changed();
+  }
+
+  /** The motors were without power: the carriage may stand anywhere. */
+  async forgetPlace(): Promise<void> {
+    this.state = null;
+    this.motorsOn = null;
+    await this.mark(0);
+    this.events.changed();
+  }
+
+  /** Motor supply as the board measures it, see `isPowerLow`. */
+  async supplyReading(): Promise<string> {
+    return this.connection.session.query("QC");
+  }
+
+  /** What keeps the stream's time true, and tells of the button and of the motors' supply. */
   private pollLines(): readonly string[] {
-    if (this.queueDepth > 1) return ["QU,6", "QG"];
-    return this.connection.features.hasGeneralQuery ? ["QG"] : ["QM"];
+    if (this.queueDepth > 1) return ["QU,6", "QG", "QC"];
+    return this.connection.features.hasGeneralQuery ? ["QG", "QC"] : ["QM", "QB", "QC"];
   }
 
   private misplaced(report: StreamReport): never {
@@ -253,14 +297,18 @@ function planWalk(
   toY: number,
   settings: PlotSettings,
 ): Trajectory {
-  const motion = settings.motion ?? DEFAULT_MOTION;
-  const trajectory = plan(EMPTY, motion, settings.pen, { startX: fromX - toX, startY: fromY - toY });
+  const start = { startX: fromX - toX, startY: fromY - toY };
+  return shifted(plan(NO_STROKES, settings.motion, settings.pen, start), toX, toY);
+}
+
+/** The same motion elsewhere, mm. */
+function shifted(trajectory: Trajectory, byX: number, byY: number): Trajectory {
   return {
     ...trajectory,
-    x: trajectory.x.map((x) => x + toX),
-    y: trajectory.y.map((y) => y + toY),
-    endX: trajectory.endX + toX,
-    endY: trajectory.endY + toY,
+    x: trajectory.x.map((x) => x + byX),
+    y: trajectory.y.map((y) => y + byY),
+    endX: trajectory.endX + byX,
+    endY: trajectory.endY + byY,
   };
 }
 

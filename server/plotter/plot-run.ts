@@ -75,6 +75,7 @@ export class CarriageRun implements LivePlotRun {
   /** Set when the stream was stopped on purpose: what is still to be drawn then. */
   private stopped: { readonly place: Place | null } | null = null;
   private emergency = false;
+  private failure: PlotwrightError | null = null;
   private settings: PlotSettings;
   private speedPct = 100;
   /** The heights that the board moves the pen to. */
@@ -113,6 +114,10 @@ export class CarriageRun implements LivePlotRun {
     this.finished.catch(() => undefined);
   }
 
+  get isHeld(): boolean {
+    return this.held;
+  }
+
   onProgress(listener: (progress: PlotProgress) => void): void {
     this.progressListeners.push(listener);
     if (this.progress.latest) listener(this.progress.latest);
@@ -147,6 +152,14 @@ export class CarriageRun implements LivePlotRun {
       streamer.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
     }
     return this.until(() => this.held || this.wish === "cancel");
+  }
+
+  /** The board can no longer do what it is told: nothing more is written, `finished` rejects. */
+  fail(error: PlotwrightError): void {
+    this.failure ??= error;
+    this.carriage.connection.session.write([{ line: "ES" }]);
+    this.streamer?.abandon(error);
+    this.wakeWisher?.();
   }
 
   async change(change: PlotChange): Promise<void> {
@@ -391,12 +404,13 @@ export class CarriageRun implements LivePlotRun {
 
   private async hold(): Promise<void> {
     this.setHeld(true);
-    while (this.wish === "hold") {
+    while (this.wish === "hold" && !this.failure) {
       await new Promise<void>((resolve) => {
         this.wakeWisher = resolve;
       });
     }
     this.wakeWisher = null;
+    if (this.failure) throw this.failure;
     this.setHeld(false);
   }
 

@@ -11,6 +11,7 @@ import { DEFAULT_PLOT_SETTINGS, type Plotter, type PlotSettings } from "../../sr
 import { nodeClock } from "../serial/node-clock.js";
 import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
+import { isButtonPressed, isPowerLow, powerLow, testPatch } from "./health.js";
 import { machineOf } from "./plan-places.js";
 import { CarriageRun } from "./plot-run.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
@@ -30,6 +31,7 @@ export interface PlotterOptions {
 export type PlotterState = Omit<Plotter, "id" | "name">;
 
 const RECONNECT_S = 2;
+const SUPPLY_S = 2;
 
 export class PlotterDriver {
   private readonly clock: Clock;
@@ -47,6 +49,8 @@ export class PlotterDriver {
   private closed = false;
   /** Once a real board was there, the virtual one never takes its place. */
   private hadSerial = false;
+  private powerIsLow = false;
+  private cancelSupply: (() => void) | null = null;
   private virtual: VirtualBoard | null = null;
 
   constructor(private readonly options: PlotterOptions) {
@@ -118,9 +122,74 @@ export class PlotterDriver {
     await this.byHand((carriage) => carriage.walk(0, 0, this.settings));
   }
 
+  /** Where the carriage stands is home from now on. */
+  async setHome(): Promise<void> {
+    await this.byHand((carriage) => carriage.setHome(machineOf(this.settings), this.settings.pen));
+  }
+
+  /** Pen up, to a place in mm from home. Rejects with `out-of-bounds` for one beyond the machine. */
+  async walkTo(xMm: number, yMm: number): Promise<void> {
+    const { name, widthMm, heightMm } = machineOf(this.settings);
+    if (!(xMm >= 0 && xMm <= widthMm && yMm >= 0 && yMm <= heightMm)) {
+      throw new PlotwrightError(
+        "out-of-bounds",
+        `${xMm}, ${yMm} mm is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home.`,
+      );
+    }
+    await this.byHand((carriage) => carriage.walk(xMm, yMm, this.settings));
+  }
+
+  /** Pen up, by so many mm; beyond home too, since that is how home is found. */
+  async jog(byXMm: number, byYMm: number): Promise<void> {
+    const machine = machineOf(this.settings);
+    if (!(Math.abs(byXMm) <= machine.widthMm && Math.abs(byYMm) <= machine.heightMm)) {
+      throw new PlotwrightError(
+        "out-of-bounds",
+        `A step of ${byXMm}, ${byYMm} mm is longer than the machine.`,
+      );
+    }
+    await this.byHand(async (carriage) => {
+      await carriage.ready(machine, this.settings.pen);
+      const { x, y } = carriage.place(machine)!;
+      await carriage.walk(x + byXMm, y + byYMm, this.settings);
+    });
+  }
+
+  /** Down and up again, to look at the heights. */
+  async cyclePen(): Promise<void> {
+    await this.byHand(async (carriage) => {
+      await carriage.movePen(false, this.settings);
+      await carriage.movePen(true, this.settings);
+    });
+  }
+
+  /** Walks around a rectangle with the pen up, and back to where the carriage was. mm from home. */
+  async traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number): Promise<void> {
+    await this.byHand(async (carriage) => {
+      const machine = machineOf(this.settings);
+      await carriage.ready(machine, this.settings.pen);
+      const { x, y } = carriage.place(machine)!;
+      const corners = [
+        [x0Mm, y0Mm],
+        [x1Mm, y0Mm],
+        [x1Mm, y1Mm],
+        [x0Mm, y1Mm],
+        [x0Mm, y0Mm],
+        [x, y],
+      ] as const;
+      for (const [cornerX, cornerY] of corners) await carriage.walk(cornerX, cornerY, this.settings);
+    });
+  }
+
+  /** Draws a small pattern from where the carriage stands, with the given settings, and comes back. */
+  async drawTestPatch(settings: PlotSettings = this.settings): Promise<void> {
+    await this.byHand((carriage) => carriage.drawHere(testPatch(), settings));
+  }
+
   async close(): Promise<void> {
     this.closed = true;
     this.cancelRetry?.();
+    this.cancelSupply?.();
     await this.connecting;
     await this.connection?.session.close();
   }
@@ -168,11 +237,13 @@ export class PlotterDriver {
     connection.session.onFault((error) => this.lost(error));
     const carriage = new Carriage(connection, {
       changed: () => this.carriageChanged(),
-      polled: () => undefined,
+      polled: (line, reply) => this.polled(line, reply),
     });
     await carriage.takeOver();
     this.carriage = carriage;
     this.trouble = null;
+    this.powerIsLow = false;
+    this.watchSupply(carriage);
     this.tell({
       kind: connection.kind,
       device: connection.device,
@@ -203,8 +274,42 @@ export class PlotterDriver {
 
   private runEnded(): void {
     this.run = null;
-    if (this.carriage) this.tell({ connection: "idle" });
+    if (this.carriage && !this.powerIsLow) this.tell({ connection: "idle" });
     this.carriageChanged();
+  }
+
+  /** Answers that come while a stream plays. */
+  private polled(line: string, reply: string): void {
+    if (isButtonPressed(line, reply)) this.run?.pause().catch(() => undefined);
+    if (isPowerLow(line, reply)) this.powerLost();
+  }
+
+  /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
+  private watchSupply(carriage: Carriage): void {
+    this.cancelSupply = this.clock.after(SUPPLY_S, () => {
+      if (this.closed || this.carriage !== carriage) return;
+      const isPlaying = this.movingByHand || (this.run !== null && !this.run.isHeld);
+      const asked = isPlaying ? Promise.resolve() : this.askSupply(carriage);
+      // A lost board has its own way to be told of.
+      asked.catch(() => undefined).finally(() => this.watchSupply(carriage));
+    });
+  }
+
+  private async askSupply(carriage: Carriage): Promise<void> {
+    const isLow = isPowerLow("QC", await carriage.supplyReading());
+    if (isLow) this.powerLost();
+    else if (this.powerIsLow) {
+      this.powerIsLow = false;
+      this.tell({ connection: "idle", message: this.welcome(carriage.connection) });
+    }
+  }
+
+  private powerLost(): void {
+    if (this.powerIsLow) return;
+    this.powerIsLow = true;
+    this.run?.fail(powerLow());
+    this.tell({ connection: "fault", message: powerLow().message });
+    this.carriage?.forgetPlace().catch(() => undefined);
   }
 
   private async byHand(action: (carriage: Carriage) => Promise<void>): Promise<void> {
@@ -215,7 +320,7 @@ export class PlotterDriver {
       await action(carriage);
     } finally {
       this.movingByHand = false;
-      if (this.carriage) this.tell({ connection: "idle" });
+      if (this.carriage && !this.powerIsLow) this.tell({ connection: "idle" });
     }
   }
 
@@ -228,6 +333,7 @@ export class PlotterDriver {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it rests.");
     }
     if (!this.carriage) throw this.trouble ?? notStarted();
+    if (this.powerIsLow) throw powerLow();
     return this.carriage;
   }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
-import type { PlotProgress } from "../../server/plotter/types.js";
+import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
 import type { PlotwrightError, StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
@@ -124,6 +124,143 @@ describe("moves by hand", () => {
     await world.run(driver.motorsOff());
     expect(board.state().motorsOn).toBe(false);
     expect(driver.state).toMatchObject({ motorsOn: false, xMm: null, yMm: null });
+  });
+});
+
+describe("moves by hand from place to place", () => {
+  it("walks, jogs, sets home, and traces a frame with the pen up", async () => {
+    const { world, driver, board } = await newPlotter();
+    await world.run(driver.walkTo(40, 30));
+    expect(driver.state).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
+    await world.run(driver.jog(-10, 5));
+    expect(board.state()).toMatchObject({ xMm: 30, yMm: 35 });
+    await world.run(driver.setHome());
+    expect(driver.state).toMatchObject({ xMm: 0, yMm: 0 });
+    await world.run(driver.traceFrame(10, 10, 50, 40));
+    expect(driver.state).toMatchObject({ xMm: 0, yMm: 0, penUp: true });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(drawn(board)).toEqual([]);
+  });
+
+  it("goes nowhere beyond the machine", async () => {
+    const { world, driver, board } = await newPlotter();
+    expect(await outcome(driver.walkTo(400, 10))).toMatch(
+      /^out-of-bounds: 400, 10 mm is beyond the AxiDraw V3/,
+    );
+    expect(await outcome(driver.walkTo(NaN, 10))).toMatch(/^out-of-bounds/);
+    expect(await outcome(driver.jog(1e9, 0))).toMatch(/^out-of-bounds/);
+    await world.advance(1);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
+  });
+
+  it("draws a test patch where the carriage stands and comes back there", async () => {
+    const { world, driver, board } = await newPlotter();
+    await world.run(driver.walkTo(50, 50));
+    await world.run(driver.drawTestPatch());
+    expect(driver.state).toMatchObject({ xMm: 50, yMm: 50, penUp: true });
+    expect(drawn(board).map(([x, y]) => [x, y])).toEqual([
+      [50, 50],
+      [60, 56],
+      [52, 64],
+    ]);
+  });
+
+  it("cycles the pen", async () => {
+    const { world, driver, board } = await newPlotter();
+    const before = board.statistics().penMoveCount;
+    await world.run(driver.cyclePen());
+    expect(board.statistics().penMoveCount - before).toBe(2);
+    expect(driver.state.penUp).toBe(true);
+  });
+});
+
+describe("a plot that was broken off", () => {
+  it("goes on from the journal's place, held until the user says so, with the place still known", async () => {
+    const { world, driver, board } = await newPlotter();
+    const journal: JournalEntry[] = [];
+    const planner = new LocalPlanner(TWO_LINES);
+    const first = await world.run(
+      driver.plot(planner, SETTINGS, { journal: { record: (entry) => journal.push(entry) } }),
+    );
+    await world.advance(1.9);
+    board.unplug();
+    await outcome(world.run(first.finished));
+    await world.advance(5);
+    expect(driver.state.connection).toBe("idle");
+    expect(driver.state.xMm).not.toBeNull();
+    const { place } = journal[journal.length - 1]!;
+    const run = await world.run(driver.plot(planner, SETTINGS, { from: place }));
+    await world.advance(2);
+    const linesBefore = drawn(board).length;
+    await world.advance(2);
+    expect(drawn(board).length).toBe(linesBefore);
+    expect(run.holdPlace).toEqual(place);
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expect(drawn(board)[drawn(board).length - 1]).toEqual([20, 50, 80, 50]);
+  });
+
+  it("is written into the journal at least every half second", async () => {
+    const { world, driver } = await newPlotter();
+    const times: number[] = [];
+    const run = await world.run(
+      driver.plot(new LocalPlanner(TWO_LINES), SETTINGS, {
+        journal: { record: () => times.push(world.nowS()) },
+      }),
+    );
+    await world.run(run.finished);
+    const gaps = times.slice(1).map((time, i) => time - times[i]!);
+    expect(times.length).toBeGreaterThan(5);
+    expect(Math.max(...gaps)).toBeLessThanOrEqual(0.5);
+  });
+
+  it("has lost its place after the board was reset: home is set anew", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.9);
+    board.resetByPower();
+    expect(await outcome(world.run(run.finished, 3))).toMatch(/^disconnected/);
+    await world.advance(5);
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null, yMm: null });
+  });
+});
+
+describe("what the board tells while it plots", () => {
+  it("holds when its button is pressed", async () => {
+    const { world, board, begin } = await newPlotter();
+    const { run } = await begin();
+    const held: boolean[] = [];
+    run.onHeld((is) => held.push(is));
+    await world.advance(1.5);
+    board.pressButton();
+    await world.advance(2);
+    expect(held).toEqual([true]);
+    expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+
+  it("ends the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.5);
+    board.setMotorVolts(1);
+    expect(await outcome(world.run(run.finished, 3))).toMatch(/^board-error: The motors have no power/);
+    expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
+    expect(driver.state.message).toContain("power supply");
+    expect(await outcome(driver.home())).toMatch(/^board-error: The motors have no power/);
+    board.setMotorVolts(9.1);
+    await world.advance(3);
+    expect(driver.state.connection).toBe("idle");
+  });
+
+  it("notices a supply that is off before a plot begins", async () => {
+    const { world, driver, board } = await newPlotter();
+    board.setMotorVolts(0);
+    await world.advance(3);
+    expect(driver.state).toMatchObject({ connection: "fault" });
+    expect(await outcome(driver.plot(new LocalPlanner(TWO_LINES), SETTINGS))).toMatch(/no power/);
   });
 });
 
