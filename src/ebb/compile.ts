@@ -18,7 +18,7 @@ import { MAX_DELAY_MS, penCommand, penSetUpCommands } from "./commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { firmwareFeatures, type FirmwareFeatures } from "./firmware.js";
 import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
-import { HIGHEST_RATE } from "./limits.js";
+import { HIGHEST_PLANNED_RATE } from "./limits.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
 import { SignedWriter } from "./write-signed.js";
@@ -119,8 +119,19 @@ class Compiler {
       } else {
         notBefore = this.cutTick + this.writer.minTicks;
       }
-      if (this.cutIsRunEnd) return;
+      if (this.cutIsRunEnd) break;
     }
+    this.rest(run);
+  }
+
+  /** Waits out the end of a run in which no step is due any more: the plan's time holds on every firmware. */
+  private rest(run: number): void {
+    const { walk, columns, m1, m2 } = this;
+    const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
+    if (ms < 1) return;
+    columns.text.line(`SM,${ms},0,0`);
+    const planS = walk.planS(columns.boardTicks);
+    columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
   /** Sets the next cut after `tick`, where `block` is under way; not before `notBefore`. */
@@ -195,11 +206,11 @@ class Compiler {
   private slowDown(leg: Leg): void {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
     const ticks = Math.max(
-      Math.ceil((leg.ticks * peak) / HIGHEST_RATE),
+      Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
       this.cutIsRunEnd ? SHORTEST_TICKS : 1,
     );
     if (ticks <= leg.ticks) return;
-    if (peak > HIGHEST_RATE) this.columns.warnOnce(TOO_FAST);
+    if (peak > HIGHEST_PLANNED_RATE) this.columns.warnOnce(TOO_FAST);
     const part = leg.ticks / ticks;
     for (const motor of [leg.m1, leg.m2]) {
       motor.v0 *= part;

@@ -54,6 +54,7 @@ export class BoardCore {
   steps2 = 0;
   acc1 = 0;
   acc2 = 0;
+  /** What the board says of its pen; it knows only the standard output. */
   penUp = true;
   /** EM modes 1 … 5, 0 = off. */
   mode1 = 0;
@@ -68,6 +69,8 @@ export class BoardCore {
   servoUsed = false;
   readonly fifo: Order[] = [];
 
+  /** Where the pen really is. */
+  private isLifted = true;
   private running: Running | null = null;
   private servo = new Servo(BOOT_SERVO_UP);
   private line: DrawnLine | null;
@@ -189,7 +192,7 @@ export class BoardCore {
       this.steps1 = this.steps2 = 0;
       if (clearAccumulators) this.acc1 = this.acc2 = 0;
     }
-    this.line?.begin(!this.penUp, 0, 0);
+    this.line?.begin(!this.isLifted, 0, 0);
   }
 
   motorsMoving(): [boolean, boolean] {
@@ -210,13 +213,13 @@ export class BoardCore {
     return this.servo.positionAt(this.nowTick);
   }
 
-  setPen(up: boolean): void {
-    if (up !== this.penUp) {
-      this.penUp = up;
-      this.totals.penMoveCount++;
-      const [steps1, steps2] = this.stepsNow();
-      this.line?.begin(!up, steps1, steps2);
-    }
+  /** The real pen goes up or down: a new stroke, or the end of one. */
+  liftPen(up: boolean): void {
+    if (up === this.isLifted) return;
+    this.isLifted = up;
+    this.totals.penMoveCount++;
+    const [steps1, steps2] = this.stepsNow();
+    this.line?.begin(!up, steps1, steps2);
   }
 
   enableMotors(mode1: number, mode2: number | null): void {
@@ -272,8 +275,11 @@ export class BoardCore {
     this.lastMove = null;
     let ticks = 1;
     if (order.kind === "servo") {
-      this.moveServo(order.position, order.rate);
-      if (order.penUp !== null) this.setPen(order.penUp);
+      if (order.movesPen) {
+        this.liftPen(order.penUp ?? order.position > this.servoPosition());
+        this.moveServo(order.position, order.rate);
+      }
+      if (order.penUp !== null) this.penUp = order.penUp;
       ticks = Math.max(1, order.ticks);
     } else if (order.kind === "enable") {
       this.enableMotors(order.mode1, order.mode2);
@@ -342,7 +348,7 @@ export class BoardCore {
     this.acc1 = place1.acc;
     this.acc2 = place2.acc;
     const wayMm = this.speedMmPerS(place1.net * RATE_OF_ONE_STEP_A_S, place2.net * RATE_OF_ONE_STEP_A_S);
-    if (this.penUp) this.totals.travelMm += wayMm;
+    if (this.isLifted) this.totals.travelMm += wayMm;
     else this.totals.drawnMm += wayMm;
     this.lastMove = {
       endTick: tick,

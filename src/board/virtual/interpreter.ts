@@ -14,6 +14,8 @@ import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../units.js";
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
 const INT31 = 2 ** 31 - 1;
+/** SP moves the servo on RB1; others go by S2. */
+const STANDARD_PIN = 4;
 const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
 /** What a command does once it is parsed. */
@@ -364,7 +366,8 @@ export class Interpreter {
       if (value === 3) this.liftForGood();
       return this.done(() => {
         core.moveServo(core.servoUp, core.servoRateUp);
-        core.setPen(true);
+        core.penUp = true;
+        core.liftPen(true);
       });
     }
     const delayMs = p.optionalUint(0, MS16);
@@ -380,6 +383,7 @@ export class Interpreter {
       rate: up ? core.servoRateUp : core.servoRateDown,
       ticks: delayMs * TICKS_PER_MS,
       penUp: up,
+      movesPen: core.machine.servoPin === STANDARD_PIN,
       isPen: true,
     };
   }
@@ -402,11 +406,21 @@ export class Interpreter {
     const pin = p.uint(24);
     const rate = p.optionalUint(0, MS16);
     const delayMs = p.optionalUint(0, MS16);
-    const PEN_PIN = 4;
-    if (position === 0) return this.done(() => undefined);
-    const penUp = pin === PEN_PIN ? position === this.core.servoUp : null;
+    if (position === 0) return {};
+    // On the standard output, the board takes the pen for up only at exactly the height of SC,4.
+    const penUp = pin === STANDARD_PIN ? position === this.core.servoUp : null;
     return {
-      orders: [{ kind: "servo", position, rate, ticks: delayMs * TICKS_PER_MS, penUp, isPen: false }],
+      orders: [
+        {
+          kind: "servo",
+          position,
+          rate,
+          ticks: delayMs * TICKS_PER_MS,
+          penUp,
+          movesPen: pin === this.core.machine.servoPin,
+          isPen: false,
+        },
+      ],
     };
   }
 

@@ -42,7 +42,9 @@ export type Order =
       /** Change of position a 24 ms frame; 0 = at once. */
       readonly rate: number;
       readonly ticks: number;
-      /** What the pen flag becomes; null leaves it. */
+      /** The machine's pen hangs on this output. */
+      readonly movesPen: boolean;
+      /** What the board's pen flag becomes; null leaves it, and the pen goes the way of the servo. */
       readonly penUp: boolean | null;
       /** Pen command (SP, TP), whose target SP,3 may rewrite. */
       readonly isPen: boolean;
