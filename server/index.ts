@@ -1,6 +1,8 @@
 /** Entry "plotwright/server": the whole server, to be embedded. */
-import { createServer as createHttpServer, type Server } from "node:http";
+import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
+import { createServer as createHttpsServer } from "node:https";
 import type { AddressInfo } from "node:net";
+import { hostname } from "node:os";
 import { PlotwrightError } from "../src/index.js";
 import type { ServerEvent } from "../src/schema/index.js";
 import { defaultDataDir, prepareDataDir } from "./data-dir.js";
@@ -12,13 +14,23 @@ import { JobQueue } from "./queue/job-queue.js";
 import type { PlotterPort } from "./queue/plotter-port.js";
 import { packagePath, packageVersion } from "./package-files.js";
 import { Store } from "./queue/store.js";
+import { Access } from "./security/access.js";
+import { MDNS_NAME, announceOnLan } from "./security/network.js";
 import { openPlotters } from "./plotters.js";
 
 export interface ServerOptions {
   /** 9080 unless told; 0 takes any free one. */
   readonly port?: number;
-  /** 127.0.0.1 unless told. */
+  /** 127.0.0.1 unless told, or all addresses with `lan`. */
   readonly host?: string;
+  /** Listen on the network. Other devices have to be paired; the links are in the server's `pairing`. */
+  readonly lan?: boolean;
+  /** Announce plotwright.local by mDNS; with `lan` unless told. */
+  readonly mdns?: boolean;
+  /** PEM texts: serve https. */
+  readonly tls?: { readonly cert: string; readonly key: string };
+  /** Ask for pairing on this computer too (when a proxy here lets others in). */
+  readonly pairAlways?: boolean;
   /** Serial path of the board, or "virtual"; without it the first EBB found, else the virtual board. */
   readonly device?: string;
   /** Board seconds a second on the virtual board: 1 is real time. */
@@ -36,6 +48,8 @@ export interface ServerOptions {
 export interface PlotwrightServer {
   /** Where the page is, with the real port. */
   readonly url: string;
+  /** Paths of the links that pair a device: add them to an address of this computer. */
+  readonly pairing: { readonly operatePath: string; readonly watchPath: string };
   /** Stops plotting (the pen lifts), stores, and gives port, board and data folder back. */
   close(): Promise<void>;
 }
@@ -76,24 +90,54 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     });
     undo.push(() => queue.close());
 
+    const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
+    access.onRevoke(() => hub.dropAll());
     const app = createApp({
       version: packageVersion(),
       queue,
       files,
       plotters,
       hub,
-      allowedHosts: [...(options.allowedHosts ?? []), ...(options.host === undefined ? [] : [options.host])],
+      allowedHosts: allowedHosts(options),
       webDir: packagePath("dist/web"),
       samplesDir: packagePath("samples"),
+      access,
       log,
     });
-    const http = createHttpServer({ requestTimeout: 10 * 60_000 }, app);
-    await listen(http, options.port ?? DEFAULT_PORT, options.host ?? "127.0.0.1");
+    const http = httpServer(options, app);
+    await listen(
+      http,
+      options.port ?? DEFAULT_PORT,
+      options.host ?? (options.lan === true ? "::" : "127.0.0.1"),
+    );
     undo.push(() => stopListening(http, hub));
-    return { url: urlOf(http), close };
+    const { port } = http.address() as AddressInfo;
+    if (options.mdns ?? options.lan === true) undo.push(announceOnLan(port, options.tls !== undefined));
+    const pairing = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
+    return { url: urlOf(http, options.tls !== undefined), pairing, close };
   } catch (error) {
     await close();
     throw error;
+  }
+}
+
+function allowedHosts({ allowedHosts = [], host, lan }: ServerOptions): string[] {
+  const own = lan === true ? [`${MDNS_NAME}.local`, hostname()] : [];
+  return [...allowedHosts, ...own, ...(host === undefined ? [] : [host])];
+}
+
+/** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
+function httpServer({ tls }: ServerOptions, app: RequestListener): Server {
+  const times = { headersTimeout: 20_000, requestTimeout: 10 * 60_000 };
+  if (tls === undefined) return createHttpServer(times, app);
+  try {
+    return createHttpsServer({ ...times, ...tls }, app);
+  } catch (cause) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `The certificate or its key can't be used (${(cause as Error).message}). Give PEM files with --cert and --key.`,
+      { cause },
+    );
   }
 }
 
@@ -127,8 +171,9 @@ function stopListening(http: Server, hub: EventHub): Promise<void> {
   });
 }
 
-function urlOf(http: Server): string {
+function urlOf(http: Server, isTls: boolean): string {
   const { address, port, family } = http.address() as AddressInfo;
-  const host = family === "IPv6" ? `[${address}]` : address;
-  return `http://${host}:${port}`;
+  const isAny = address === "::" || address === "0.0.0.0";
+  const host = isAny ? "127.0.0.1" : family === "IPv6" ? `[${address}]` : address;
+  return `${isTls ? "https" : "http"}://${host}:${port}`;
 }

@@ -1,6 +1,7 @@
 /** The command line as commander sees it: names, options, help. What the commands do is in the files beside. */
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
 import { ERROR_TABLE, PlotwrightError } from "../../src/index.js";
+import { runBoard, type BoardCommandOptions } from "./board.js";
 import type { CliIo } from "./io.js";
 import { runDevices, runHome, runInfo, runPen } from "./machine-commands.js";
 import { runPlan, type PlanCommandOptions } from "./plan.js";
@@ -77,6 +78,13 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
   addDevice(sub("home", "lift the pen and walk home")).action((options: { device?: string }) =>
     runHome(options),
   );
+  sub("board", "be a virtual board that other programs can drive")
+    .requiredOption("--pty <path>", "where the serial port shall appear")
+    .option("--firmware <version>", "firmware to be", "2.8.1")
+    .addOption(new Option("--speed <factor>", "board seconds in one of ours").argParser(positive))
+    .option("--machine <id>", "plotter model")
+    .option("--svg <file>", "where what was drawn goes (drawn.svg)")
+    .action((options: BoardCommandOptions) => runBoard(options, io));
   sub("devices", "list the boards that are plugged in").action(() => runDevices(io));
   addDevice(sub("info", "tell what the board says of itself")).action((options: { device?: string }) =>
     runInfo(options, io),
@@ -87,7 +95,12 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
 function addServe(command: Command): Command {
   return addDevice(command)
     .option("--port <number>", "port to listen on", port, 9080)
-    .option("--host <address>", "address to listen on", "127.0.0.1")
+    .option("--host <address>", "address to listen on (127.0.0.1; all with --lan)")
+    .option("--lan", "listen on the network; other devices have to be paired")
+    .option("--no-mdns", "with --lan: do not announce plotwright.local")
+    .option("--pair-always", "ask for pairing on this computer too")
+    .option("--cert <file>", "certificate (PEM): serve https")
+    .option("--key <file>", "the certificate's key (PEM)")
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
     .option("--data <folder>", "folder for jobs and settings")
     .option("--max-upload-mb <number>", "largest drawing taken", positive, 200)

@@ -1,24 +1,36 @@
 /** `plotwright serve`: runs until it is told to stop. */
 import { spawn } from "node:child_process";
-import { createServer } from "../index.js";
+import { readFileSync } from "node:fs";
+import { PlotwrightError } from "../../src/index.js";
+import { createServer, type PlotwrightServer, type ServerOptions } from "../index.js";
+import { lanAddresses, pairingText } from "../security/network.js";
 import type { CliIo } from "./io.js";
 
 export interface ServeCommandOptions {
   readonly port: number;
-  readonly host: string;
+  readonly host?: string;
   readonly allowHost?: readonly string[];
   readonly device?: string;
   readonly virtualSpeed?: number;
   readonly data?: string;
   readonly maxUploadMb: number;
   readonly open?: boolean;
+  readonly lan?: boolean;
+  readonly mdns: boolean;
+  readonly cert?: string;
+  readonly key?: string;
+  readonly pairAlways?: boolean;
 }
 
 export async function runServe(options: ServeCommandOptions, io: CliIo): Promise<void> {
   const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
   const server = await createServer({
     port: options.port,
-    host: options.host,
+    ...(options.host === undefined ? {} : { host: options.host }),
+    lan: options.lan === true,
+    mdns: options.lan === true && options.mdns,
+    pairAlways: options.pairAlways === true,
+    ...tlsOf(options),
     maxUploadBytes: options.maxUploadMb * 1e6,
     ...(options.allowHost === undefined ? {} : { allowedHosts: options.allowHost }),
     ...(options.device === undefined ? {} : { device: options.device }),
@@ -27,9 +39,36 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     log: (line) => io.err(`${line}\n`),
   });
   io.out(`plotwright is at ${server.url}\n`);
+  if (options.lan === true || options.pairAlways === true)
+    io.out(await pairing(server, options.lan === true));
   if (options.open === true) openBrowser(server.url, io);
   await stopped;
   await server.close();
+}
+
+async function pairing(server: PlotwrightServer, isLan: boolean): Promise<string> {
+  const { protocol, port, hostname } = new URL(server.url);
+  const address = isLan ? (lanAddresses()[0] ?? hostname) : hostname;
+  const { operatePath, watchPath } = server.pairing;
+  return pairingText(`${protocol}//${address}:${port}`, operatePath, watchPath);
+}
+
+function tlsOf({ cert, key }: ServeCommandOptions): Pick<ServerOptions, "tls"> {
+  if (cert === undefined && key === undefined) return {};
+  if (cert === undefined || key === undefined) {
+    throw new PlotwrightError("bad-setting", "--cert and --key go together.");
+  }
+  return { tls: { cert: readPem(cert), key: readPem(key) } };
+}
+
+function readPem(path: string): string {
+  try {
+    return readFileSync(path, "utf8");
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be read: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
 }
 
 function openBrowser(url: string, io: CliIo): void {

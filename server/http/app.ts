@@ -5,7 +5,9 @@ import type { Snapshot } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
+import type { Access } from "../security/access.js";
 import { errorResponder, notFound } from "./errors.js";
+import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
 import { guardHosts } from "./guard.js";
 import { jobsRoutes } from "./jobs-routes.js";
@@ -22,6 +24,8 @@ export interface AppParts {
   /** Folders with the built page and with the samples. */
   readonly webDir: string;
   readonly samplesDir: string;
+  /** Sessions and keys; asked only of those who do not come from this computer. */
+  readonly access: Access;
   readonly log: (line: string) => void;
 }
 
@@ -29,7 +33,10 @@ export function createApp(parts: AppParts): Express {
   const app = express();
   app.disable("x-powered-by");
   app.use(securityHeaders());
-  app.use(guardHosts(parts.allowedHosts));
+  app.use(guardHosts(parts.allowedHosts, parts.log));
+  app.use(limitRequests(parts.access));
+  app.use(pairRoutes(parts.access, parts.log));
+  app.use("/api", requireRole(parts.access, parts.log));
   app.use("/api/v1", apiRoutes(parts));
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
@@ -54,6 +61,10 @@ function apiRoutes(parts: AppParts): Router {
     response.json(snapshot());
   });
   router.get("/events", (request, response) => parts.hub.open(request, response, snapshot));
+  router.get("/me", (request, response) => {
+    response.json({ role: roleOf(request, parts.access) });
+  });
+  router.use("/access", accessRoutes(parts.access));
   router.use("/jobs", jobsRoutes(queue, parts.files));
   router.use("/plotters", plottersRoutes(plotters, queue));
   router.use("/samples", samplesRoutes(parts.samplesDir));

@@ -49,11 +49,16 @@ export class EventHub {
     request.on("close", () => this.#clients.delete(response));
   }
 
+  /** Ends every stream; those who may, come back at once. */
+  dropAll(): void {
+    for (const client of this.#clients) client.end();
+    this.#clients.clear();
+  }
+
   close(): void {
     clearInterval(this.#heartbeat);
     if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
-    for (const client of this.#clients) client.end();
-    this.#clients.clear();
+    this.dropAll();
   }
 
   #sendProgress(): void {

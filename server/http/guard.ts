@@ -11,26 +11,31 @@ import type { RequestHandler } from "express";
 import { isIP } from "node:net";
 import { PlotwrightError } from "../../src/index.js";
 
-export function guardHosts(extraNames: readonly string[]): RequestHandler {
+export function guardHosts(extraNames: readonly string[], log: (line: string) => void): RequestHandler {
   const names = new Set(["localhost", ...extraNames.map((name) => name.toLowerCase())]);
   return (request, _response, next) => {
+    const refuse = (message: string): never => {
+      log(
+        `refused ${request.method} ${request.path} from ${request.socket.remoteAddress ?? "?"}: ${message}`,
+      );
+      throw new PlotwrightError("not-allowed", message);
+    };
     const host = hostName(request.headers.host);
     if (host === null || !(isIP(host) > 0 || names.has(host) || host.endsWith(".localhost"))) {
-      throw new PlotwrightError(
-        "not-allowed",
-        `This server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or name it with --allow-host.`,
+      refuse(
+        `this server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or name it with --allow-host.`,
       );
     }
     const { origin } = request.headers;
     if (origin !== undefined && !isSameOrigin(origin, request.headers.host ?? "")) {
-      throw new PlotwrightError("not-allowed", `A page of ${origin} may not use this server.`);
+      refuse(`A page of ${origin} may not use this server.`);
     }
     if (
       origin === undefined &&
       isForeign(request.headers["sec-fetch-site"]) &&
       request.path.startsWith("/api/")
     ) {
-      throw new PlotwrightError("not-allowed", "A page of another site may not use this server.");
+      refuse("A page of another site may not use this server.");
     }
     next();
   };

@@ -20,6 +20,10 @@
  *   POST   /api/v1/plotters/:id/motors-off    → Plotter
  *   POST   /api/v1/plotters/:id/home          walks to home, pen up → Plotter
  *   GET    /api/v1/plotters/:id/log           commands and replies of this connection, as text
+ *   GET    /api/v1/access                     → { entries: AccessEntry[] }: sessions and keys
+ *   POST   /api/v1/access/keys                NewKey → 201 { entry, secret }
+ *   DELETE /api/v1/access/:id                 → { ok: true }
+ *   GET    /api/v1/me                         → { role }
  *   GET    /api/v1/samples                    → { samples: [{ name, title }] }
  *   GET    /api/v1/samples/:name              → SVG text
  */

@@ -2,3 +2,4 @@
 export * from "./settings.js";
 export * from "./job.js";
 export * from "./api.js";
+export * from "./access.js";

@@ -10,6 +10,7 @@ import { EventHub } from "../../../server/http/events.js";
 import { DrawingFiles } from "../../../server/queue/drawing-files.js";
 import { JobQueue, type Planning } from "../../../server/queue/job-queue.js";
 import { Store } from "../../../server/queue/store.js";
+import { Access } from "../../../server/security/access.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";
 
 export interface TestApp {
@@ -17,13 +18,18 @@ export interface TestApp {
   readonly plotter: LedPlotter;
   readonly queue: JobQueue;
   readonly store: Store;
+  readonly access: Access;
   readonly logged: string[];
   drawingsOnDisk(): string[];
   close(): Promise<void>;
 }
 
 export async function startApp(
-  options: { readonly planning?: Planning; readonly maxUploadBytes?: number } = {},
+  options: {
+    readonly planning?: Planning;
+    readonly maxUploadBytes?: number;
+    readonly trustsLoopback?: boolean;
+  } = {},
 ): Promise<TestApp> {
   const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
   prepareDataDir(dir);
@@ -42,6 +48,8 @@ export async function startApp(
     nowIso: () => new Date().toISOString(),
   });
   const logged: string[] = [];
+  const access = new Access(store, { trustsLoopback: options.trustsLoopback });
+  access.onRevoke(() => hub.dropAll());
   const app = createApp({
     version: "0.0.0",
     queue,
@@ -51,6 +59,7 @@ export async function startApp(
     allowedHosts: ["plotter.lan"],
     webDir: join(dir, "web"),
     samplesDir: new URL("../../../samples", import.meta.url).pathname,
+    access,
     log: (line) => logged.push(line),
   });
   const http: Server = createServer(app);
@@ -60,6 +69,7 @@ export async function startApp(
     plotter,
     queue,
     store,
+    access,
     logged,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),
     close: async () => {

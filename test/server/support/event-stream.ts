@@ -5,12 +5,14 @@ export class EventStream {
   readonly seen: ServerEvent[] = [];
   readonly #abort = new AbortController();
   #wake: (() => void)[] = [];
+  /** Resolves when the server has ended the stream. */
+  ended: Promise<void> = Promise.resolve();
 
   static async open(url: string, headers: Record<string, string> = {}): Promise<EventStream> {
     const stream = new EventStream();
     const response = await fetch(`${url}/api/v1/events`, { headers, signal: stream.#abort.signal });
     if (response.status !== 200 || response.body === null) throw new Error(`status ${response.status}`);
-    void stream.#read(response.body).catch(() => undefined);
+    stream.ended = stream.#read(response.body).catch(() => undefined);
     return stream;
   }
 

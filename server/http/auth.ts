@@ -1,0 +1,124 @@
+/** Lets a request in by where it comes from or by what it carries, and holds watchers to watching. */
+import express, { Router, type Request, type RequestHandler } from "express";
+import { rateLimit } from "express-rate-limit";
+import { PlotwrightError } from "../../src/index.js";
+import { newKeySchema, type Role } from "../../src/schema/index.js";
+import type { Access } from "../security/access.js";
+import { parseWith } from "./errors.js";
+
+const COOKIE = "plotwright_session";
+const SESSION_DAYS = 90;
+const LOOPBACK = /^(::1|(::ffff:)?127(\.\d{1,3}){3})$/;
+const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
+
+/** Requests a minute from one address of the network; a page needs about one a second at most. */
+const MOST_REQUESTS = 600;
+const MOST_PAIRINGS = 10;
+
+export function roleOf(request: Request, access: Access): Role | null {
+  if (isTrusted(request, access)) return "operate";
+  const secret = bearerOf(request) ?? cookieOf(request);
+  return secret === null ? null : access.roleOf(secret);
+}
+
+/** For everything under /api: some role, and "operate" for whatever changes something. */
+export function requireRole(access: Access, log: (line: string) => void): RequestHandler {
+  return (request, _response, next) => {
+    const role = roleOf(request, access);
+    const isAllowed = role === "operate" || (role === "watch" && mayWatch(request));
+    if (isAllowed) {
+      next();
+      return;
+    }
+    log(`refused ${request.method} ${request.path} from ${request.socket.remoteAddress ?? "?"}`);
+    throw new PlotwrightError(
+      "not-allowed",
+      role === null
+        ? "Pair this device first: open the link (or the QR code) that the server shows where it runs."
+        : "This device may watch, not operate.",
+    );
+  };
+}
+
+/** Seeing, and stopping: whoever stands nearest to a plot that goes wrong must be able to stop it. */
+function mayWatch({ method, path }: Request): boolean {
+  if (SAFE_METHODS.has(method)) return !path.startsWith("/v1/access");
+  return method === "POST" && /^\/v1\/jobs\/[^/]+\/(pause|emergency-stop)$/.test(path);
+}
+
+/** GET /pair?token=…: a session cookie, then on to the page. */
+export function pairRoutes(access: Access, log: (line: string) => void): Router {
+  const router = Router();
+  router.get("/pair", limitBy(MOST_PAIRINGS, access), (request, response) => {
+    const { token } = request.query;
+    const name = request.headers["user-agent"] ?? "browser";
+    try {
+      const secret = access.pair(typeof token === "string" ? token : "", name);
+      response.cookie(COOKIE, secret, {
+        httpOnly: true,
+        sameSite: "strict",
+        secure: request.secure,
+        maxAge: SESSION_DAYS * 86_400_000,
+        path: "/",
+      });
+      log(`paired ${request.socket.remoteAddress ?? "?"}`);
+    } catch (error) {
+      log(`refused pairing of ${request.socket.remoteAddress ?? "?"}`);
+      throw error;
+    }
+    // Not a redirect: a cookie that is Strict is not sent with one that another site began.
+    response.set("Cache-Control", "no-store").set("Referrer-Policy", "no-referrer");
+    response
+      .type("html")
+      .send('<!doctype html><meta http-equiv="refresh" content="0;url=/"><a href="/">plotwright</a>');
+  });
+  return router;
+}
+
+/** /api/v1/access: sessions and keys, for operators. */
+export function accessRoutes(access: Access): Router {
+  const router = Router();
+  router.get("/", (_request, response) => {
+    response.json({ entries: access.list() });
+  });
+  router.post("/keys", express.json({ limit: "10kb" }), (request, response) => {
+    const { name, role } = parseWith(newKeySchema, request.body);
+    const { entry, secret } = access.createKey(name, role);
+    response.status(201).json({ entry, secret });
+  });
+  router.delete("/:id", (request, response) => {
+    access.revoke(request.params.id);
+    response.json({ ok: true });
+  });
+  return router;
+}
+
+/** For addresses of the network; this computer is not limited. */
+export const limitRequests = (access: Access): RequestHandler => limitBy(MOST_REQUESTS, access);
+
+function limitBy(most: number, access: Access): RequestHandler {
+  return rateLimit({
+    windowMs: 60_000,
+    limit: most,
+    standardHeaders: "draft-8",
+    legacyHeaders: false,
+    skip: (request) => isTrusted(request, access),
+    handler: (_request, response) => {
+      response
+        .status(429)
+        .json({ error: { code: "busy", message: "Too many requests: wait a minute, then try again." } });
+    },
+  });
+}
+
+const isTrusted = (request: Request, access: Access): boolean =>
+  access.trustsLoopback && LOOPBACK.test(request.socket.remoteAddress ?? "");
+
+function bearerOf(request: Request): string | null {
+  return /^Bearer ([\w-]{20,200})$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
+}
+
+function cookieOf(request: Request): string | null {
+  const match = new RegExp(`(?:^|;\\s*)${COOKIE}=([\\w-]{20,200})(?:;|$)`).exec(request.headers.cookie ?? "");
+  return match?.[1] ?? null;
+}

@@ -1,0 +1,132 @@
+/**
+ * Who may do what, once the server listens on the network.
+ *
+ *   loopback     this computer: may do everything, as its user could anyway
+ *   pairing      a link with a secret, printed (and as a QR code) by the server: opens a session in a browser
+ *   session      a cookie that only this server's pages send (HttpOnly, SameSite=Strict); can be revoked
+ *   key          "Authorization: Bearer …" for scripts; made by an operator, shown once, can be revoked
+ *
+ * Secrets are kept as SHA-256: they are 256 random bits, so a slow hash would add nothing.
+ */
+import { createHash, randomBytes, timingSafeEqual } from "node:crypto";
+import { z } from "zod";
+import { PlotwrightError } from "../../src/index.js";
+import { accessEntrySchema, type AccessEntry, type Role } from "../../src/schema/index.js";
+import type { Store } from "../queue/store.js";
+
+const storedSchema = z.array(accessEntrySchema.extend({ secretSha256: z.string() }));
+type StoredEntry = z.infer<typeof storedSchema>[number];
+
+const SETTING = "access";
+/** Last use is kept to the minute: a write for every request would wear the disk. */
+const SEEN_EVERY_MS = 60_000;
+
+export class Access {
+  /** Requests from this computer need no pairing. */
+  readonly trustsLoopback: boolean;
+  readonly #store: Pick<Store, "setting" | "saveSetting">;
+  readonly #now: () => Date;
+  #entries: StoredEntry[];
+  readonly #pairing: ReadonlyMap<Role, string> = new Map([
+    ["operate", newSecret()],
+    ["watch", newSecret()],
+  ]);
+
+  #onRevoke: () => void = () => undefined;
+
+  constructor(
+    store: Pick<Store, "setting" | "saveSetting">,
+    options: { readonly trustsLoopback?: boolean | undefined; readonly now?: () => Date } = {},
+  ) {
+    this.#store = store;
+    this.#now = options.now ?? (() => new Date());
+    this.trustsLoopback = options.trustsLoopback ?? true;
+    const kept = storedSchema.safeParse(store.setting(SETTING));
+    this.#entries = kept.success ? kept.data : [];
+  }
+
+  /** Path of the link that makes a browser a session of that role; good until the server ends. */
+  pairingPath(role: Role): string {
+    return `/pair?token=${this.#pairing.get(role) ?? ""}`;
+  }
+
+  /** Opens a session for a pairing token; throws `not-allowed`. Returns the cookie's secret. */
+  pair(token: string, name: string): string {
+    for (const [role, secret] of this.#pairing) {
+      if (equal(token, secret)) return this.#add("session", role, name).secret;
+    }
+    throw new PlotwrightError(
+      "not-allowed",
+      "This link is not valid any more: take the one the server shows now.",
+    );
+  }
+
+  createKey(name: string, role: Role): { readonly entry: AccessEntry; readonly secret: string } {
+    return this.#add("key", role, name);
+  }
+
+  list(): AccessEntry[] {
+    return this.#entries.map(publicPart);
+  }
+
+  /** Throws `not-found`. */
+  revoke(id: string): void {
+    const left = this.#entries.filter((entry) => entry.id !== id);
+    if (left.length === this.#entries.length)
+      throw new PlotwrightError("not-found", `There is no access ${id}.`);
+    this.#save(left);
+    this.#onRevoke();
+  }
+
+  /** Called after an access was revoked: what it still holds open has to end. */
+  onRevoke(listener: () => void): void {
+    this.#onRevoke = listener;
+  }
+
+  /** The role that a secret stands for; null when it stands for none. */
+  roleOf(secret: string): Role | null {
+    const sha256 = hashOf(secret);
+    const entry = this.#entries.find((one) => equal(one.secretSha256, sha256));
+    if (entry === undefined) return null;
+    const now = this.#now();
+    if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) {
+      this.#save(
+        this.#entries.map((one) => (one === entry ? { ...one, lastSeenAt: now.toISOString() } : one)),
+      );
+    }
+    return entry.role;
+  }
+
+  #add(kind: AccessEntry["kind"], role: Role, name: string): { entry: AccessEntry; secret: string } {
+    const secret = newSecret();
+    const at = this.#now().toISOString();
+    const entry: AccessEntry = {
+      id: randomBytes(8).toString("hex"),
+      kind,
+      role,
+      name: name.slice(0, 200),
+      createdAt: at,
+      lastSeenAt: at,
+    };
+    this.#save([...this.#entries, { ...entry, secretSha256: hashOf(secret) }]);
+    return { entry, secret };
+  }
+
+  #save(entries: StoredEntry[]): void {
+    this.#store.saveSetting(SETTING, entries);
+    this.#entries = entries;
+  }
+}
+
+const newSecret = (): string => randomBytes(32).toString("base64url");
+const hashOf = (secret: string): string => createHash("sha256").update(secret).digest("hex");
+
+/** Compares hashes of both, which have one length, in a time that tells nothing. */
+function equal(a: string, b: string): boolean {
+  return timingSafeEqual(createHash("sha256").update(a).digest(), createHash("sha256").update(b).digest());
+}
+
+function publicPart(entry: StoredEntry): AccessEntry {
+  const { id, kind, role, name, createdAt, lastSeenAt } = entry;
+  return { id, kind, role, name, createdAt, lastSeenAt };
+}

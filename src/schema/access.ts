@@ -1,0 +1,21 @@
+/** Who may use a server on the network. */
+import { z } from "zod";
+
+/** "watch": sees everything, changes nothing. */
+export const ROLES = ["operate", "watch"] as const;
+export const roleSchema = z.enum(ROLES);
+export type Role = z.infer<typeof roleSchema>;
+
+/** A paired browser, or a key for scripts. Its secret is shown once, when it is made. */
+export const accessEntrySchema = z.object({
+  id: z.string(),
+  kind: z.enum(["session", "key"]),
+  role: roleSchema,
+  name: z.string(),
+  createdAt: z.string(),
+  lastSeenAt: z.string(),
+});
+export type AccessEntry = z.infer<typeof accessEntrySchema>;
+
+export const newKeySchema = z.object({ name: z.string().trim().min(1).max(200), role: roleSchema });
+export type NewKey = z.infer<typeof newKeySchema>;

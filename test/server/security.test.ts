@@ -1,0 +1,182 @@
+/** Requests as they come from the network: nothing is trusted for where it comes from. */
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { Access } from "../../server/security/access.js";
+import { DEFAULT_PLOT_SETTINGS, accessEntrySchema, jobSchema, type Job } from "../../src/schema/index.js";
+import { startApp, type TestApp } from "./support/app.js";
+import { EventStream } from "./support/event-stream.js";
+
+const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
+let app: TestApp;
+beforeEach(async () => {
+  app = await startApp({ trustsLoopback: false });
+});
+afterEach(() => app.close());
+
+const call = (path: string, init: RequestInit = {}): Promise<Response> => fetch(`${app.url}${path}`, init);
+
+/** Opens a pairing link as a phone does; gives back the session's cookie. */
+async function pair(role: "operate" | "watch"): Promise<string> {
+  const response = await call(app.access.pairingPath(role));
+  expect(response.status).toBe(200);
+  const cookie = response.headers.get("set-cookie") ?? "";
+  expect(cookie).toMatch(/HttpOnly/);
+  expect(cookie).toMatch(/SameSite=Strict/);
+  return cookie.split(";")[0] ?? "";
+}
+const as = (cookie: string, init: RequestInit = {}): RequestInit => ({
+  ...init,
+  headers: { ...init.headers, Cookie: cookie },
+});
+
+async function plotting(cookie: string): Promise<Job> {
+  const added = await call("/api/v1/jobs?name=a", as(cookie, { method: "POST", body: SVG }));
+  const job = jobSchema.parse(await added.json());
+  await call(`/api/v1/jobs/${job.id}/start`, as(cookie, { method: "POST" }));
+  return job;
+}
+
+describe("a server on the network", () => {
+  it("answers nobody without a pairing, by whatever path, and says how to get one", async () => {
+    for (const [method, path] of [
+      ["GET", "/api/v1/state"],
+      ["GET", "/api/v1/events"],
+      ["GET", "/api/v1/me"],
+      ["GET", "/api/v1/samples"],
+      ["GET", "/api/v1/access"],
+      ["POST", "/api/v1/jobs?name=a"],
+      ["POST", "/api/v1/access/keys"],
+      ["DELETE", "/api/v1/jobs/x"],
+      ["GET", "/api/v1/../v1/state"],
+      ["GET", "/API/v1/state"],
+      ["GET", "/api//v1/state"],
+    ] as const) {
+      const response = await call(path, { method });
+      expect([path, [403, 404].includes(response.status)]).toEqual([path, true]);
+    }
+    const refused = await call("/api/v1/state");
+    expect(refused.status).toBe(403);
+    expect(await refused.text()).toMatch(/Pair this device first/);
+    expect(app.logged.some((line) => /^refused GET .*state from/.test(line))).toBe(true);
+  });
+
+  it("lets in a paired browser and refuses wrong, cut and foreign secrets", async () => {
+    const cookie = await pair("operate");
+    expect((await call("/api/v1/me", as(cookie))).status).toBe(200);
+    for (const wrong of [`${cookie}x`, cookie.slice(0, -1), "plotwright_session=", `other=${cookie}`]) {
+      expect([wrong, (await call("/api/v1/state", as(wrong))).status]).toEqual([wrong, 403]);
+    }
+    for (const authorization of ["Bearer x", "Bearer undefined", `Bearer ${"a".repeat(43)}`, "Basic YTph"]) {
+      const response = await call("/api/v1/state", { headers: { Authorization: authorization } });
+      expect([authorization, response.status]).toEqual([authorization, 403]);
+    }
+    for (const token of ["", "x", app.access.pairingPath("operate").slice(12, -1)]) {
+      expect((await call(`/pair?token=${token}`)).status).toBe(403);
+    }
+    expect((await call("/pair?token[]=a&token[]=b")).status).toBe(403);
+  });
+
+  it("lets a watcher see everything and stop, but change nothing", async () => {
+    const operator = await pair("operate");
+    const watcher = await pair("watch");
+    const job = await plotting(operator);
+    const run = await app.plotter.nextRun();
+    expect((await call("/api/v1/state", as(watcher))).status).toBe(200);
+    const events = await EventStream.open(app.url, { Cookie: watcher });
+    await events.find("snapshot");
+    events.close();
+    for (const [method, path] of [
+      ["POST", "/api/v1/jobs?name=b"],
+      ["POST", `/api/v1/jobs/${job.id}/cancel`],
+      ["POST", `/api/v1/jobs/${job.id}/resume`],
+      ["PATCH", `/api/v1/jobs/${job.id}`],
+      ["DELETE", `/api/v1/jobs/${job.id}`],
+      ["POST", `/api/v1/jobs/${job.id}/pause/../cancel`],
+      ["POST", "/api/v1/plotters/virtual/home"],
+      ["GET", "/api/v1/access"],
+      ["POST", "/api/v1/access/keys"],
+    ] as const) {
+      expect([path, (await call(path, as(watcher, { method }))).status]).toEqual([path, 403]);
+    }
+    expect(run.asked).toEqual([]);
+    expect((await call(`/api/v1/jobs/${job.id}/pause`, as(watcher, { method: "POST" }))).status).toBe(200);
+    expect(run.asked).toEqual(["pause"]);
+  });
+
+  it("makes keys for scripts, shows their secret once, and forgets what is revoked at once", async () => {
+    const operator = await pair("operate");
+    const made = await call(
+      "/api/v1/access/keys",
+      as(operator, {
+        method: "POST",
+        body: JSON.stringify({ name: "cron", role: "operate" }),
+        headers: { "Content-Type": "application/json" },
+      }),
+    );
+    const { entry, secret } = (await made.json()) as { entry: unknown; secret: string };
+    const key = accessEntrySchema.parse(entry);
+    const withKey: RequestInit = { headers: { Authorization: `Bearer ${secret}` } };
+    expect((await call("/api/v1/state", withKey)).status).toBe(200);
+    const listed = await (await call("/api/v1/access", as(operator))).text();
+    expect(listed).not.toContain(secret);
+    expect(listed).not.toMatch(/sha256/i);
+    const events = await EventStream.open(app.url, { Authorization: `Bearer ${secret}` });
+    await events.find("snapshot");
+    expect((await call(`/api/v1/access/${key.id}`, as(operator, { method: "DELETE" }))).status).toBe(200);
+    await events.ended;
+    expect((await call("/api/v1/state", withKey)).status).toBe(403);
+    expect((await call("/api/v1/state", as(operator))).status).toBe(200);
+  });
+
+  it("keeps sessions over a restart, as hashes only", async () => {
+    const cookie = await pair("operate");
+    const secret = cookie.split("=")[1] ?? "";
+    const again = new Access(app.store);
+    expect(again.roleOf(secret)).toBe("operate");
+    expect(JSON.stringify(app.store.setting("access"))).not.toContain(secret);
+    expect(again.pairingPath("operate")).not.toBe(app.access.pairingPath("operate"));
+  });
+
+  it("refuses a foreign page even with the browser's cookie in hand, and the plot goes on", async () => {
+    const operator = await pair("operate");
+    const job = await plotting(operator);
+    const run = await app.plotter.nextRun();
+    for (const headers of [
+      { Origin: "https://evil.example" },
+      { Origin: "null" },
+      { "Sec-Fetch-Site": "cross-site" },
+    ] as Record<string, string>[]) {
+      const init = as(operator, { method: "POST", headers });
+      expect((await call(`/api/v1/jobs/${job.id}/cancel`, init)).status).toBe(403);
+    }
+    expect(run.asked).toEqual([]);
+    expect(app.queue.get(job.id).state).toBe("plotting");
+  });
+
+  it("gives names and drawings back as data only, whatever is in them", async () => {
+    const operator = await pair("operate");
+    const evil = '<img src=x onerror=alert(1)>"</script>';
+    const body = JSON.stringify({
+      name: evil,
+      drawing: `<svg onload="alert(1)">${SVG}</svg>`,
+      settings: DEFAULT_PLOT_SETTINGS,
+    });
+    const headers = { "Content-Type": "application/json" };
+    const added = await call("/api/v1/jobs", as(operator, { method: "POST", body, headers }));
+    const { id, name } = jobSchema.parse(await added.json());
+    expect(name).toBe(evil);
+    const drawing = await call(`/api/v1/jobs/${id}/drawing`, as(operator));
+    expect(drawing.headers.get("content-type")).toMatch(/^text\/plain/);
+    expect(drawing.headers.get("content-disposition")).toMatch(/^attachment/);
+    expect(drawing.headers.get("x-content-type-options")).toBe("nosniff");
+    const state = await call("/api/v1/state", as(operator));
+    expect(state.headers.get("content-type")).toMatch(/^application\/json/);
+  });
+
+  it("has enough of an address that guesses pairing links", async () => {
+    const answers: number[] = [];
+    for (let guess = 0; guess < 13; guess++) answers.push((await call(`/pair?token=guess${guess}`)).status);
+    expect(answers.slice(0, 10)).toEqual(Array(10).fill(403));
+    expect(answers.slice(10)).toEqual([429, 429, 429]);
+    expect((await call(app.access.pairingPath("operate"))).status).toBe(429);
+  });
+});
