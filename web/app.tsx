@@ -1,5 +1,6 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "./panels/drawing.js";
+import { FillPanel } from "./panels/fill.js";
 import { LayersPanel } from "./panels/layers.js";
 import { LinesPanel } from "./panels/lines.js";
 import { MachinePanel } from "./panels/machine.js";
@@ -39,6 +40,7 @@ export const App = () => {
           <LayersPanel />
           <MotionPanel />
           <PenPanel />
+          <FillPanel />
           <LinesPanel />
         </aside>
         <aside className="column column-run" aria-label={text.tabs.queue}>

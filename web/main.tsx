@@ -9,7 +9,9 @@ import { readRemembered, writeRemembered, type TextStore } from "./state/persist
 import { applyServerEvent } from "./state/server-events.js";
 import { activeJob, createPageStore, type PageStore } from "./state/store.js";
 import { PageContext } from "./state/use-store.js";
+import { text } from "./text/text.js";
 import { ErrorBoundary } from "./ui/error-boundary.js";
+import { saveFile } from "./ui/save-file.js";
 import { Planner } from "./worker/planner.js";
 import "./styles/index.css";
 
@@ -22,7 +24,7 @@ const storage = ((): TextStore | null => {
 })();
 
 /** A new plan has other moments and other places. */
-const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null };
+const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
 
 const remembered = readRemembered(storage);
 const store = createPageStore(remembered);
@@ -36,6 +38,10 @@ const planner = new Planner(
   },
   {
     onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
+    onExported: (format, exported) => {
+      const name = store.getState().drawing?.name ?? text.appName;
+      saveFile(`${name}.${format}`, exported, format === "svg" ? "image/svg+xml" : "application/json");
+    },
     onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT }),
   },
 );

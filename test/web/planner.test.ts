@@ -1,19 +1,27 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE } from "../../src/index.js";
 import { Planner, type WorkerLike } from "../../web/worker/planner.js";
-import type { PlanFault, Planned, WorkerReply, WorkerRequest } from "../../web/worker/protocol.js";
+import type {
+  PlanFault,
+  Planned,
+  PlanRequest,
+  WorkerReply,
+  WorkerRequest,
+} from "../../web/worker/protocol.js";
 
 const settings = { prepare: DEFAULT_PREPARE, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {
-  readonly asked: WorkerRequest[] = [];
+  readonly asked: PlanRequest[] = [];
+  readonly exports: string[] = [];
   isEnded = false;
   onmessage: ((event: MessageEvent<WorkerReply>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
 
   postMessage(message: WorkerRequest): void {
-    this.asked.push(message);
+    if (message.type === "plan") this.asked.push(message);
+    else this.exports.push(message.format);
   }
   terminate(): void {
     this.isEnded = true;
@@ -44,6 +52,7 @@ const setUp = () => {
     },
     {
       onPlanned: (result) => heard.push(result.drawingKey),
+      onExported: (format, text) => heard.push(`${format} ${text}`),
       onFault: (fault: PlanFault) => heard.push(`fault ${fault.message}`),
     },
   );
@@ -96,6 +105,15 @@ describe("the planner", () => {
     worker().reply({ type: "started", id: asked().id });
     runTimers();
     expect(workers).toHaveLength(1);
+  });
+
+  it("asks for the prepared drawing as text, and hands it on", () => {
+    const { planner, worker, heard } = setUp();
+    planner.request({ key: "a", text: "a" }, settings);
+    planner.export("svg");
+    expect(worker().exports).toEqual(["svg"]);
+    worker().reply({ type: "exported", format: "svg", text: "<svg/>" });
+    expect(heard).toEqual(["svg <svg/>"]);
   });
 
   it("says that the worker died, and starts another for the next request", () => {

@@ -114,7 +114,9 @@ describe("the scene", () => {
     for (let i = 2; i < wave.length; i += 2) {
       expectedMm += Math.hypot(wave[i]! - wave[i - 2]!, wave[i + 1]! - wave[i - 1]!);
     }
-    expect(drawMm).toBeCloseTo(expectedMm, 1);
+    // Corners are drawn as small curves within the corner tolerance: the way is a hair shorter.
+    expect(drawMm).toBeLessThan(expectedMm + 0.01);
+    expect(drawMm).toBeGreaterThan(expectedMm - 0.5);
   });
 
   it("shows a dot where the pen touches without moving", () => {

@@ -5,7 +5,9 @@ import {
   jobSchema,
   plotterSchema,
   type Job,
+  type JobChange,
   type JobPatch,
+  type MovePlace,
   type NewJob,
   type PenRequest,
   type Plotter,
@@ -25,7 +27,8 @@ export class ApiFault extends Error {
 const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
 const okSchema = z.object({ ok: z.literal(true) });
 
-export type JobAction = "start" | "pause" | "resume" | "cancel" | "requeue";
+export type JobAction =
+  "start" | "pause" | "resume" | "cancel" | "requeue" | "emergency-stop" | "recover" | "check-place";
 type Fetch = (path: string, init?: RequestInit) => Promise<Response>;
 
 export type ApiClient = ReturnType<typeof createApiClient>;
@@ -55,6 +58,9 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     addJob: (newJob: NewJob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
     patchJob: (id: string, patch: JobPatch): Promise<Job> => ask(jobSchema, "PATCH", job(id), patch),
     actOnJob: (id: string, action: JobAction): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/${action}`),
+    changeJob: (id: string, change: JobChange): Promise<Job> =>
+      ask(jobSchema, "POST", `${job(id)}/change`, change),
+    movePlace: (id: string, way: MovePlace): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/place`, way),
     moveJob: (id: string, beforeId: string | null) => ask(okSchema, "POST", `${job(id)}/move`, { beforeId }),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
     jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),

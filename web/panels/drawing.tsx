@@ -1,8 +1,9 @@
 import { useId } from "react";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
+import { EXPORT_FORMATS } from "../worker/protocol.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.drawing;
@@ -24,6 +25,7 @@ export const DrawingPanel = () => {
       <p className="note">{words.chooseHint}</p>
       <Samples />
       <Report />
+      <Exports />
     </SettingsGroup>
   );
 };
@@ -81,12 +83,12 @@ const Samples = () => {
   );
 };
 
+/** What the plot will lack; a note with places is a button that shows them on the paper. */
 const Report = () => {
   const planned = usePageState((state) => state.planned);
-  const notes = planned
-    ? [...planned.fileWarnings.map(({ message }) => message), ...planned.layoutWarnings]
-    : [];
-  if (notes.length === 0) return null;
+  const noteBoxes = usePageState((state) => state.noteBoxes);
+  const store = usePageStore();
+  if (!planned || planned.fileWarnings.length + planned.layoutWarnings.length === 0) return null;
   return (
     <div className="report">
       <h3>
@@ -94,10 +96,47 @@ const Report = () => {
         {text.report.title}
       </h3>
       <ul>
-        {notes.map((note) => (
+        {planned.fileWarnings.map(({ code, message, boxes }) => (
+          <li key={code + message}>
+            {message}
+            {boxes.length > 0 && (
+              <button
+                type="button"
+                className="link"
+                aria-pressed={noteBoxes === boxes}
+                onClick={() => store.setState({ noteBoxes: noteBoxes === boxes ? [] : boxes })}
+              >
+                {text.report.show}
+              </button>
+            )}
+          </li>
+        ))}
+        {planned.layoutWarnings.map((note) => (
           <li key={note}>{note}</li>
         ))}
       </ul>
+    </div>
+  );
+};
+
+const Exports = () => {
+  const canExport = usePageState((state) => (state.planned?.strokeCount ?? 0) > 0);
+  const { exportAs } = useActions();
+  if (!canExport) return null;
+  return (
+    <div className="export-row">
+      <span className="note">{words.save}</span>
+      {EXPORT_FORMATS.map((format) => (
+        <button
+          key={format}
+          type="button"
+          className="button button-small"
+          aria-label={words.saveAs(format.toUpperCase())}
+          onClick={() => exportAs(format)}
+        >
+          {format.toUpperCase()}
+        </button>
+      ))}
     </div>
   );
 };

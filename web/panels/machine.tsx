@@ -1,7 +1,9 @@
+import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
+import { Select } from "../ui/choice.js";
 
 const words = text.machine;
 
@@ -32,7 +34,13 @@ export const MachinePanel = () => {
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterFacts plotter={plotter} />}
+      <ModelSelect />
       <HandControls plotter={plotter} />
+      {plotter && (
+        <a className="link" href={`/api/v1/plotters/${encodeURIComponent(plotter.id)}/log`} download>
+          {words.log}
+        </a>
+      )}
       <p className="note">{words.homeHint}</p>
     </section>
   );
@@ -77,6 +85,19 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
   }
   if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
   return message ? <p className="note">{message}</p> : null;
+};
+
+const ModelSelect = () => {
+  const machine = usePageState((state) => state.settings.machine);
+  const { changeSettings } = useActions();
+  return (
+    <Select
+      label={words.model}
+      value={machine}
+      options={MACHINES.map(({ id, name }) => ({ value: id, label: name }))}
+      onChange={(id) => changeSettings("machine", (settings) => ({ ...settings, machine: id }))}
+    />
+  );
 };
 
 const HandControls = ({ plotter }: { plotter: Plotter | null }) => {

@@ -6,6 +6,7 @@ import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { NumberField } from "../ui/number-field.js";
+import { placeOfFrame } from "../preview/placing.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.paper;
@@ -29,6 +30,8 @@ export const PaperPanel = () => {
   const prepare = usePageState((state) => state.settings.prepare);
   const change = usePrepareChange();
   const { paper, landscape, marginMm, rotateDeg } = prepare;
+  const frame = usePageState((state) => state.planned?.frameMm ?? null);
+  const firstPlace = placeOfFrame(frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100 });
   const name = nameOfPaper(paper);
   const size = landscape
     ? `${formatNumber(paper.heightMm, 1)} × ${formatNumber(paper.widthMm, 1)}`
@@ -59,25 +62,32 @@ export const PaperPanel = () => {
         ]}
         onChange={(value) => change("orientation", { landscape: value === "landscape" })}
       />
-      <NumberField
-        label={words.margin}
-        value={marginMm}
-        unit="mm"
-        min={0}
-        max={Math.floor(Math.min(paper.widthMm, paper.heightMm) / 2) - 1}
-        step={1}
-        slider={[0, 60]}
-        onChange={(value) => change("margin", { marginMm: value })}
-      />
+      {!prepare.margins && (
+        <NumberField
+          label={words.margin}
+          value={marginMm}
+          unit="mm"
+          min={0}
+          max={Math.floor(Math.min(paper.widthMm, paper.heightMm) / 2) - 1}
+          step={1}
+          slider={[0, 60]}
+          onChange={(value) => change("margin", { marginMm: value })}
+        />
+      )}
+      <Margins prepare={prepare} change={change} />
       <Segments
         label={words.placement}
-        value={prepare.fit ? "fit" : "true"}
+        value={prepare.place ? "place" : prepare.fit ? "fit" : "true"}
         options={[
           { value: "fit", label: words.fit },
           { value: "true", label: words.trueSize },
+          { value: "place", label: words.byNumbers },
         ]}
-        onChange={(value) => change("fit", { fit: value === "fit" })}
+        onChange={(value) =>
+          change("fit", value === "place" ? { place: firstPlace } : { fit: value === "fit", place: null })
+        }
       />
+      {prepare.place && <PlaceFields place={prepare.place} change={change} />}
       <div className="field-with-button">
         <NumberField
           label={words.rotate}
@@ -98,6 +108,21 @@ export const PaperPanel = () => {
           <Icon name="again" />
         </button>
       </div>
+      <Segments
+        label={words.mirror}
+        value={prepare.mirror}
+        options={[
+          { value: "none", label: words.mirrors.none },
+          { value: "leftRight", label: words.mirrors.leftRight },
+          { value: "upDown", label: words.mirrors.upDown },
+        ]}
+        onChange={(mirror) => change("mirror", { mirror })}
+      />
+      <Switch
+        label={words.cropToPage}
+        isOn={prepare.cropToPage}
+        onChange={(cropToPage) => change("crop", { cropToPage })}
+      />
       <Switch
         label={words.clip}
         isOn={prepare.clipToMargins}
@@ -134,3 +159,82 @@ const CustomSize = ({ paper, change }: CustomSizeProps) => (
     />
   </div>
 );
+
+interface PartProps {
+  readonly prepare: PrepareSettings;
+  change(what: string, change: Partial<PrepareSettings>): void;
+}
+
+const SIDES = ["topMm", "rightMm", "bottomMm", "leftMm"] as const;
+const SIDE_WORDS = { topMm: words.top, rightMm: words.right, bottomMm: words.bottom, leftMm: words.left };
+
+const Margins = ({ prepare: { margins, marginMm }, change }: PartProps) => (
+  <>
+    <Switch
+      label={words.margins}
+      isOn={margins !== null}
+      onChange={(isOn) =>
+        change("four margins", {
+          margins: isOn ? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm } : null,
+        })
+      }
+    />
+    {margins && (
+      <div className="field-pair">
+        {SIDES.map((side) => (
+          <NumberField
+            key={side}
+            label={SIDE_WORDS[side]}
+            value={margins[side]}
+            unit="mm"
+            min={0}
+            max={1_000}
+            step={1}
+            onChange={(value) => change(`margin ${side}`, { margins: { ...margins, [side]: value } })}
+          />
+        ))}
+      </div>
+    )}
+  </>
+);
+
+interface PlaceFieldsProps {
+  readonly place: NonNullable<PrepareSettings["place"]>;
+  change(what: string, change: Partial<PrepareSettings>): void;
+}
+
+/** Where the drawing stands and how large; its proportions stay, so one of the sizes decides. */
+const PlaceFields = ({ place, change }: PlaceFieldsProps) => {
+  const frame = usePageState((state) => state.planned?.frameMm ?? null);
+  const set = (part: Partial<typeof place>): void =>
+    change(`place ${Object.keys(part).join()}`, { place: { ...place, ...part } });
+  const fields = [
+    ["xMm", words.x, place.xMm, -10_000],
+    ["yMm", words.y, place.yMm, -10_000],
+    ["widthMm", words.width, place.widthMm ?? frame?.widthMm ?? 0, 0.1],
+    ["heightMm", words.height, place.heightMm ?? frame?.heightMm ?? 0, 0.1],
+  ] as const;
+  return (
+    <>
+      <div className="field-pair">
+        {fields.map(([key, label, value, min]) => (
+          <NumberField
+            key={key}
+            label={label}
+            value={value}
+            unit="mm"
+            min={min}
+            max={10_000}
+            step={1}
+            onChange={(mm) => {
+              if (key === "widthMm") set({ widthMm: mm, heightMm: null });
+              else if (key === "heightMm") set({ widthMm: null, heightMm: mm });
+              else set({ [key]: mm });
+            }}
+          />
+        ))}
+      </div>
+      <p className="note">{words.placeHint}</p>
+    </>
+  );
+};

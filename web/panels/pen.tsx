@@ -1,12 +1,18 @@
-import type { PenSettings } from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
+import { Switch } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.pen;
+type PenSettings = PlotSettings["pen"];
+
+/** What the refinements begin with when they are switched on. */
+const FIRST_DROP_PCT_PER_S = 60;
+const FIRST_HOP = { longestMm: 3, heightShare: 0.4 };
 
 export const PenPanel = () => {
   const pen = usePageState((state) => state.settings.pen);
@@ -57,9 +63,73 @@ export const PenPanel = () => {
           onChange={(dropMs) => change({ dropMs })}
         />
       </div>
+      <Gentle pen={pen} change={change} />
+      <Hop pen={pen} change={change} />
     </SettingsGroup>
   );
 };
+
+interface RefinementProps {
+  readonly pen: PenSettings;
+  change(part: Partial<PenSettings>): void;
+}
+
+const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
+  <>
+    <Switch
+      label={words.gentle}
+      isOn={Boolean(dropPctPerS)}
+      onChange={(isOn) => change({ dropPctPerS: isOn ? FIRST_DROP_PCT_PER_S : null })}
+    />
+    {dropPctPerS && (
+      <NumberField
+        label={words.gentleRate}
+        value={dropPctPerS}
+        unit="%/s"
+        min={1}
+        max={10_000}
+        step={5}
+        slider={[10, 400]}
+        onChange={(rate) => change({ dropPctPerS: rate })}
+      />
+    )}
+  </>
+);
+
+const Hop = ({ pen: { hop, upPct, downPct }, change }: RefinementProps) => (
+  <>
+    <Switch
+      label={words.hop}
+      isOn={Boolean(hop)}
+      onChange={(isOn) => {
+        const firstPct = Math.round(downPct + (upPct - downPct) * FIRST_HOP.heightShare);
+        change({ hop: isOn ? { longestMm: FIRST_HOP.longestMm, upPct: firstPct } : null });
+      }}
+    />
+    {hop && (
+      <div className="field-pair">
+        <NumberField
+          label={words.hopLongest}
+          value={hop.longestMm}
+          unit="mm"
+          min={0.1}
+          max={1_000}
+          step={0.5}
+          onChange={(longestMm) => change({ hop: { ...hop, longestMm } })}
+        />
+        <NumberField
+          label={words.hopHeight}
+          value={hop.upPct}
+          unit="%"
+          min={0}
+          max={100}
+          step={1}
+          onChange={(hopPct) => change({ hop: { ...hop, upPct: hopPct } })}
+        />
+      </div>
+    )}
+  </>
+);
 
 interface HeightFieldProps {
   readonly label: string;

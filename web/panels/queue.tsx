@@ -1,12 +1,11 @@
-import { useState } from "react";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
-import type { JobAction } from "../api/client.js";
 import { ACTIVE_STATES, activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
-import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
-import { useNow } from "../ui/use-now.js";
+import { formatDuration } from "../ui/format.js";
 import { Icon, type IconName } from "../ui/icon.js";
+import { ActiveJob } from "./active-job.js";
+import { JobHead } from "./job-head.js";
 
 const words = text.queue;
 const SHOWN_HISTORY = 20;
@@ -37,72 +36,6 @@ export const QueuePanel = () => {
     </section>
   );
 };
-
-const ActiveJob = ({ job }: { job: Job }) => {
-  const { actOnJob } = useActions();
-  const busy = usePageState((state) => state.busyAction);
-  const [isAsking, setAsking] = useState(false);
-  const act = (action: JobAction): void => void actOnJob(job.id, action);
-  const isPaused = job.state === "paused";
-  const nowMs = useNow();
-  return (
-    <article className="job job-active" data-state={job.state}>
-      <JobHead job={job} />
-      <Progress job={job} />
-      <p className="job-line">
-        <span className="big-figure">{formatPercent(job.progress)}</span>
-        {job.remainingS !== null && (
-          <span>
-            {words.left(formatDuration(job.remainingS))}
-            {!isPaused && `, ${words.doneAt(formatClockIn(nowMs, job.remainingS))}`}
-          </span>
-        )}
-      </p>
-      {job.message && <p className="note">{job.message}</p>}
-      {isAsking ? (
-        <div className="ask" role="alertdialog" aria-label={words.cancel}>
-          <p>{words.confirmCancel(job.name)}</p>
-          <div className="button-row">
-            <button type="button" className="button button-danger" onClick={() => act("cancel")}>
-              {words.cancel}
-            </button>
-            <button type="button" className="button" onClick={() => setAsking(false)}>
-              {words.keepPlotting}
-            </button>
-          </div>
-        </div>
-      ) : (
-        <div className="button-row">
-          <button
-            type="button"
-            className="button"
-            disabled={busy === `pause ${job.id}`}
-            onClick={() => act(isPaused ? "resume" : "pause")}
-          >
-            <Icon name={isPaused ? "play" : "pause"} />
-            {isPaused ? words.resume : words.pause}
-          </button>
-          <button type="button" className="button" onClick={() => setAsking(true)}>
-            {words.cancel}
-          </button>
-        </div>
-      )}
-    </article>
-  );
-};
-
-const Progress = ({ job }: { job: Job }) => (
-  <div
-    className="progress"
-    role="progressbar"
-    aria-label={words.progress(job.name)}
-    aria-valuemin={0}
-    aria-valuemax={100}
-    aria-valuenow={Math.floor(job.progress * 100 + 1e-9)}
-  >
-    <span style={{ width: `${Math.min(1, job.progress) * 100}%` }} />
-  </div>
-);
 
 const WaitingJob = ({ job, queue }: { job: Job; queue: readonly Job[] }) => {
   const { actOnJob, moveJob, removeJob } = useActions();
@@ -180,25 +113,6 @@ export const HistoryPanel = () => {
         ))}
       </ul>
     </section>
-  );
-};
-
-const JobHead = ({ job }: { job: Job }) => {
-  const { openJob } = useActions();
-  return (
-    <header className="job-head">
-      <button
-        type="button"
-        className="job-name"
-        title={words.openNamed(job.name)}
-        onClick={() => void openJob(job)}
-      >
-        {job.name}
-      </button>
-      <span className="badge" data-state={job.state}>
-        {words.states[job.state]}
-      </span>
-    </header>
   );
 };
 

@@ -1,4 +1,5 @@
 /** The desk under the strokes: paper with its shadow, a quiet grid, the margins, the machine's reach. */
+import type { FourMargins } from "../../src/index.js";
 import { rulerStepMm, type Size, type View } from "./view.js";
 
 export interface DeskColors {
@@ -16,7 +17,7 @@ export interface DeskColors {
 
 export interface Desk {
   readonly paperMm: Size;
-  readonly marginMm: number;
+  readonly margins: FourMargins;
   /** How far the machine reaches from the paper's corner; null where it is not known. */
   readonly reachMm: Size | null;
 }
@@ -110,14 +111,14 @@ const drawGrid = (context: CanvasRenderingContext2D, view: View, paper: Size, co
 };
 
 const drawMargin = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
-  const m = desk.marginMm * view.scale;
-  const width = desk.paperMm.width * view.scale - 2 * m;
-  const height = desk.paperMm.height * view.scale - 2 * m;
-  if (m <= 0 || width <= 0 || height <= 0) return;
+  const { topMm, rightMm, bottomMm, leftMm } = desk.margins;
+  const width = (desk.paperMm.width - leftMm - rightMm) * view.scale;
+  const height = (desk.paperMm.height - topMm - bottomMm) * view.scale;
+  if (topMm + rightMm + bottomMm + leftMm <= 0 || width <= 0 || height <= 0) return;
   context.strokeStyle = colors.margin;
   context.lineWidth = 1;
   context.setLineDash([4, 4]);
-  context.strokeRect(view.offsetX + m, view.offsetY + m, width, height);
+  context.strokeRect(view.offsetX + leftMm * view.scale, view.offsetY + topMm * view.scale, width, height);
   context.setLineDash([]);
 };
 

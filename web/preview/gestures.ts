@@ -7,6 +7,8 @@ export interface GestureTarget {
   fit(): void;
   /** The pointer rests at (x, y) CSS px of the element, or has left (null). */
   hover(at: { x: number; y: number } | null): void;
+  /** Something under (x, y) that a drag moves: gets the way from there, px. Null: the drag pans. */
+  grab(at: { x: number; y: number }): ((dxPx: number, dyPx: number) => void) | null;
   /** A press without a drag. */
   tap(at: { x: number; y: number }): void;
 }
@@ -19,6 +21,7 @@ const TAP_PX = 5;
 export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
   const pointers = new Map<number, { x: number; y: number }>();
   let travelled = 0;
+  let held: { readonly from: Point; readonly drag: (dxPx: number, dyPx: number) => void } | null = null;
 
   const placeOf = (event: MouseEvent): { x: number; y: number } => {
     const box = element.getBoundingClientRect();
@@ -28,8 +31,13 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   const onDown = (event: PointerEvent): void => {
     if (event.button > 1) return;
     element.setPointerCapture(event.pointerId);
-    if (pointers.size === 0) travelled = 0;
-    pointers.set(event.pointerId, placeOf(event));
+    const at = placeOf(event);
+    if (pointers.size === 0) {
+      travelled = 0;
+      const drag = target.grab(at);
+      held = drag && { from: at, drag };
+    } else held = null;
+    pointers.set(event.pointerId, at);
   };
 
   const onMove = (event: PointerEvent): void => {
@@ -43,12 +51,14 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     pointers.set(event.pointerId, now);
     if (other) target.setView(pinched(target.view(), before, now, other));
+    else if (held && travelled > TAP_PX) held.drag(now.x - held.from.x, now.y - held.from.y);
     else if (travelled > TAP_PX) target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
   };
 
   const onUp = (event: PointerEvent): void => {
     if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") target.tap(placeOf(event));
     pointers.delete(event.pointerId);
+    held = null;
   };
 
   const onWheel = (event: WheelEvent): void => {

@@ -1,7 +1,7 @@
 import { useEffect, useRef, type RefObject } from "react";
-import { stateAt, type StrokeLayer } from "../../src/index.js";
+import { MACHINES, stateAt, type StrokeLayer } from "../../src/index.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { layerColor } from "./color-map.js";
 import type { Desk } from "./backdrop.js";
@@ -9,6 +9,7 @@ import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "./hover.js";
 import { HoverTip } from "./hover-tip.js";
+import { grabFrame, painterOf } from "./frame.js";
 import { Legend } from "./legend.js";
 import type { Marker } from "./overlay.js";
 import { PreviewTools } from "./preview-tools.js";
@@ -48,6 +49,7 @@ const useStage = (
   overlay: RefObject<HTMLCanvasElement | null>,
 ): RefObject<Stage | null> => {
   const store = usePageStore();
+  const actions = useActions();
   const stage = useRef<Stage | null>(null);
   useEffect(() => {
     if (!box.current || !desk.current || !strokes.current || !overlay.current) return;
@@ -68,6 +70,7 @@ const useStage = (
       view: () => made.view,
       setView: (view) => made.setView(view),
       fit: () => made.fit(),
+      grab: (at) => grabFrame(made, store, actions, at),
       hover: (at) => pointAt(at),
       tap: (at) => pointAt(at),
     });
@@ -82,14 +85,14 @@ const useStage = (
       made.close();
       stage.current = null;
     };
-  }, [store, box, desk, strokes, overlay]);
+  }, [store, actions, box, desk, strokes, overlay]);
   return stage;
 };
 
 const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     if (state.planned !== before?.planned) stage.setScene(state.planned?.scene ?? null);
-    if (state.settings.prepare !== before?.settings.prepare) stage.setDesk(deskOf(state));
+    if (state.settings !== before?.settings) stage.setDesk(deskOf(state));
     if (
       state.view !== before?.view ||
       state.planned !== before?.planned ||
@@ -101,6 +104,13 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
     stage.setMarker(markerOf(state));
+    if (
+      state.planned !== before?.planned ||
+      state.settings !== before?.settings ||
+      state.noteBoxes !== before?.noteBoxes
+    ) {
+      stage.setPainter(painterOf(state));
+    }
   };
   show(store.getState(), null);
   return store.subscribe(show);
@@ -113,12 +123,16 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: nu
   return hoverAt(planned, at, stage.view.scale);
 };
 
-const deskOf = ({ settings: { prepare } }: PageState): Desk => {
-  const { widthMm, heightMm } = prepare.paper;
+const deskOf = ({ settings }: PageState): Desk => {
+  const { prepare } = settings;
+  const long = Math.max(prepare.paper.widthMm, prepare.paper.heightMm);
+  const short = Math.min(prepare.paper.widthMm, prepare.paper.heightMm);
+  const machine = MACHINES.find(({ id }) => id === settings.machine);
+  const all = prepare.marginMm;
   return {
-    paperMm: prepare.landscape ? { width: heightMm, height: widthMm } : { width: widthMm, height: heightMm },
-    marginMm: prepare.marginMm,
-    reachMm: null,
+    paperMm: prepare.landscape ? { width: long, height: short } : { width: short, height: long },
+    margins: prepare.margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all },
+    reachMm: machine ? { width: machine.widthMm, height: machine.heightMm } : null,
   };
 };
 

@@ -23,6 +23,8 @@ export interface StageCanvases {
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
+/** The legend and the tools lie here. */
+const BELOW_PX = 54;
 const MAX_RATIO = 2;
 
 export class Stage {
@@ -155,7 +157,7 @@ export class Stage {
       top: RULER_PX + INSET_PX,
       left: RULER_PX + INSET_PX,
       right: INSET_PX,
-      bottom: INSET_PX + 14,
+      bottom: INSET_PX + BELOW_PX,
     };
     this.#view = fitView(this.#desk.paperMm, this.#size, insets);
   }

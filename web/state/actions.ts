@@ -1,8 +1,9 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import type { JobAction, ApiClient } from "../api/client.js";
-import type { Job, PlotSettings } from "../../src/schema/index.js";
+import type { Job, JobChange, MovePlace, PlotSettings } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
+import type { ExportFormat } from "../worker/protocol.js";
 import type { ViewSettings } from "./persist.js";
 import { currentPlotter, type Notice, type PageStore } from "./store.js";
 
@@ -16,7 +17,7 @@ const INFO_MS = 5_000;
 export interface ActionDeps {
   readonly store: PageStore;
   readonly api: ApiClient;
-  readonly planner: Pick<Planner, "request">;
+  readonly planner: Pick<Planner, "request" | "export">;
   nowMs(): number;
   after(delayMs: number, callback: () => void): void;
 }
@@ -159,6 +160,8 @@ export const createActions = (deps: ActionDeps) => {
       }
     },
     actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => api.actOnJob(id, action)),
+    changeJob: (id: string, change: JobChange) => attempt(`change ${id}`, () => api.changeJob(id, change)),
+    movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => api.movePlace(id, way)),
     moveJob: (id: string, beforeId: string | null) => attempt(`move ${id}`, () => api.moveJob(id, beforeId)),
     removeJob: (id: string) => attempt(`remove ${id}`, () => api.removeJob(id)),
     movePen: async (up: boolean, heightPct?: number): Promise<void> => {
@@ -174,6 +177,7 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => api.home(id));
     },
+    exportAs: (format: ExportFormat): void => planner.export(format),
     loadSamples: async (): Promise<void> => {
       const samples = await attempt("samples", () => api.samples());
       if (samples) store.setState({ samples });

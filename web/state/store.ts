@@ -53,6 +53,8 @@ export interface PageState {
   readonly isPlaying: boolean;
   readonly playRate: number;
   readonly hover: Hover | null;
+  /** Places on the file's page that a note of the report is about, while it is shown; mm x0 y0 x1 y1. */
+  readonly noteBoxes: readonly (readonly [number, number, number, number])[];
 
   readonly link: ServerLink;
   readonly version: string | null;
@@ -81,6 +83,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     isPlaying: false,
     playRate: 10,
     hover: null,
+    noteBoxes: [],
     link: "connecting",
     version: null,
     plotters: [],
@@ -98,10 +101,15 @@ export type PageStore = ReturnType<typeof createPageStore>;
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
-export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused"];
+/** States in which a job has the plotter, or waits to have it back. */
+export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused", "interrupted"];
 
 /** The job that the current plotter is at, if any. */
 export const activeJob = (state: PageState): Job | null => {
   const plotterId = currentPlotter(state)?.id;
-  return state.jobs.find((job) => ACTIVE_STATES.includes(job.state) && job.plotterId === plotterId) ?? null;
+  return (
+    state.jobs.find(
+      (job) => (job.state === "plotting" || job.state === "paused") && job.plotterId === plotterId,
+    ) ?? null
+  );
 };

@@ -7,16 +7,29 @@
  */
 import {
   importSvg,
+  placeDrawing,
   plan,
   pointCount,
   prepare,
   strokeCount,
+  toJson,
+  toSvg,
   trajectoryStats,
   type Drawing,
+  type Placement,
+  type Prepared,
   type Trajectory,
 } from "../../src/index.js";
 import { buildScene } from "../preview/scene.js";
-import type { Planned, PlanFault, PlanRequest, WorkerReply, WorkerRequest } from "./protocol.js";
+import type { FrameMm } from "../preview/placing.js";
+import type {
+  ExportFormat,
+  Planned,
+  PlanFault,
+  PlanRequest,
+  WorkerReply,
+  WorkerRequest,
+} from "./protocol.js";
 
 interface WorkerScope {
   onmessage: ((event: MessageEvent<WorkerRequest>) => void) | null;
@@ -29,9 +42,10 @@ let isRunning = false;
 /** The last text that came, until it has been read. */
 let received: { key: string; text: string } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
-let prepared: { key: string; result: ReturnType<typeof prepare> } | null = null;
+let prepared: { key: string; result: Prepared; placement: Placement } | null = null;
 
 scope.onmessage = (event) => {
+  if (event.data.type === "export") return exportAs(event.data.format);
   newest = event.data;
   if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
   if (!isRunning) void run();
@@ -59,7 +73,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
-    const ready = preparedOf(drawingKey, drawing, request);
+    const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
     const trajectory = plan(ready.strokes, settings.motion, settings.pen);
@@ -72,6 +86,8 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       settings,
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
+      pageToPaper: placement.map,
+      frameMm: frameOf(placement),
       layers: ready.layers,
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
@@ -99,10 +115,35 @@ function drawingOf({ drawingKey }: PlanRequest): Drawing {
   return imported.drawing;
 }
 
-function preparedOf(drawingKey: string, drawing: Drawing, request: PlanRequest): ReturnType<typeof prepare> {
-  const key = `${drawingKey} ${JSON.stringify(request.settings.prepare)}`;
-  if (prepared?.key !== key) prepared = { key, result: prepare(drawing, request.settings.prepare) };
-  return prepared.result;
+function preparedOf(
+  drawingKey: string,
+  drawing: Drawing,
+  { settings }: PlanRequest,
+): NonNullable<typeof prepared> {
+  const key = `${drawingKey} ${JSON.stringify(settings.prepare)}`;
+  if (prepared?.key !== key) {
+    const result = prepare(drawing, settings.prepare, { nowS: () => performance.now() / 1_000 });
+    prepared = { key, result, placement: placeDrawing(drawing, settings.prepare) };
+  }
+  return prepared;
+}
+
+const frameOf = ({ shapeBoxes }: Placement): FrameMm | null => {
+  const x0 = shapeBoxes.reduce((least, box) => Math.min(least, box.x0), Infinity);
+  const y0 = shapeBoxes.reduce((least, box) => Math.min(least, box.y0), Infinity);
+  const x1 = shapeBoxes.reduce((most, box) => Math.max(most, box.x1), -Infinity);
+  const y1 = shapeBoxes.reduce((most, box) => Math.max(most, box.y1), -Infinity);
+  return x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 } : null;
+};
+
+function exportAs(format: ExportFormat): void {
+  if (!prepared) return;
+  const { strokes, paperWidthMm: widthMm, paperHeightMm: heightMm } = prepared.result;
+  const text =
+    format === "svg"
+      ? toSvg(strokes, { widthMm, heightMm })
+      : JSON.stringify(toJson(strokes, { widthMm, heightMm }));
+  scope.postMessage({ type: "exported", format, text }, []);
 }
 
 /** Lets waiting messages in, then tells whether one of them is a newer request. */

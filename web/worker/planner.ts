@@ -5,7 +5,14 @@
  * turned to the new one PATIENCE_MS later is ended and started afresh, so that a huge drawing that was
  * dropped by mistake never stands in the way of the next one.
  */
-import type { PlanFault, Planned, PlanSettings, WorkerReply, WorkerRequest } from "./protocol.js";
+import type {
+  ExportFormat,
+  PlanFault,
+  Planned,
+  PlanSettings,
+  WorkerReply,
+  WorkerRequest,
+} from "./protocol.js";
 
 const PATIENCE_MS = 1_500;
 
@@ -24,6 +31,7 @@ export interface PlannerTimer {
 export interface PlannerListener {
   onPlanned(planned: Planned): void;
   onFault(fault: PlanFault): void;
+  onExported(format: ExportFormat, text: string): void;
 }
 
 export interface PlannerDrawing {
@@ -56,6 +64,11 @@ export class Planner {
     if (this.#isBusy) this.#stopWaiting ??= this.#timer.after(PATIENCE_MS, () => this.#restart());
     this.#newestId++;
     this.#send(drawing, settings);
+  }
+
+  /** Asks for the prepared drawing as text; `onExported` brings it. */
+  export(format: ExportFormat): void {
+    this.#worker?.postMessage({ type: "export", format });
   }
 
   /** Ends the worker. */
@@ -92,6 +105,7 @@ export class Planner {
   }
 
   #take(reply: WorkerReply): void {
+    if (reply.type === "exported") return this.#listener.onExported(reply.format, reply.text);
     if (reply.id !== this.#newestId) return;
     this.#stopWaiting?.();
     this.#stopWaiting = null;

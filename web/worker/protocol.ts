@@ -3,12 +3,14 @@ import type {
   DrawingWarning,
   MotionSettings,
   PenSettings,
+  Placement,
   PreparedLayer,
   PrepareSettings,
   StrokeLayer,
   Trajectory,
   TrajectoryStats,
 } from "../../src/index.js";
+import type { FrameMm } from "../preview/placing.js";
 import type { Scene } from "../preview/scene.js";
 
 export interface PlanSettings {
@@ -26,7 +28,16 @@ export interface PlanRequest {
   readonly settings: PlanSettings;
 }
 
-export type WorkerRequest = PlanRequest;
+/** The prepared drawing as text, for saving: of the plan that was answered last. */
+export interface ExportRequest {
+  readonly type: "export";
+  readonly format: ExportFormat;
+}
+
+export const EXPORT_FORMATS = ["svg", "json"] as const;
+export type ExportFormat = (typeof EXPORT_FORMATS)[number];
+
+export type WorkerRequest = PlanRequest | ExportRequest;
 
 /** Everything the page shows of one drawing under one set of settings. */
 export interface Planned {
@@ -34,6 +45,10 @@ export interface Planned {
   readonly settings: PlanSettings;
   readonly pageWidthMm: number;
   readonly pageHeightMm: number;
+  /** From the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
+  readonly pageToPaper: Placement["map"];
+  /** The drawing's own box on the paper, before anything is cut off; null for an empty drawing. */
+  readonly frameMm: FrameMm | null;
   /** All of the file's, switched-off ones too. */
   readonly layers: readonly PreparedLayer[];
   /** Names and colours of the layers that piece and stroke indices mean. */
@@ -66,4 +81,5 @@ export interface PlanFault {
 export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
   | { readonly type: "planned"; readonly id: number; readonly planned: Planned }
+  | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
