@@ -123,7 +123,7 @@ async function session(
 async function pictureForReadme(browser: Browser): Promise<void> {
   const data = temporaryFolder("screenshots");
   const server = await startServerProcess({ dataDir: data.path });
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  const page = await browser.newPage({ viewport: { width: 1240, height: 780 }, colorScheme: "light" });
   try {
     await page.goto(server.url);
     await waitForPlan(page);
