@@ -18,6 +18,7 @@ const FORMAT_OF_ENDING: Readonly<Record<string, DrawingFormat>> = {
   plt: "hpgl",
   json: "json",
 };
+const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/;
 const HPGL_START =
   /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
 const HEAD_CHARS = 4096;
@@ -29,7 +30,7 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
   if (head.startsWith("{") || head.startsWith("[")) return "json";
   if (/^(AutoCAD Binary DXF|0\s*\r?\n\s*SECTION|999\s*\r?\n)/.test(head)) return "dxf";
   // Escape sequences may set up the port before the first command.
-  const commands = head.replace(/^(\u001b[^;A-Z]*[;A-Z:(@]?)+/, "");
+  const commands = head.replace(PORT_SET_UP, "");
   if (HPGL_START.test(commands)) return "hpgl";
   const ending = /\.([a-z]+)$/i.exec(name)?.[1].toLowerCase() ?? "";
   return FORMAT_OF_ENDING[ending] ?? null;

@@ -15,6 +15,8 @@ import { DrawingBuilder } from "./drawing-builder.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
 import { SvgClips } from "./svg-clips.js";
+import { singleStrokeFont } from "./single-stroke-font.js";
+import type { TextFont } from "./text-font.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
 import { SvgGeometry } from "./svg-geometry.js";
 import { planLayers } from "./svg-layers.js";
@@ -25,12 +27,26 @@ import { SvgWalk } from "./svg-walk.js";
 import { computeStyle, declaredValue, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "./warnings.js";
 
+export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
+export type TextMode = (typeof TEXT_MODES)[number];
+
 export interface ImportOptions {
   /** What a px, and a number without unit, is worth: 96 by CSS; 72 or 90 in files of some programs. */
   readonly pxPerInch?: number;
+  /**
+   * How text is drawn: in the built-in single-stroke letters (default), as outlines of `font`,
+   * or not at all. Outlines without a font fall back to single strokes.
+   */
+  readonly text?: TextMode;
+  /** From `openOutlineFont`, for outlines. */
+  readonly font?: TextFont;
   /** For `switch` and `systemLanguage`, best first. Default: English. */
   readonly languages?: readonly string[];
 }
+
+/** What draws the text; null for none. */
+const fontOf = ({ text = "single-stroke", font }: ImportOptions): TextFont | null =>
+  text === "none" ? null : text === "outline" && font !== undefined ? font : singleStrokeFont;
 
 /** Lets others run between steps: resolves when it is this work's turn again. */
 export type Pause = () => Promise<void>;
@@ -95,7 +111,7 @@ function* draw(
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
   const clips = new SvgClips(tree, cascade, geometry, warnings);
   const servers = new SvgPaintServers(tree, cascade);
-  const painter = new SvgPainter(tree, geometry, servers, builder, warnings);
+  const painter = new SvgPainter(tree, geometry, servers, builder, warnings, cascade, fontOf(options));
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, languages);
   if (isShown(context.style, root)) yield* walk.run(context);

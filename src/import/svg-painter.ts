@@ -1,14 +1,18 @@
 /** One leaf element to one shape of the drawing: geometry, paints, dashes. */
-import { meanScale } from "../geometry/affine.js";
+import { compose, meanScale, rotation, scaling, translation } from "../geometry/affine.js";
+import type { Box } from "../geometry/box.js";
 import type { DashPattern } from "../drawing/drawing.js";
 import { MM_PER_PX } from "../units.js";
-import type { Declared } from "./cascade.js";
+import type { Cascade, Declared } from "./cascade.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
 import { lengthPx } from "./length.js";
+import { drawPathData } from "./path-data.js";
 import { polylineLength } from "./shape-length.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
+import { placeText, type PlacedLetter } from "./svg-text.js";
+import type { TextFont } from "./text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "./warnings.js";
@@ -20,6 +24,9 @@ export class SvgPainter {
     private readonly servers: SvgPaintServers,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
+    private readonly cascade: Cascade,
+    /** What text is drawn with; null where it is only to be reported. */
+    private readonly font: TextFont | null,
   ) {}
 
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
@@ -43,17 +50,60 @@ export class SvgPainter {
     );
   }
 
+  /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */
   drawText(element: number, context: Context): void {
-    if (!context.style.isVisible) return;
-    const number = (name: string): number => {
-      const first = (attribute(this.tree, element, name) ?? "0").trim().split(/[\s,]+/)[0];
-      return lengthPx(first, context.basis, name === "x" ? "width" : "height") ?? 0;
+    const { builder, warnings } = this;
+    if (this.font === null) {
+      if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
+      return;
+    }
+    const text = placeText(this.tree, this.cascade, element, context.style, context.basis, this.font);
+    const firstShape = builder.shapeCount;
+    for (const letter of text.letters) this.drawLetter(letter, element, context);
+    const isDrawn = builder.shapeCount > firstShape;
+    const box = isDrawn
+      ? builder.boxOfShapes(firstShape, builder.shapeCount)
+      : this.geometry.placeOf(context, text.x, text.y, 0, 0);
+    if (isDrawn && this.font.kind === "single-stroke") warnings.add("text-substituted", box);
+    for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
+    if (text.unsupported.length > 0) {
+      warnings.add("text-not-drawn", box, undefined, text.unsupported.length);
+    }
+  }
+
+  private drawLetter(letter: PlacedLetter, element: number, context: Context): void {
+    const { style } = letter;
+    if (!style.isVisible) return;
+    const { shape } = this.geometry;
+    shape.clear();
+    drawPathData(shape, letter.path, 1);
+    shape.finish();
+    if (shape.isEmpty) return;
+    const own = { ...context, style };
+    const turned = compose(translation(letter.x, letter.y), rotation(letter.angle));
+    const map = compose(context.map, compose(turned, scaling(style.fontSize)));
+    const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "gradient-stroke");
+    const fill = this.colorOf(style.fill, style.fillOpacity, own, "gradient-fill");
+    if (stroke === null && fill === null) return;
+    const isOutline = this.font?.kind === "outline";
+    const look: Look = {
+      // A single stroke has no inside: what would fill the letter colours its line.
+      stroke: isOutline ? stroke : (stroke ?? fill),
+      fill: isOutline ? fill : null,
+      evenOdd: false,
+      strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
+      dash: null,
     };
-    const size = context.style.fontSize;
-    this.warnings.add(
-      "text-not-drawn",
-      this.geometry.placeOf(context, number("x"), number("y") - size, size, size),
-    );
+    this.builder.addShape(shape, map, look, context.group, context.clip, this.geometry.whereOf(element));
+  }
+
+  private roughPlaceOf(element: number, context: Context): Box {
+    const { fontSize } = context.style;
+    const first = (name: "x" | "y"): number => {
+      const text = (attribute(this.tree, element, name) ?? "0").trim().split(/[\s,]+/)[0];
+      return lengthPx(text, context.basis, name === "x" ? "width" : "height") ?? 0;
+    };
+    return this.geometry.placeOf(context, first("x"), first("y") - fontSize, fontSize, fontSize);
   }
 
   /** How the shape is painted; null where it is not painted at all. */

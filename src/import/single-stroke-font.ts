@@ -1,0 +1,188 @@
+/** The built-in letters: Hershey's sans and script, with accents put together from strokes. */
+import { HERSHEY_SANS, HERSHEY_SCRIPT } from "./hershey-data.js";
+import type { LaidOutGlyph, TextFont } from "./text-font.js";
+
+/** Capitals of 21 units are 0.7 em high, as in common fonts. */
+const UNITS_PER_EM = 30;
+const BASELINE = 22;
+const FIRST_CODE = 33;
+const SPACE_UNITS = 16;
+
+interface Letter {
+  readonly lines: readonly (readonly [number, number])[][];
+  readonly advance: number;
+}
+
+/** Strokes above a letter, about x = 0 and y = 0 at the accent's foot; 0327 hangs below. */
+const ACCENTS: Readonly<Record<string, readonly (readonly [number, number])[][]>> = {
+  "\u0300": [
+    [
+      [-3, -4],
+      [1, 0],
+    ],
+  ],
+  "\u0301": [
+    [
+      [3, -4],
+      [-1, 0],
+    ],
+  ],
+  "\u0302": [
+    [
+      [-4, 0],
+      [0, -4],
+      [4, 0],
+    ],
+  ],
+  "\u030c": [
+    [
+      [-4, -4],
+      [0, 0],
+      [4, -4],
+    ],
+  ],
+  "\u0303": [
+    [
+      [-5, -1],
+      [-3, -3],
+      [-1, -3],
+      [1, -1],
+      [3, -1],
+      [5, -3],
+    ],
+  ],
+  "\u0308": [
+    [
+      [-3, -2],
+      [-3, -1],
+    ],
+    [
+      [3, -2],
+      [3, -1],
+    ],
+  ],
+  "\u0307": [
+    [
+      [0, -2],
+      [0, -1],
+    ],
+  ],
+  "\u0304": [
+    [
+      [-4, -2],
+      [4, -2],
+    ],
+  ],
+  "\u030a": [
+    [
+      [0, -5],
+      [2, -3],
+      [0, -1],
+      [-2, -3],
+      [0, -5],
+    ],
+  ],
+  "\u0327": [
+    [
+      [0, 0],
+      [1, 2],
+      [-2, 4],
+    ],
+  ],
+};
+const BELOW = "\u0327";
+/** What stands in for characters outside ASCII. */
+const SUBSTITUTES: Readonly<Record<string, string>> = {
+  "‘": "'",
+  "’": "'",
+  "‚": ",",
+  "“": '"',
+  "”": '"',
+  "„": '"',
+  "–": "-",
+  "—": "-",
+  "−": "-",
+  "…": "...",
+  "×": "x",
+  µ: "u",
+  ß: "ss",
+  æ: "ae",
+  Æ: "AE",
+  œ: "oe",
+  Œ: "OE",
+  ø: "o",
+  Ø: "O",
+  ł: "l",
+  Ł: "L",
+  "·": ".",
+  "•": ".",
+  "«": "<<",
+  "»": ">>",
+  "°": "\u030a",
+  "\u00a0": " ",
+};
+
+export const singleStrokeFont: TextFont = {
+  kind: "single-stroke",
+  layout(text, { family }) {
+    const isScript = /cursive|script|hand|brush/i.test(family);
+    const table = isScript ? HERSHEY_SCRIPT : HERSHEY_SANS;
+    const glyphs: LaidOutGlyph[] = [];
+    const missing: string[] = [];
+    for (const char of text) {
+      const letters = lettersOf(char, table);
+      if (letters === null) missing.push(char);
+      else for (const letter of letters) glyphs.push(glyphOf(letter));
+    }
+    return { glyphs, missing };
+  },
+};
+
+/** The letters for one character of the text; null where there is none. */
+function lettersOf(char: string, table: readonly string[]): Letter[] | null {
+  const plain = SUBSTITUTES[char] ?? char.normalize("NFD");
+  const letters: Letter[] = [];
+  for (const part of plain) {
+    const accent = ACCENTS[part];
+    if (accent !== undefined) {
+      const under = letters.pop() ?? { lines: [], advance: 8 };
+      letters.push(withAccent(under, accent, part === BELOW));
+    } else {
+      const letter = letterOf(part, table);
+      if (letter === null) return null;
+      letters.push(letter);
+    }
+  }
+  return letters;
+}
+
+function letterOf(char: string, table: readonly string[]): Letter | null {
+  if (/^\s$/.test(char)) return { lines: [], advance: SPACE_UNITS };
+  const entry = table[char.charCodeAt(0) - FIRST_CODE];
+  if (char.length !== 1 || entry === undefined) return null;
+  const [advance, ...polylines] = entry.split("|");
+  const lines = polylines
+    .filter((line) => line !== "")
+    .map((line) => line.split(" ").map((point) => point.split(",").map(Number) as [number, number]));
+  return { lines, advance: Number(advance) };
+}
+
+function withAccent(
+  letter: Letter,
+  accent: readonly (readonly [number, number])[][],
+  isBelow: boolean,
+): Letter {
+  const top = Math.min(BASELINE - 14, ...letter.lines.flat().map(([, y]) => y));
+  const footY = isBelow ? BASELINE : top - 3;
+  const middle = letter.advance / 2;
+  const lines = accent.map((line) => line.map(([x, y]) => [x + middle, y + footY] as const));
+  return { ...letter, lines: [...letter.lines, ...lines] };
+}
+
+function glyphOf({ lines, advance }: Letter): LaidOutGlyph {
+  const em = (units: number): number => units / UNITS_PER_EM;
+  const path = lines
+    .map((line) => line.map(([x, y], i) => `${i === 0 ? "M" : "L"}${em(x)} ${em(y - BASELINE)}`).join(""))
+    .join("");
+  return { path, x: 0, y: 0, advance: em(advance) };
+}

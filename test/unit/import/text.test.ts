@@ -1,0 +1,170 @@
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { describe, expect, it } from "vitest";
+import type { Drawing } from "../../../src/drawing/drawing.js";
+import { PlotwrightError } from "../../../src/errors.js";
+import { openOutlineFont } from "../../../src/import/outline-font.js";
+import type { TextFont } from "../../../src/import/text-font.js";
+import { codes, draw, pointsOf, shapesOf } from "./support/shapes.js";
+
+const text = (body: string, attributes = 'x="10" y="50"'): string =>
+  `<text stroke="none" fill="red" font-size="10" ${attributes}>${body}</text>`;
+
+/** x0, y0, x1, y1 of everything drawn. */
+function extent(drawing: Drawing): [number, number, number, number] {
+  const points = Array.from({ length: drawing.paths.count }, (_, i) => pointsOf(drawing, i)).flat();
+  const xs = points.map(([x]) => x);
+  const ys = points.map(([, y]) => y);
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+}
+
+describe("single-stroke letters", () => {
+  it("stand on the baseline, capitals 0.7 em high, as strokes in the text's colour", () => {
+    const drawing = draw(text("H"));
+    const [x0, y0, x1, y1] = extent(drawing);
+    expect([y0, y1]).toEqual([43, 50]);
+    expect(x0).toBeGreaterThan(10);
+    expect(x1).toBeLessThan(18);
+    expect(drawing.colors).toEqual(["#ff0000"]);
+    expect([...drawing.paths.stroke]).toEqual([0]);
+    expect([...drawing.paths.fill]).toEqual([-1]);
+  });
+
+  it("say that they stand in for the file's font, and where", () => {
+    const { warnings } = draw(text("Hi"));
+    expect(warnings.map((warning) => warning.code)).toEqual(["text-substituted"]);
+    expect(warnings[0].boxes[0][0]).toBeGreaterThan(10);
+  });
+
+  it("follow one another by their widths and by letter-spacing", () => {
+    const width = (attributes: string): number => {
+      const [x0, , x1] = extent(draw(text("HH", `x="10" y="50" ${attributes}`)));
+      return x1 - x0;
+    };
+    expect(width('letter-spacing="5"') - width("")).toBeCloseTo(5, 6);
+  });
+
+  it("are anchored at their middle and end", () => {
+    const at = (anchor: string): number =>
+      extent(draw(text("HHH", `x="50" y="50" text-anchor="${anchor}"`)))[0];
+    const start = at("start");
+    expect(start - at("middle")).toBeCloseTo(at("middle") - at("end"), 6);
+    const [x0, , x1] = extent(draw(text("HHH", 'x="50" y="50" text-anchor="middle"')));
+    expect((x0 + x1) / 2).toBeCloseTo(50, 6);
+  });
+
+  it("begin anew at a tspan's place and go on after its shift", () => {
+    const drawing = draw(text('H<tspan x="30" y="70">H</tspan><tspan dy="-10">H</tspan>'));
+    const feet = [0, 1, 2].map((i) => Math.max(...pointsOf(drawing, i).map(([, y]) => y)));
+    expect(feet).toEqual([50, 70, 60]);
+    expect(Math.min(...pointsOf(drawing, 1).map(([x]) => x))).toBeGreaterThan(30);
+  });
+
+  it("take a place each from lists", () => {
+    const drawing = draw(text("HHH", 'x="10 30 60" y="50"'));
+    const lefts = [0, 1, 2].map((i) => Math.min(...pointsOf(drawing, i).map(([x]) => x)));
+    expect(lefts[1] - lefts[0]).toBeCloseTo(20, 6);
+    expect(lefts[2] - lefts[1]).toBeCloseTo(30, 6);
+  });
+
+  it("turn by rotate and by transforms", () => {
+    const [x0, , x1] = extent(draw(text("H", 'x="50" y="50" rotate="90"')));
+    expect([x0, x1]).toEqual([50, 57]);
+    const [, y0, , y1] = extent(draw(text("H", 'transform="scale(2)" x="5" y="25"')));
+    expect(y1 - y0).toBeCloseTo(14, 6);
+  });
+
+  it("obey the style of the span they stand in", () => {
+    const drawing = draw(
+      text('H<tspan fill="blue" font-size="20">H</tspan><tspan visibility="hidden">H</tspan>'),
+    );
+    expect(drawing.colors).toEqual(["#ff0000", "#0000ff"]);
+    expect(drawing.paths.count).toBe(2);
+    const ys = pointsOf(drawing, 1).map(([, y]) => y);
+    expect(Math.max(...ys) - Math.min(...ys)).toBeCloseTo(14, 6);
+  });
+
+  it("take runs of blanks for one, unless they are preserved", () => {
+    const left = (body: string, attributes = ""): number =>
+      Math.min(...pointsOf(draw(text(body, `x="10" y="50" ${attributes}`)), 1).map(([x]) => x));
+    expect(left("H \n\t H")).toBeCloseTo(left("H H"), 9);
+    expect(left("  H H")).toBeCloseTo(left("H H"), 9);
+    expect(left("H  H", 'xml:space="preserve"')).toBeGreaterThan(left("H H") + 3);
+  });
+
+  it("have accents, quotes and dashes", () => {
+    const drawing = draw(text("ÄéçñÅ “–” ß…"));
+    expect(codes(drawing)).toEqual(["text-substituted"]);
+    expect(extent(draw(text("É")))[1]).toBeLessThan(extent(draw(text("E")))[1] - 1);
+  });
+
+  it("name the characters that they have not", () => {
+    const drawing = draw(text("A漢字B"));
+    expect(drawing.paths.count).toBe(2);
+    const missing = drawing.warnings.find((warning) => warning.code === "glyphs-missing");
+    expect(missing?.count).toBe(2);
+    expect(missing?.message).toContain("漢");
+  });
+
+  it("are in script where the font is", () => {
+    expect(shapesOf(draw(text("a", 'x="10" y="50" font-family="Brush Script"')))).not.toEqual(
+      shapesOf(draw(text("a"))),
+    );
+  });
+
+  it("have every printable character of ASCII", () => {
+    const all = Array.from({ length: 94 }, (_, i) => `&#${33 + i};`).join("");
+    const drawing = draw(text(all, 'x="0" y="50"'));
+    expect(drawing.paths.count).toBe(94);
+    expect(codes(drawing)).toEqual(["text-substituted"]);
+  });
+
+  it("are left out when text is not wanted, with a warning at its place", () => {
+    const drawing = draw(text("Hi"), { text: "none" });
+    expect(drawing.paths.count).toBe(0);
+    expect(drawing.warnings[0].code).toBe("text-not-drawn");
+    expect(drawing.warnings[0].boxes[0].map(Math.round)).toEqual([10, 40, 20, 50]);
+  });
+
+  it("report text on a path", () => {
+    expect(codes(draw(text('<textPath href="#p">along</textPath>')))).toContain("text-not-drawn");
+  });
+});
+
+/** A font of one letter: a square of one em on the baseline. */
+const square: TextFont = {
+  kind: "outline",
+  layout: (line) => ({
+    glyphs: [...line].map(() => ({ path: "M0 0L1 0L1 -1L0 -1Z", x: 0, y: 0, advance: 1.5 })),
+    missing: [],
+  }),
+};
+
+describe("outlines of a font", () => {
+  it("are filled shapes of the font's size", () => {
+    const drawing = draw(text("ab"), { text: "outline", font: square });
+    expect(shapesOf(drawing)).toEqual(["M10 50L20 50L20 40L10 40Z", "M25 50L35 50L35 40L25 40Z"]);
+    expect([...drawing.paths.stroke]).toEqual([-1, -1]);
+    expect([...drawing.paths.fill]).toEqual([0, 0]);
+    expect(drawing.warnings).toEqual([]);
+  });
+
+  it("refuse bytes that are no font", () => {
+    expect(() => openOutlineFont(new Uint8Array([1, 2, 3, 4, 5, 6, 7, 8]))).toThrow(PlotwrightError);
+  });
+
+  it("come from a real font file", () => {
+    const file = createRequire(import.meta.url).resolve("bootstrap-icons/font/fonts/bootstrap-icons.woff");
+    const font = openOutlineFont(new Uint8Array(readFileSync(file)));
+    const drawing = draw(text("\uf584\uf103A"), { text: "outline", font });
+    expect(drawing.paths.count).toBe(2);
+    // Icons are drawn in their em.
+    const [x0, y0, x1, y1] = extent(drawing);
+    expect(x0).toBeGreaterThanOrEqual(10);
+    expect(x1).toBeLessThanOrEqual(30.01);
+    expect(x1 - x0).toBeGreaterThan(14);
+    expect(y1 - y0).toBeGreaterThan(5);
+    expect(y1 - y0).toBeLessThanOrEqual(10.01);
+    expect(codes(drawing)).toEqual(["glyphs-missing"]);
+  });
+});
