@@ -50,6 +50,32 @@ async function unfold(page: Page): Promise<void> {
   while ((await folded.count()) > 0) await folded.first().click();
 }
 
+describe("someone without a mouse", () => {
+  it("reaches every control by Tab, and each says what it is", async () => {
+    const page = await openPage(1440, 900, "light");
+    const names = new Set<string>();
+    for (let press = 0; press < 120; press++) {
+      await page.keyboard.press("Tab");
+      const name = await page.evaluate(() => {
+        const element = document.activeElement;
+        if (element === null || element === document.body) return null;
+        const labels = (element as HTMLInputElement).labels;
+        return (
+          element.getAttribute("aria-label") ??
+          (labels?.[0]?.textContent || null) ??
+          element.textContent ??
+          ""
+        ).trim();
+      });
+      if (name === null) break;
+      names.add(name);
+    }
+    expect([...names]).not.toContain("");
+    for (const button of ["Plot", "Add to queue", "Pen up", "Zoom in"]) expect([...names]).toContain(button);
+    await page.context().close();
+  });
+});
+
 describe("axe finds nothing serious", () => {
   it.each([
     [1440, 900, "light"],
@@ -76,32 +102,6 @@ describe("axe finds nothing serious", () => {
     expect(await findingsOn(page)).toEqual([]);
     await queuePanel(page).getByRole("button", { name: "Cancel" }).click();
     expect(await findingsOn(page)).toEqual([]);
-    await page.context().close();
-  });
-});
-
-describe("someone without a mouse", () => {
-  it("reaches every control by Tab, and each says what it is", async () => {
-    const page = await openPage(1440, 900, "light");
-    const names = new Set<string>();
-    for (let press = 0; press < 120; press++) {
-      await page.keyboard.press("Tab");
-      const name = await page.evaluate(() => {
-        const element = document.activeElement;
-        if (element === null || element === document.body) return null;
-        const labels = (element as HTMLInputElement).labels;
-        return (
-          element.getAttribute("aria-label") ??
-          (labels?.[0]?.textContent || null) ??
-          element.textContent ??
-          ""
-        ).trim();
-      });
-      if (name === null) break;
-      names.add(name);
-    }
-    expect([...names]).not.toContain("");
-    for (const button of ["Plot", "Add to queue", "Pen up", "Zoom in"]) expect([...names]).toContain(button);
     await page.context().close();
   });
 });
