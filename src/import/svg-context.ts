@@ -29,6 +29,9 @@ export interface UseChain {
   readonly depth: number;
 }
 
+/** Copies of copies deeper than this are a circle, or an attack. */
+export const MAX_COPY_DEPTH = 200;
+
 export const isInsideUseOf = (chain: UseChain | null, target: number): boolean => {
   for (let at = chain; at !== null; at = at.outer) if (at.target === target) return true;
   return false;

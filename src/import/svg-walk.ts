@@ -11,22 +11,21 @@ import {
   determinant,
   IDENTITY,
   isFiniteAffine,
-  rotation,
-  scaling,
   translation,
   type Affine,
 } from "../geometry/affine.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade, type Declared, type Property } from "./cascade.js";
 import { lengthPx, type Side } from "./length.js";
-import { isInsideUseOf, withStyle, withViewport, type Context, type UseChain } from "./svg-context.js";
+import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
-import { markerPlaces, type MarkerPlace } from "./markers.js";
+import { markerPlaces } from "./markers.js";
+import { isMarked, SvgMarkers } from "./svg-markers.js";
 import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, INITIAL_STYLE, parseOpacity } from "./style.js";
+import { computeStyle, declaredValue, parseOpacity } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "./warnings.js";
@@ -35,7 +34,6 @@ import type { DrawingBuilder } from "./drawing-builder.js";
 /** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
 const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
-const MAX_COPY_DEPTH = 200;
 const ELEMENTS_PER_YIELD = 1000;
 const COORDS_PER_YIELD = 100_000;
 
@@ -68,6 +66,7 @@ export class SvgWalk {
   private copiedCoords = 0;
   /** The group of what is drawn outside of every layer; −1 until needed. */
   private looseGroup = -1;
+  private readonly markers: SvgMarkers;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -80,7 +79,9 @@ export class SvgWalk {
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
     private readonly languages: readonly string[],
-  ) {}
+  ) {
+    this.markers = new SvgMarkers(tree, cascade, clips);
+  }
 
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
   *run(rootContext: Context): Generator<void, void> {
@@ -155,7 +156,7 @@ export class SvgWalk {
     if (tag === "text") this.painter.drawText(element, context);
     else {
       this.painter.drawShape(element, tag, this.declared, context);
-      if (MARKED.has(tag) && hasMarkers(context)) this.pushMarkers(context);
+      if (isMarked(tag, context)) this.pushMarkers(context);
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
     if (warning !== null && this.builder.shapeCount > before) {
@@ -233,54 +234,9 @@ export class SvgWalk {
       if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
       if (isInsideUseOf(context.uses, marker)) continue;
       this.spendCopy(context);
-      const inner = this.insideMarker(marker, place, context);
+      const inner = this.markers.insideOf(marker, place, context);
       if (inner !== null) this.push(inner, tree.firstChildren[marker], false, null);
     }
-  }
-
-  private insideMarker(marker: number, place: MarkerPlace, context: Context): Context | null {
-    const { tree, declared } = this;
-    const text = (name: string): string | undefined => attribute(tree, marker, name);
-    const length = (name: string, side: Side, normal: number): number =>
-      lengthPx(text(name) ?? "", context.basis, side) ?? normal;
-    const width = length("markerWidth", "width", 3);
-    const height = length("markerHeight", "height", 3);
-    if (!(width > 0 && height > 0)) return null;
-    const box = parseViewBox(text("viewBox"));
-    const fit = box === null ? IDENTITY : viewBoxMap(box, width, height, text("preserveAspectRatio"));
-    const orient = text("orient") ?? "0";
-    const isReversed = orient === "auto-start-reverse" && place.kind === "start";
-    const angle = orient.startsWith("auto") ? place.angle + (isReversed ? Math.PI : 0) : orientRad(orient);
-    const size = text("markerUnits") === "userSpaceOnUse" ? 1 : context.style.strokeWidth;
-    const refX = refPosition(text("refX"), box?.x ?? 0, box?.width ?? width);
-    const refY = refPosition(text("refY"), box?.y ?? 0, box?.height ?? height);
-    const turned = compose(translation(place.x, place.y), compose(rotation(angle), scaling(size)));
-    // The reference point, not the viewBox's corner, lies on the vertex.
-    const map = compose(turned, { ...fit, e: fit.a * -refX, f: fit.d * -refY });
-    if (determinant(map) === 0 || !isFiniteAffine(map)) return null;
-    const depth = (context.uses?.depth ?? 0) + 1;
-    if (depth > MAX_COPY_DEPTH) return null;
-    const uses: UseChain = {
-      element: marker,
-      target: marker,
-      size: { width: null, height: null },
-      outer: context.uses,
-      depth,
-    };
-    this.cascade.collect(marker, declared);
-    const style = computeStyle(INITIAL_STYLE, declared, context.basis);
-    if (declaredValue(style, declared, "display") === "none") return null;
-    const inside = {
-      ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
-      style,
-      uses,
-      contextFill: context.style.fill,
-      contextStroke: context.style.stroke,
-    };
-    const overflow = declaredValue(style, declared, "overflow");
-    if (overflow === "visible" || overflow === "auto") return inside;
-    const edge = box ?? { x: 0, y: 0, width, height };
-    return { ...inside, clip: this.clips.rectangleClip(inside, edge.x, edge.y, edge.width, edge.height) };
   }
 
   private isAncestor(candidate: number, element: number): boolean {
@@ -455,24 +411,6 @@ function outerSizeOf(
   element: number,
 ): { readonly width: number | null; readonly height: number | null } | null {
   return context.uses?.target === element ? context.uses.size : null;
-}
-
-const MARKED = new Set(["path", "line", "polyline", "polygon"]);
-
-const hasMarkers = ({ style }: Context): boolean =>
-  style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null;
-
-function orientRad(text: string): number {
-  const turn = parseTransform(`rotate(${text})`);
-  return turn === null ? 0 : Math.atan2(turn.b, turn.a);
-}
-
-/** A number, a share of the box, or left/center/right and top/center/bottom. */
-function refPosition(text: string | undefined, start: number, length: number): number {
-  const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text ?? ""];
-  if (share !== undefined) return start + share * length;
-  const basis = { fontSize: 16, rootFontSize: 16, viewportWidth: length, viewportHeight: length };
-  return lengthPx(text ?? "0", basis, "width") ?? 0;
 }
 
 /** One past the last element inside each element; elements stand in document order. */
