@@ -244,6 +244,7 @@ export class PlotterDriver {
     this.trouble = null;
     this.powerIsLow = false;
     this.watchSupply(carriage);
+    this.carriageChanged();
     this.tell({
       kind: connection.kind,
       device: connection.device,
@@ -251,7 +252,6 @@ export class PlotterDriver {
       firmware: connection.features.version,
       message: this.welcome(connection),
     });
-    this.carriageChanged();
   }
 
   private welcome(connection: Connection): string | null {

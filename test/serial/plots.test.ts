@@ -11,7 +11,7 @@ import { LocalPlanner } from "../support/local-planner.js";
 import { PtyBoard, type BoardReport } from "../support/pty-board.js";
 import { farthest, SegmentGrid } from "../support/segment-grid.js";
 
-const SPEED = 50;
+const SPEED = 150;
 const SAMPLES = ["hello-paper", "harmonograph", "three-colour-hills"];
 /** As fine as the settings allow: what the file says, for our purpose. */
 const FINE = { ...DEFAULT_PLOT_SETTINGS.prepare, flattenMm: 0.001, joinMm: 0, order: "none" as const };

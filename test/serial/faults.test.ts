@@ -1,0 +1,166 @@
+/** What can happen to a board in mid-plot, over a real pseudo-terminal: each fault ends in a named state within 3 s. */
+import { afterEach, describe, expect, it } from "vitest";
+import { PlotterDriver, type PlotterState } from "../../server/plotter/plotter.js";
+import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
+import type { PlotwrightError } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { PtyBoard } from "../support/pty-board.js";
+
+const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
+const WITHIN_MS = 3_000;
+
+const open: { close(): Promise<void> }[] = [];
+afterEach(async () => {
+  for (const thing of open.splice(0).reverse()) await thing.close();
+});
+
+interface Plot {
+  readonly board: PtyBoard;
+  readonly driver: PlotterDriver;
+  readonly run: LivePlotRun;
+  readonly journal: JournalEntry[];
+  /** How `finished` ended, and ms after this was called. */
+  ended(): Promise<{ outcome: string; afterMs: number }>;
+}
+
+/** A plot at real speed whose pen is just drawing. */
+async function drawing(firmware = "2.8.1"): Promise<Plot> {
+  const board = await PtyBoard.open({ firmware });
+  open.push(board);
+  const driver = new PlotterDriver({ device: board.path });
+  open.push(driver);
+  await driver.start();
+  const journal: JournalEntry[] = [];
+  const run = await driver.plot(new LocalPlanner(LONG), DEFAULT_PLOT_SETTINGS, {
+    journal: { record: (entry) => journal.push(entry) },
+  });
+  await new Promise<void>((resolve) => run.onProgress(({ penUp }) => penUp || resolve()));
+  const ended = async () => {
+    const from = Date.now();
+    const outcome = await run.finished.then(
+      ({ kind }) => kind,
+      (error: PlotwrightError) => `${error.code}: ${error.message}`,
+    );
+    return { outcome, afterMs: Date.now() - from };
+  };
+  return { board, driver, run, journal, ended };
+}
+
+const state = (driver: PlotterDriver, is: (state: PlotterState) => boolean): Promise<PlotterState> =>
+  new Promise((resolve) => {
+    if (is(driver.state)) resolve(driver.state);
+    driver.onChange((now) => is(now) && resolve(now));
+  });
+
+describe("in the middle of a plot", () => {
+  it("an unplugged board ends it as disconnected, with the place in the journal", async () => {
+    const { board, driver, journal, ended } = await drawing();
+    board.tell({ type: "unplug" });
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^disconnected: .*USB cable/);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    expect(driver.state.connection).toBe("fault");
+    expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+  });
+
+  it("a board that falls silent ends it as timed out, and is used again when it answers", async () => {
+    const { board, driver, ended } = await drawing();
+    board.tell({ type: "mute", mute: true });
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^board-timeout: The board has stopped answering/);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    expect(driver.state.connection).toBe("fault");
+    board.tell({ type: "mute", mute: false });
+    const idle = await state(driver, ({ connection }) => connection === "idle");
+    // It never lost its counters: the plot can go on from its place.
+    expect(idle.xMm).not.toBeNull();
+  });
+
+  it("motors without power end it as a board error that names the supply", async () => {
+    const { board, driver, ended } = await drawing();
+    board.tell({ type: "volts", volts: 0 });
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^board-error: The motors have no power/);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
+  });
+
+  it("the board's button holds it", async () => {
+    const { board, run } = await drawing("3.0.3");
+    const held = new Promise<boolean>((resolve) => run.onHeld(resolve));
+    const from = Date.now();
+    board.tell({ type: "button" });
+    expect(await held).toBe(true);
+    expect(Date.now() - from).toBeLessThan(WITHIN_MS);
+    await run.cancel();
+    expect(await run.finished).toEqual({ kind: "cancelled" });
+    expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+  });
+
+  it.each([
+    ["garbage on the line", { type: "garbage", bytes: [0xff, 0x21, 13, 0x80, 0x41, 13, 10] }],
+    ["lost answers", { type: "lose", count: 2 }],
+    ["a slow line", { type: "slow", bytesPerS: 4_000 }],
+  ] as const)("%s does not disturb it: the motors end where they should", async (_, fault) => {
+    const { board, run, ended } = await drawing();
+    board.tell(fault);
+    await run.change({ speedPct: 200 });
+    expect((await ended()).outcome).toBe("done");
+    expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+  });
+
+  it("a board moved by another program is noticed by its counters", async () => {
+    const { board, run, ended } = await drawing();
+    board.tell({ type: "send", line: "CS\r" });
+    void run.cancel().catch(() => undefined);
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^board-error: The board's motors stand at .* Set home again/);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+  });
+});
+
+describe("when connecting", () => {
+  const connected = async (path: string): Promise<PlotterState> => {
+    const driver = new PlotterDriver({ device: path });
+    open.push(driver);
+    const from = Date.now();
+    await driver.start();
+    expect(Date.now() - from).toBeLessThan(WITHIN_MS);
+    return driver.state;
+  };
+
+  it("a device that is not there is absent", async () => {
+    expect(await connected("/dev/no-such-plotter")).toMatchObject({
+      connection: "absent",
+      message: expect.stringContaining("plug the plotter in"),
+    });
+  });
+
+  it("a board in use by another program is a fault that says so", async () => {
+    const { board, run } = await drawing();
+    expect(await connected(board.path)).toMatchObject({
+      connection: "fault",
+      message: expect.stringContaining("Another program is using"),
+    });
+    await run.cancel();
+  });
+
+  it("a silent board is a fault that says what to check", async () => {
+    const board = await PtyBoard.open();
+    open.push(board);
+    board.tell({ type: "mute", mute: true });
+    // Its answer to us says that it has heard.
+    await board.report();
+    expect(await connected(board.path)).toMatchObject({
+      connection: "fault",
+      message: expect.stringContaining("Nothing answers on this port"),
+    });
+  });
+
+  it("a board in its other reply syntax is simply used", async () => {
+    const board = await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true });
+    open.push(board);
+    expect(await connected(board.path)).toMatchObject({ connection: "idle", firmware: "3.0.3" });
+  });
+});
