@@ -39,6 +39,9 @@ const TICKS_PER_MS = TICKS_PER_S / 1_000;
 /** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
 
+/** 32 steps/s, 0.4 mm/s at 80 steps/mm. */
+const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
+
 const TOO_FAST =
   "The plan is faster than the motors can step (25 000 steps a second): those parts are plotted as fast as the board can.";
 
@@ -205,7 +208,10 @@ class Compiler {
   /** Takes more time where a motor would have to step too fast, or a whole run is too short for a command. */
   private slowDown(leg: Leg): void {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
+    // An idle tick is made up for by speed, but not by more speed than may show: then the plot takes the tick.
+    const idle = peak > HIGHEST_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
     const ticks = Math.max(
+      leg.ticks + idle,
       Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
       this.cutIsRunEnd ? SHORTEST_TICKS : 1,
     );

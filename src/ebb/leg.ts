@@ -40,6 +40,8 @@ export interface LegWriter {
    * moves a few µm, is not worth a command. 0: motors may turn as they like.
    */
   readonly turnTicks: number;
+  /** Ticks of every command in which the motors stand, and for which the rest of it runs faster. */
+  readonly idleTicks: number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
   /** Longest leg of a plan with this jerk (counts a tick³ of the faster motor); Infinity for none. */

@@ -30,22 +30,24 @@ export class SignedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly maxTicks = 3_750;
   readonly turnTicks = 0;
+  readonly idleTicks: number;
   readonly joinsAnySpeeds = true;
   private readonly a1: Arguments = { rate: 0, accel: 0, jerk: 0 };
   private readonly a2: Arguments = { rate: 0, accel: 0, jerk: 0 };
 
   constructor(
     private readonly text: CommandText,
-    private readonly features: FirmwareFeatures,
-  ) {}
+    features: FirmwareFeatures,
+  ) {
+    this.idleTicks = features.idleTicksTimed;
+  }
 
   maxTicksForJerk(): number {
     return MAX_JERK_TICKS;
   }
 
   write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
-    const idle = this.features.idleTicksTimed;
-    const ticks = leg.ticks - idle;
+    const ticks = leg.ticks - this.idleTicks;
     const stretch = leg.ticks / ticks;
     const { a1, a2 } = this;
     aim(leg, leg.m1, m1, ticks, stretch, a1);

@@ -19,6 +19,7 @@ export class SliceWriter implements LegWriter {
   readonly minTicks = 10 * TICKS_PER_MS + 1;
   readonly maxTicks = 14 * TICKS_PER_MS;
   readonly turnTicks = 120;
+  readonly idleTicks = 0;
   readonly joinsAnySpeeds = true;
 
   constructor(

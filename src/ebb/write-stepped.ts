@@ -30,6 +30,7 @@ export class SteppedWriter implements LegWriter {
   readonly minTicks = 200;
   readonly maxTicks = 3_750;
   readonly turnTicks = 120;
+  readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
   private readonly a1: Arguments = { rate: 0, accel: 0, steps: 0 };
   private readonly a2: Arguments = { rate: 0, accel: 0, steps: 0 };

@@ -31,6 +31,7 @@ export class TimedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly maxTicks = 3_750;
   readonly turnTicks = 30;
+  readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
   private readonly a1: Arguments = { rate: 0, accel: 0, clear: false };
   private readonly a2: Arguments = { rate: 0, accel: 0, clear: false };
