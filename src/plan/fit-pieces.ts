@@ -21,6 +21,9 @@ import type { FitSettings } from "./settings.js";
 /** Limits may be passed by this much. */
 const SLACK = 1.0009;
 
+/** The search for the longest stretch ends within one part in so many of it. */
+const FINENESS = 8;
+
 /** Longest stretch, s: older boards cannot be stopped within a piece, so pieces stay below a quarter second. */
 const LONGEST_S = 0.48;
 
@@ -85,7 +88,7 @@ export class PieceFitter {
       high = Math.min(k + 2 * (high - k), last);
     }
     // `high` does not fit, or is `low` itself at the end of the run.
-    while (high - low > 1) {
+    while (high - low > 1 + (low - k) / FINENESS) {
       const middle = (low + high) >> 1;
       if (this.fits(k, middle)) low = middle;
       else high = middle;

@@ -37,12 +37,11 @@ export class ThirdOrderPlanner {
   private y = 0;
   private along = 0;
 
-  /** Finds the speeds at all corners; `write` then writes the run from rest to rest. */
+  /** Limits the speed at every corner; `leastTime`, and `write` for the whole run, come after. */
   prepare(path: RunPath, limits: RunLimits): void {
     this.reserve(path.segmentCount + 1);
     capSegments(path, limits);
     this.limitCorners(path, limits);
-    this.lookAhead(path, limits);
   }
 
   /** A time, s, that the prepared run cannot beat: its corners, and its straights as if jerk were free. */
@@ -94,7 +93,9 @@ export class ThirdOrderPlanner {
     }
   }
 
+  /** Writes the prepared run from rest to rest. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    this.lookAhead(path, limits);
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
     const { sine, speed } = this;
     let along = path.startAlong;
