@@ -14,6 +14,8 @@ import { openSerial } from "../server/serial/serial-transport.js";
 
 export interface SenderTask {
   readonly pacing: "window" | "acks";
+  /** False: a command for every piece of the polyline, as they come out of the plan. */
+  readonly fitted: boolean;
 }
 
 export interface SenderReport {
@@ -52,7 +54,8 @@ const task = JSON.parse(taskText!) as SenderTask;
 const session = new BoardSession(await openSerial(port!), { clock: nodeClock });
 const { firmware } = await session.identify();
 await session.send("EM,1,1");
-const trajectory = plan(denseCurve(), DEFAULT_MOTION, DEFAULT_PEN);
+const motion = task.fitted ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
+const trajectory = plan(denseCurve(), motion, DEFAULT_PEN);
 const commands = compile(trajectory, {
   machine: machineById("axidraw-v3"),
   firmware,

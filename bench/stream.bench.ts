@@ -15,20 +15,19 @@ const FIRMWARE = "2.8.1";
 const STALL_MS = 150;
 const EVERY_MS = 1_000;
 
-const CASES: readonly { readonly what: string; readonly task: SenderTask; readonly stalls: boolean }[] = [
-  { what: "window of 0.3 s, host stalled", task: { pacing: "window" }, stalls: true },
-  { what: "by acknowledgement, host stalled", task: { pacing: "acks" }, stalls: true },
-  { what: "window of 0.3 s", task: { pacing: "window" }, stalls: false },
-  { what: "by acknowledgement", task: { pacing: "acks" }, stalls: false },
+const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
+  { what: "short commands, window of 0.3 s", task: { pacing: "window", fitted: false } },
+  { what: "short commands, by acknowledgement", task: { pacing: "acks", fitted: false } },
+  { what: "fitted commands, window of 0.3 s", task: { pacing: "window", fitted: true } },
 ];
 
 export default async function streamBench(report: Report): Promise<void> {
   const rows: Record<string, string | number>[] = [];
-  for (const { what, task, stalls } of CASES) rows.push({ what, ...(await measure(task, stalls)) });
+  for (const { what, task } of CASES) rows.push({ what, ...(await measure(task)) });
   report("Streaming", rows);
 }
 
-async function measure(task: SenderTask, stalls: boolean): Promise<Record<string, string | number>> {
+async function measure(task: SenderTask): Promise<Record<string, string | number>> {
   const board = await PtyBoard.open({ firmware: FIRMWARE });
   const sender = fork(
     path.join(import.meta.dirname, "stream-sender.ts"),
@@ -41,7 +40,7 @@ async function measure(task: SenderTask, stalls: boolean): Promise<Record<string
     sender.once("message", (message) => resolve(message as SenderReport));
     sender.once("exit", (code) => reject(new Error(`the sender ended with ${code}`)));
   });
-  const stopStalling = stalls ? stallRegularly(sender.pid!) : (): void => undefined;
+  const stopStalling = stallRegularly(sender.pid!);
   try {
     const result = await sent;
     stopStalling();

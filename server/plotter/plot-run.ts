@@ -255,13 +255,17 @@ export class CarriageRun implements LivePlotRun {
   private plannedSettings(): PlotSettings {
     const share = this.speedPct / 100;
     if (share === 1) return this.settings;
-    const { draw, travel } = this.settings.motion;
+    const { draw, travel, layers = {} } = this.settings.motion;
+    const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>
+      limits.speedMmPerS === undefined ? limits : { ...limits, speedMmPerS: limits.speedMmPerS * share };
+    const scaledLayers = Object.entries(layers).map(([id, limits]) => [id, scaled(limits)] as const);
     return {
       ...this.settings,
       motion: {
         ...this.settings.motion,
-        draw: { ...draw, speedMmPerS: draw.speedMmPerS * share },
-        travel: { ...travel, speedMmPerS: travel.speedMmPerS * share },
+        draw: scaled(draw),
+        travel: scaled(travel),
+        layers: Object.fromEntries(scaledLayers),
       },
     };
   }
