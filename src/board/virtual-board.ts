@@ -19,7 +19,8 @@ import type { Clock, Transport } from "./transport.js";
 import { BoardCore, type BoardStatistics } from "./virtual/core.js";
 import type { DrawnPolyline } from "./virtual/drawn-line.js";
 import { InputLines } from "./virtual/input.js";
-import { Interpreter, supplyReading, type BoardInputs } from "./virtual/interpreter.js";
+import { Interpreter } from "./virtual/interpreter.js";
+import { supplyReading, type BoardInputs } from "./virtual/queries.js";
 
 export type { BoardStatistics } from "./virtual/core.js";
 export type { DrawnPolyline } from "./virtual/drawn-line.js";

@@ -7,13 +7,14 @@
 import { commandName, replyShape } from "../../ebb/replies.js";
 import { compareFirmware } from "../../ebb/firmware.js";
 import type { BoardCore } from "./core.js";
-import { slowMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
+import { MotionCommands } from "./motion-commands.js";
+import type { Order } from "./orders.js";
 import { BoardFault, Parameters } from "./parameters.js";
-import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../units.js";
+import { BoardQueries, type BoardInputs } from "./queries.js";
+import { TICKS_PER_S } from "../../units.js";
 
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
-const INT31 = 2 ** 31 - 1;
 /** SP moves the servo on RB1; others go by S2. */
 const STANDARD_PIN = 4;
 const TICKS_PER_MS = TICKS_PER_S / 1_000;
@@ -51,21 +52,10 @@ export interface InterpreterHooks {
   readonly restart: () => void;
 }
 
-/** Things outside the motion queue that queries read. */
-export interface BoardInputs {
-  buttonLatched: boolean;
-  buttonDown: boolean;
-  motorVolts: number;
-  powerLostLatched: boolean;
-  powerThreshold: number;
-  name: string;
-  nodeCount: number;
-  readonly layer: Uint8Array;
-  servoTimeoutMs: number;
-}
-
 export class Interpreter {
   private readonly switches: Switches = { future: false, sendsOk: true, testMode: false };
+  private readonly motion: MotionCommands;
+  private readonly queries: BoardQueries;
   private readonly handlers: ReadonlyMap<string, Handler>;
   private blocked: { name: string; action: Action; orders: Order[]; extra: boolean } | null = null;
 
@@ -74,6 +64,8 @@ export class Interpreter {
     private readonly inputs: BoardInputs,
     private readonly hooks: InterpreterHooks,
   ) {
+    this.motion = new MotionCommands(core.features, () => this.switches.testMode);
+    this.queries = new BoardQueries(core, inputs);
     this.handlers = this.commands();
   }
 
@@ -160,14 +152,14 @@ export class Interpreter {
 
   private commands(): ReadonlyMap<string, Handler> {
     const table: [string, string, Handler][] = [
-      ["V", "0.0.0", () => ({ values: () => this.versionText() })],
-      ["SM", "0.0.0", (p) => this.slow(p, false)],
-      ["XM", "2.3.0", (p) => this.slow(p, true)],
-      ["LM", "2.5.0", (p) => this.stepped(p, false)],
-      ["L3", "3.0.0", (p) => this.stepped(p, true)],
-      ["LT", "2.7.0", (p) => this.timed(p, false)],
-      ["T3", "3.0.0", (p) => this.timed(p, true)],
-      ["TD", "3.0.1", (p) => this.timedDouble(p)],
+      ["V", "0.0.0", () => ({ values: () => this.queries.versionText() })],
+      ["SM", "0.0.0", (p) => ({ orders: this.motion.slow(p, false) })],
+      ["XM", "2.3.0", (p) => ({ orders: this.motion.slow(p, true) })],
+      ["LM", "2.5.0", (p) => ({ orders: this.motion.stepped(p, false) })],
+      ["L3", "3.0.0", (p) => ({ orders: this.motion.stepped(p, true) })],
+      ["LT", "2.7.0", (p) => ({ orders: this.motion.timed(p, false) })],
+      ["T3", "3.0.0", (p) => ({ orders: this.motion.timed(p, true) })],
+      ["TD", "3.0.1", (p) => ({ orders: this.motion.timedDouble(p) })],
       ["HM", "2.6.2", (p) => this.home(p)],
       ["SP", "0.0.0", (p) => this.pen(p)],
       ["TP", "0.0.0", (p) => this.togglePen(p)],
@@ -181,15 +173,15 @@ export class Interpreter {
       ["R", "0.0.0", () => ({ then: this.hooks.reset })],
       ["RB", "2.5.4", () => ({ isSilent: true, then: this.hooks.restart })],
       ["BL", "0.0.0", () => ({ isSilent: true, then: this.hooks.restart })],
-      ["QM", "2.2.6", () => ({ values: () => this.motorsText() })],
-      ["QG", "2.6.2", () => ({ values: () => this.generalText() })],
+      ["QM", "2.2.6", () => ({ values: () => this.queries.motorsText() })],
+      ["QG", "2.6.2", () => ({ values: () => this.queries.generalText() })],
       ["QS", "2.4.3", () => ({ values: () => this.core.stepsNow().join(",") })],
       ["QP", "0.0.0", () => ({ values: () => (this.core.penUp ? "1" : "0") })],
-      ["QB", "0.0.0", () => ({ values: () => this.takeButton() })],
-      ["QC", "2.2.3", () => ({ values: () => this.currentText() })],
-      ["QE", "2.8.0", () => ({ values: () => this.microstepText() })],
+      ["QB", "0.0.0", () => ({ values: () => this.queries.takeButton() })],
+      ["QC", "2.2.3", () => ({ values: () => this.queries.currentText() })],
+      ["QE", "2.8.0", () => ({ values: () => this.queries.microstepText() })],
       ["QR", "2.5.6", () => ({ values: () => (this.core.servoUsed ? "1" : "0") })],
-      ["QN", "0.0.0", () => ({ values: () => this.padded(this.inputs.nodeCount, 10) })],
+      ["QN", "0.0.0", () => ({ values: () => this.queries.padded(this.inputs.nodeCount, 10) })],
       ["QL", "0.0.0", (p) => this.queryLayer(p)],
       ["QT", "2.5.4", () => ({ values: () => this.inputs.name })],
       ["QU", "3.0.0", (p) => this.queryUtility(p)],
@@ -206,129 +198,11 @@ export class Interpreter {
     return new Map(table.filter(([, since]) => this.has(since)).map(([name, , run]) => [name, run]));
   }
 
-  // motion
-
-  private slow(p: Parameters, mixed: boolean): Action {
-    const ms = p.uint(2 ** 24 - 1);
-    const a = p.int();
-    const b = mixed || p.hasMore ? p.int() : 0;
-    const clear = this.clearBits(p, 3);
-    if (ms === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    const order = slowMove(this.core.features, ms, mixed ? a + b : a, mixed ? a - b : b, clear);
-    if (order === null) throw new BoardFault(0, "Err: <axis1> step rate too high");
-    return { orders: [order] };
-  }
-
-  private stepped(p: Parameters, hasJerk: boolean): Action {
-    const axis1 = this.steppedArguments(p, hasJerk);
-    const axis2 = this.steppedArguments(p, hasJerk);
-    const dead = (axis: AxisOrder): boolean =>
-      axis.steps === 0 || (axis.rate === 0 && axis.accel === 0 && axis.jerk === 0);
-    const isDead = dead(axis1) && dead(axis2);
-    const order = this.move(p, false, axis1, axis2, Infinity);
-    if (isDead) throw new BoardFault(6, "Err: Invalid parameter value");
-    return { orders: [order] };
-  }
-
-  private steppedArguments(p: Parameters, hasJerk: boolean): AxisOrder {
-    const signed = this.core.features.arithmetic === "signed";
-    const rate = signed ? p.int() : p.uint(INT31);
-    const steps = p.int();
-    const accel = p.int();
-    const jerk = hasJerk ? p.int() : 0;
-    const axis = steppedAxis(this.core.features.arithmetic, rate, steps, accel, jerk);
-    if (axis === null) throw new BoardFault(6, "Err: Invalid parameter value");
-    return axis;
-  }
-
-  private timed(p: Parameters, hasJerk: boolean): Action {
-    const ticks = p.uint();
-    const axis1 = timedArguments(p, hasJerk);
-    const axis2 = timedArguments(p, hasJerk);
-    if (ticks === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    if (this.core.features.arithmetic !== "signed" && axis1.rate === 0 && axis2.rate === 0) {
-      throw new BoardFault(6, "Err: Invalid parameter value");
-    }
-    return { orders: [this.move(p, true, axis1, axis2, ticks)] };
-  }
-
-  /** An S of speed in two halves: jerk up, then down. */
-  private timedDouble(p: Parameters): Action {
-    const ticks = p.uint();
-    if (ticks === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    const axis = (): [AxisOrder, AxisOrder] => {
-      const rateA = p.int();
-      const rateB = p.int();
-      const accel = p.int();
-      const jerk = p.int();
-      return [
-        { rate: rateA, accel: 0, jerk, steps: Infinity },
-        { rate: rateB, accel, jerk: -jerk, steps: Infinity },
-      ];
-    };
-    const [first1, second1] = axis();
-    const [first2, second2] = axis();
-    const first = this.move(p, true, first1, first2, ticks);
-    return {
-      orders: [first, { ...first, axis1: second1, axis2: second2, clear: 0, startAcc: null }],
-    };
-  }
-
-  private move(
-    p: Parameters,
-    isTimed: boolean,
-    axis1: AxisOrder,
-    axis2: AxisOrder,
-    ticks: number,
-  ): MoveOrder {
-    const { features } = this.core;
-    const idleTicks = isTimed ? features.idleTicksTimed : features.idleTicks;
-    const base = { kind: "move" as const, isTimed, axis1, axis2, ticks, idleTicks };
-    if (this.switches.testMode) {
-      return p.hasMore
-        ? { ...base, clear: 0, startAcc: p.uint(INT31) }
-        : { ...base, clear: 3, startAcc: null };
-    }
-    return { ...base, clear: this.clearBits(p, 2 ** 32 - 1), startAcc: null };
-  }
-
-  private clearBits(p: Parameters, max: number): number {
-    if (!this.core.features.hasClear || !p.hasMore) return 0;
-    return Math.min(3, p.uint(max));
-  }
+  // motors
 
   private home(p: Parameters): Action {
-    const fastest = Math.min(TICKS_PER_S, Math.max(1, p.uint()));
-    const target1 = p.hasMore && this.has("2.7.0") ? p.int() : 0;
-    const target2 = p.hasMore && this.has("2.7.0") ? p.int() : 0;
-    const whenIdle = (): readonly Order[] => {
-      const way1 = target1 - this.core.steps1;
-      const way2 = target2 - this.core.steps2;
-      const longest = Math.max(Math.abs(way1), Math.abs(way2));
-      if (longest === 0) return [];
-      const axis = (way: number): AxisOrder => {
-        const stepsPerS = (fastest * Math.abs(way)) / longest;
-        const rate = Math.min(INT31, Math.floor((stepsPerS * ACCUMULATOR_RANGE) / TICKS_PER_S));
-        return {
-          rate: Math.sign(way) * Math.max(way === 0 ? 0 : 1, rate),
-          accel: 0,
-          jerk: 0,
-          steps: Math.abs(way),
-        };
-      };
-      const order: MoveOrder = {
-        kind: "move",
-        isTimed: false,
-        axis1: axis(way1),
-        axis2: axis(way2),
-        ticks: Infinity,
-        idleTicks: this.core.features.idleTicks,
-        clear: 0,
-        startAcc: null,
-      };
-      return [order];
-    };
-    return { whenIdle };
+    const order = this.motion.home(p);
+    return { whenIdle: () => order(this.core.steps1, this.core.steps2) };
   }
 
   private enable(p: Parameters): Action {
@@ -499,7 +373,7 @@ export class Interpreter {
 
   private queryLayer(p: Parameters): Action {
     const index = p.optionalUint(0, 31);
-    return { values: () => this.padded(this.inputs.layer[index]!, 3) };
+    return { values: () => this.queries.padded(this.inputs.layer[index]!, 3) };
   }
 
   private setNode(value: number): Action {
@@ -521,75 +395,13 @@ export class Interpreter {
     return {};
   }
 
-  // queries
-
-  private versionText(): string {
-    return `EBBv13_and_above EB Firmware Version ${this.core.features.version}`;
-  }
-
-  private motorsText(): string {
-    const { core } = this;
-    const flags = [core.isBusy, ...core.motorsMoving()];
-    if (this.has("2.4.4")) flags.push(core.fifo.length > 0);
-    return flags.map(Number).join(",");
-  }
-
-  private generalText(): string {
-    const { core, inputs } = this;
-    const [moving1, moving2] = core.motorsMoving();
-    let bits = 0;
-    if (core.fifo.length > 0) bits |= 1;
-    if (moving2) bits |= 2;
-    if (moving1) bits |= 4;
-    if (core.isBusy) bits |= 8;
-    if (core.penUp) bits |= 16;
-    if (inputs.buttonLatched) bits |= 32;
-    if (core.features.hasLimitQuery && inputs.powerLostLatched) bits |= 64;
-    inputs.buttonLatched = false;
-    inputs.powerLostLatched =
-      inputs.powerThreshold > 0 && supplyReading(inputs.motorVolts) < inputs.powerThreshold;
-    return bits.toString(16).toUpperCase().padStart(2, "0");
-  }
-
-  private takeButton(): string {
-    const pressed = this.inputs.buttonLatched || this.inputs.buttonDown;
-    this.inputs.buttonLatched = false;
-    return pressed ? "1" : "0";
-  }
-
-  private currentText(): string {
-    const CURRENT_SETTING = 394;
-    return [CURRENT_SETTING, supplyReading(this.inputs.motorVolts)].map((n) => this.padded(n, 4)).join(",");
-  }
-
-  private microstepText(): string {
-    const divisor = (mode: number): number => (mode === 0 ? 0 : 2 ** (5 - mode));
-    return `${divisor(this.core.mode1)},${divisor(this.core.mode2)}`;
-  }
-
-  /** Firmware before 3 pads numbers with zeros. */
-  private padded(value: number, digits: number): string {
-    return this.has("3.0.0") ? `${value}` : `${value}`.padStart(digits, "0");
-  }
-
   private done(work: () => unknown): Action {
     work();
     return {};
   }
 }
 
-function timedArguments(p: Parameters, hasJerk: boolean): AxisOrder {
-  const rate = p.int();
-  const accel = p.int();
-  return { rate, accel, jerk: hasJerk ? p.int() : 0, steps: Infinity };
-}
-
 function unknownCommand(name: string): BoardFault {
   const hex = [...name].map((c) => c.charCodeAt(0).toString(16).toUpperCase().padStart(2, "0")).join("");
   return new BoardFault(8, `Err: Unknown command '${commandName(name)}:${hex}'`);
-}
-
-/** Reading of the motor supply: through a divider of 9.2 and a diode, 1023 = 3.3 V. */
-export function supplyReading(volts: number): number {
-  return Math.max(0, Math.min(1_023, Math.round((((volts - 0.3) / 9.2) * 1_023) / 3.3)));
 }
