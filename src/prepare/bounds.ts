@@ -5,7 +5,7 @@
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
-import { EMPTY_BOX, type Box } from "../geometry/box.js";
+import type { Box } from "../geometry/box.js";
 
 /** Box of verbs [verbFrom, verbTo) with coordinates from `at`, under `map`. Moves that draw nothing do not count. */
 export function boundsOfVerbs(
@@ -16,69 +16,67 @@ export function boundsOfVerbs(
   at: number,
   map: Affine,
 ): Box {
-  const reach = new Reach();
+  const { a, b, c, d, e, f } = map;
+  let x0 = Infinity;
+  let y0 = Infinity;
+  let x1 = -Infinity;
+  let y1 = -Infinity;
   let x = 0;
   let y = 0;
-  const mapped = (k: number): [number, number] => [
-    map.a * coords[k] + map.c * coords[k + 1] + map.e,
-    map.b * coords[k] + map.d * coords[k + 1] + map.f,
-  ];
   for (let v = verbFrom; v < verbTo; v++) {
     const verb = verbs[v];
-    if (verb !== VERB_MOVE) reach.add(x, y);
-    if (verb === VERB_CLOSE) continue;
-    if (verb === VERB_CUBIC) {
-      const [x1, y1] = mapped(at);
-      const [x2, y2] = mapped(at + 2);
-      const [x3, y3] = mapped(at + 4);
-      addExtremes(x, x1, x2, x3, (value) => reach.addX(value));
-      addExtremes(y, y1, y2, y3, (value) => reach.addY(value));
-      at += 4;
+    if (verb !== VERB_MOVE) {
+      x0 = Math.min(x0, x);
+      y0 = Math.min(y0, y);
+      x1 = Math.max(x1, x);
+      y1 = Math.max(y1, y);
     }
-    [x, y] = mapped(at);
-    at += 2;
-    if (verb !== VERB_MOVE) reach.add(x, y);
+    if (verb === VERB_CLOSE) continue;
+    const endAt = verb === VERB_CUBIC ? at + 4 : at;
+    const endX = a * coords[endAt] + c * coords[endAt + 1] + e;
+    const endY = b * coords[endAt] + d * coords[endAt + 1] + f;
+    if (verb === VERB_CUBIC) {
+      const [ux, uy, wx, wy] = [coords[at], coords[at + 1], coords[at + 2], coords[at + 3]];
+      const turnsX = turnsOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
+      x0 = Math.min(x0, turnsX.low);
+      x1 = Math.max(x1, turnsX.high);
+      const turnsY = turnsOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
+      y0 = Math.min(y0, turnsY.low);
+      y1 = Math.max(y1, turnsY.high);
+    }
+    x = endX;
+    y = endY;
+    at = endAt + 2;
+    if (verb !== VERB_MOVE) {
+      x0 = Math.min(x0, x);
+      y0 = Math.min(y0, y);
+      x1 = Math.max(x1, x);
+      y1 = Math.max(y1, y);
+    }
   }
-  return reach.box();
-}
-
-class Reach {
-  private x0 = EMPTY_BOX.x0;
-  private y0 = EMPTY_BOX.y0;
-  private x1 = EMPTY_BOX.x1;
-  private y1 = EMPTY_BOX.y1;
-
-  addX(x: number): void {
-    if (x < this.x0) this.x0 = x;
-    if (x > this.x1) this.x1 = x;
-  }
-
-  addY(y: number): void {
-    if (y < this.y0) this.y0 = y;
-    if (y > this.y1) this.y1 = y;
-  }
-
-  add(x: number, y: number): void {
-    this.addX(x);
-    this.addY(y);
-  }
-
-  box(): Box {
-    return { x0: this.x0, y0: this.y0, x1: this.x1, y1: this.y1 };
-  }
+  return { x0, y0, x1, y1 };
 }
 
 /** Beyond this the squares below might overflow; the controls then stand for the curve, as a bound. */
 const OVERFLOWING = 1e100;
 
-/** Calls `add` with the curve's values where it turns, for one coordinate. */
-function addExtremes(p0: number, p1: number, p2: number, p3: number, add: (value: number) => void): void {
-  const low = Math.min(p0, p3);
-  const high = Math.max(p0, p3);
-  if (p1 >= low && p1 <= high && p2 >= low && p2 <= high) return;
+/** Written anew by each call of `turnsOf`. */
+const turns = { low: 0, high: 0 };
+
+/** How far one coordinate of a curve goes where it turns; its ends, at least, where it does not. */
+function turnsOf(
+  p0: number,
+  p1: number,
+  p2: number,
+  p3: number,
+): { readonly low: number; readonly high: number } {
+  turns.low = Math.min(p0, p3);
+  turns.high = Math.max(p0, p3);
+  if (p1 >= turns.low && p1 <= turns.high && p2 >= turns.low && p2 <= turns.high) return turns;
   if (Math.abs(p1) > OVERFLOWING || Math.abs(p2) > OVERFLOWING) {
-    add(p1);
-    return add(p2);
+    turns.low = Math.min(turns.low, p1, p2);
+    turns.high = Math.max(turns.high, p1, p2);
+    return turns;
   }
   const a = p3 - p0 + 3 * (p1 - p2);
   const b = 2 * (p0 - 2 * p1 + p2);
@@ -86,9 +84,15 @@ function addExtremes(p0: number, p1: number, p2: number, p3: number, add: (value
   const root = Math.sqrt(Math.max(b * b - 4 * a * c, 0));
   // The form without cancellation: one root by q/a, the other by c/q.
   const q = -(b + (b >= 0 ? root : -root)) / 2;
-  for (const t of [q / a, c / q]) {
-    if (!(t > 0 && t < 1)) continue;
-    const s = 1 - t;
-    add(s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3);
-  }
+  addTurn(p0, p1, p2, p3, q / a);
+  addTurn(p0, p1, p2, p3, c / q);
+  return turns;
+}
+
+function addTurn(p0: number, p1: number, p2: number, p3: number, t: number): void {
+  if (!(t > 0 && t < 1)) return;
+  const s = 1 - t;
+  const value = s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
+  turns.low = Math.min(turns.low, value);
+  turns.high = Math.max(turns.high, value);
 }

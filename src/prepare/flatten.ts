@@ -28,7 +28,9 @@ export function flattenShapes(
   work: Work,
 ): Lines {
   const builder = new LineBuilder();
-  for (let shape = 0; shape < paths.count; shape++) {
+  let shape = 0;
+  const tagOf = (): number => shape;
+  for (; shape < paths.count; shape++) {
     if ((shape & 1023) === 0) stopIfCancelled(work);
     if (wanted[shape] === 0) continue;
     const range = {
@@ -38,7 +40,7 @@ export function flattenShapes(
       coords: paths.coords,
       coordFrom: paths.coordOffsets[shape],
     };
-    flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, () => shape);
+    flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, tagOf);
   }
   return builder.finish();
 }
@@ -59,15 +61,10 @@ export function flattenVerbs(
   let startY = 0;
   let x = 0;
   let y = 0;
-  const end = (): void => {
-    if (asArea && builder.openPoints > 2) builder.point(startX, startY);
-    if (asArea && builder.openPoints < 3) builder.drop();
-    else builder.end(tagOf(subpath));
-  };
   for (let v = range.verbFrom; v < range.verbTo; v++) {
     const verb = verbs[v];
     if (verb === VERB_MOVE) {
-      end();
+      endSubpath(builder, asArea, startX, startY, tagOf(subpath));
       subpath++;
       startX = x = applyX(map, coords[at], coords[at + 1]);
       startY = y = applyY(map, coords[at], coords[at + 1]);
@@ -79,7 +76,7 @@ export function flattenVerbs(
       x = startX;
       y = startY;
       builder.point(x, y);
-      end();
+      endSubpath(builder, asArea, startX, startY, tagOf(subpath));
       continue;
     }
     if (verb === VERB_CUBIC) {
@@ -91,7 +88,19 @@ export function flattenVerbs(
     at += 2;
     builder.point(x, y);
   }
-  end();
+  endSubpath(builder, asArea, startX, startY, tagOf(subpath));
+}
+
+function endSubpath(
+  builder: LineBuilder,
+  asArea: boolean,
+  startX: number,
+  startY: number,
+  tag: number,
+): void {
+  if (asArea && builder.openPoints > 2) builder.point(startX, startY);
+  if (asArea && builder.openPoints < 3) builder.drop();
+  else builder.end(tag);
 }
 
 const chords = new PointBuffer(1024);

@@ -12,7 +12,6 @@
  * Nothing is moved: joining adds the gap, at most `radius`, as a straight piece.
  * Dots and closed lines stay as they are.
  */
-import { PointIndex } from "../geometry/point-index.js";
 import {
   LineBuilder,
   SAME_POINT,
@@ -57,7 +56,8 @@ class Pairing {
   /** Place of each end, and the unit vector in which its line leaves it. */
   private readonly xy: Float64Array;
   private readonly out: Float64Array;
-  private readonly joinable: Uint32Array;
+  private readonly joinable: readonly number[];
+  private readonly grid: EndGrid;
 
   constructor(
     lines: Lines,
@@ -83,7 +83,8 @@ class Pairing {
       this.setEnd(lines, e + 1, q, Math.max(q - 1, p));
       if (q > p && !isClosedLine(lines, i)) joinable.push(e, e + 1);
     }
-    this.joinable = Uint32Array.from(joinable);
+    this.joinable = joinable;
+    this.grid = new EndGrid(this.xy, joinable, radius);
   }
 
   private setEnd(lines: Lines, e: number, at: number, next: number): void {
@@ -99,36 +100,44 @@ class Pairing {
 
   /** Pairs each free end with the best free one within `reach`: the straightest, or the nearest. */
   run(reach: number, straightest: boolean): void {
-    const free = this.joinable.filter((e) => this.partner[e] === UNPAIRED);
-    const index = new PointIndex(this.xy, free);
-    for (const e of free) {
+    for (const e of this.joinable) {
       if (this.partner[e] !== UNPAIRED) continue;
-      const other = this.best(index, e, reach, straightest);
-      if (other < 0) continue;
-      this.pair(e, other);
-      index.remove(e);
-      index.remove(other);
+      const other = this.best(e, reach, straightest);
+      if (other >= 0) this.pair(e, other);
     }
   }
 
-  private best(index: PointIndex, e: number, reach: number, straightest: boolean): number {
+  private best(e: number, reach: number, straightest: boolean): number {
     const x = this.xy[2 * e];
     const y = this.xy[2 * e + 1];
     let best = -1;
     let bestCost = Infinity;
     let seen = 0;
-    index.within(x, y, reach, (other) => {
-      if (other === e || !this.mayPair(e, other)) return true;
-      // Straight on means that the two lines leave the place in opposite directions.
-      const cost = straightest
-        ? this.out[2 * e] * this.out[2 * other] + this.out[2 * e + 1] * this.out[2 * other + 1]
-        : distance(x, y, this.xy[2 * other], this.xy[2 * other + 1]);
-      if (cost < bestCost) {
-        bestCost = cost;
-        best = other;
+    const column1 = this.grid.cellOf(x + reach);
+    const row1 = this.grid.cellOf(y + reach);
+    for (let row = this.grid.cellOf(y - reach); row <= row1; row++) {
+      for (let column = this.grid.cellOf(x - reach); column <= column1; column++) {
+        let before = -1;
+        for (let other = this.grid.first(column, row); other >= 0; other = this.grid.next[other]) {
+          if (this.partner[other] !== UNPAIRED) {
+            this.grid.unlink(column, row, before, other);
+            continue;
+          }
+          before = other;
+          const gap = distance(x, y, this.xy[2 * other], this.xy[2 * other + 1]);
+          if (gap > reach || other === e || !this.mayPair(e, other)) continue;
+          // Straight on means that the two lines leave the place in opposite directions.
+          const cost = straightest
+            ? this.out[2 * e] * this.out[2 * other] + this.out[2 * e + 1] * this.out[2 * other + 1]
+            : gap;
+          if (cost < bestCost) {
+            bestCost = cost;
+            best = other;
+          }
+          if (++seen === MOST_CANDIDATES) return best;
+        }
       }
-      return ++seen < MOST_CANDIDATES;
-    });
+    }
     return best;
   }
 
@@ -145,6 +154,49 @@ class Pairing {
     this.far[head] = tail;
     this.far[tail] = head;
     this.length[head] = this.length[tail] = length;
+  }
+}
+
+/**
+ * Ends by cells as wide as the join radius, the cells in a hash table: what is within the radius of a place
+ * is in at most four cells. Two cells may share a chain; distances sort that out.
+ */
+class EndGrid {
+  /** The next end in the same chain, −1 at its end. */
+  readonly next: Int32Array;
+  private readonly heads: Int32Array;
+
+  constructor(
+    xy: Float64Array,
+    ends: readonly number[],
+    private readonly cell: number,
+  ) {
+    this.next = new Int32Array(xy.length / 2).fill(-1);
+    this.heads = new Int32Array(2 ** Math.ceil(Math.log2(Math.max(ends.length, 1) + 1))).fill(-1);
+    for (const e of ends) {
+      const bucket = this.bucketOf(this.cellOf(xy[2 * e]), this.cellOf(xy[2 * e + 1]));
+      this.next[e] = this.heads[bucket];
+      this.heads[bucket] = e;
+    }
+  }
+
+  cellOf(value: number): number {
+    return Math.floor(value / this.cell);
+  }
+
+  first(column: number, row: number): number {
+    return this.heads[this.bucketOf(column, row)];
+  }
+
+  /** Takes `end` out of its chain, `before` standing before it (−1: nothing does). It still leads to the next. */
+  unlink(column: number, row: number, before: number, end: number): void {
+    if (before < 0) this.heads[this.bucketOf(column, row)] = this.next[end];
+    else this.next[before] = this.next[end];
+  }
+
+  private bucketOf(column: number, row: number): number {
+    const hash = Math.imul(column, 0x9e3779b1) ^ Math.imul(row, 0x85ebca77);
+    return (hash ^ (hash >>> 15)) & (this.heads.length - 1);
   }
 }
 

@@ -3,10 +3,11 @@
  *
  * Whatever is asked for, the result is never longer than the order of the file: the shorter is kept.
  */
-import { lineCount, type Lines } from "../geometry/polyline.js";
+import type { Lines } from "../geometry/polyline.js";
+import { improveTour } from "./best-order.js";
 import { nearestOrder } from "./nearest.js";
 import type { PrepareSettings } from "./settings.js";
-import { fileTour, travelOf, type Tour } from "./tour.js";
+import { fileTour, tagRanges, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 
 /** Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order. */
@@ -14,6 +15,7 @@ export function orderLines(lines: Lines, settings: OrderSettings, work: Work): T
   const given = fileTour(lines);
   if (settings.order === "none") return given;
   const tour = nearestTour(lines, !settings.reloop, work);
+  if (settings.order === "best") improveTour(lines, tour, !settings.reloop, settings.orderS, work);
   return travelOf(lines, tour) <= travelOf(lines, given) ? tour : given;
 }
 
@@ -26,15 +28,4 @@ function nearestTour(lines: Lines, freeStart: boolean, work: Work): Tour {
     place = nearestOrder(lines, first, end, place, freeStart, tour, work);
   }
   return tour;
-}
-
-/** Ranges [first, end) of lines that share a tag. */
-export function tagRanges(lines: Lines): [number, number][] {
-  const ranges: [number, number][] = [];
-  const count = lineCount(lines);
-  for (let first = 0, end = 0; first < count; first = end) {
-    while (end < count && lines.tag[end] === lines.tag[first]) end++;
-    ranges.push([first, end]);
-  }
-  return ranges;
 }

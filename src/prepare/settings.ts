@@ -111,7 +111,7 @@ export const DEFAULT_PREPARE: PrepareSettings = {
   layers: "group",
   hiddenLayers: [],
   order: "fast",
-  orderS: 10,
+  orderS: 9,
   margins: null,
   mirror: "none",
   place: null,

@@ -16,8 +16,10 @@ export interface Tour {
 /** The lines as they stand. */
 export function fileTour(lines: Lines): Tour {
   const count = lineCount(lines);
+  const order = new Uint32Array(count);
+  for (let i = 0; i < count; i++) order[i] = i;
   return {
-    order: Uint32Array.from({ length: count }, (_, i) => i),
+    order,
     reversed: new Uint8Array(count),
     start: new Uint32Array(count),
   };
@@ -71,4 +73,15 @@ function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder):
     builder.point(xy[2 * p], xy[2 * p + 1]);
   }
   builder.end(lines.tag[i]);
+}
+
+/** Ranges [first, end) of lines that share a tag. */
+export function tagRanges(lines: Lines): [number, number][] {
+  const ranges: [number, number][] = [];
+  const count = lineCount(lines);
+  for (let first = 0, end = 0; first < count; first = end) {
+    while (end < count && lines.tag[end] === lines.tag[first]) end++;
+    ranges.push([first, end]);
+  }
+  return ranges;
 }

@@ -4,6 +4,8 @@ import { PlotwrightError } from "../errors.js";
 export interface Work {
   /** Looked at often; an AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
+  /** Set when the best that has been found so far will do. */
+  readonly enough?: { readonly aborted: boolean } | undefined;
   /** Seconds of some clock that never runs backwards. */
   readonly nowS?: (() => number) | undefined;
   /** Fraction done, 0 … 1, never falling, and what is being done. */

@@ -1,0 +1,194 @@
+/**
+ * Order "best": the order "fast", made better for as long as there is time.
+ *
+ * Layer by layer, each from where the layer before ends to where the next one begins, so that every gain in
+ * a layer is a gain in the whole. Closed lines take part as points, the place where they are begun; from
+ * time to time each is begun anew at the corner that suits its neighbours best, and the search goes on.
+ *
+ * With a clock the search ends after `orderS`; without one after a fixed amount of work, and then the
+ * result is the same in every run.
+ */
+import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
+import { randomFrom } from "./random.js";
+import { improveBlocks } from "./tour-blocks.js";
+import { TourSearch } from "./tour-search.js";
+import { entryPoint, exitPoint, tagRanges, type Tour } from "./tour.js";
+import { stopIfCancelled, type Work } from "./work.js";
+
+/** Kicks per stroke without a clock: a few seconds for 20 000 strokes. */
+const KICKS_WITHOUT_CLOCK = 32;
+/** And with one: a small drawing is as good as it gets long before the time is up. */
+const MOST_KICKS = 1_000;
+const ENDS_BETWEEN_LOOKS = 4_096;
+/** Longer tours are searched in blocks only: turning stretches of them would take all the time. */
+const MOST_AT_ONCE = 50_000;
+/** Of the time, for the whole ring at once. */
+const FIRST_SHARE = 0.3;
+
+/** Improves `tour` in place. `seconds` counts by `work.nowS`. */
+export function improveTour(lines: Lines, tour: Tour, freeStart: boolean, seconds: number, work: Work): void {
+  const ranges = tagRanges(lines);
+  const total = tour.order.length;
+  const startS = work.nowS?.() ?? 0;
+  let done = 0;
+  ranges.forEach(([first, end], k) => {
+    const budget = new Budget(
+      work,
+      startS + (seconds * done) / total,
+      (seconds * (end - first)) / total,
+      total,
+      done,
+      end - first,
+    );
+    const from = first === 0 ? HOME : exitOf(lines, tour, tour.order[first - 1]);
+    const to = k + 1 === ranges.length ? HOME : entryOf(lines, tour, tour.order[end]);
+    improveRange(lines, tour, first, end, from, to, freeStart, budget);
+    done += end - first;
+  });
+}
+
+interface Spot {
+  readonly x: number;
+  readonly y: number;
+}
+
+const HOME: Spot = { x: 0, y: 0 };
+
+const spotAt = (lines: Lines, p: number): Spot => ({ x: lines.xy[2 * p], y: lines.xy[2 * p + 1] });
+const entryOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, entryPoint(lines, tour, i));
+const exitOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, exitPoint(lines, tour, i));
+
+/** How much searching one layer may have, and what the caller hears of it. */
+class Budget {
+  constructor(
+    private readonly work: Work,
+    private readonly startS: number,
+    private readonly seconds: number,
+    private readonly totalStrokes: number,
+    private readonly strokesBefore: number,
+    readonly strokes: number,
+  ) {}
+
+  get kicks(): number {
+    return this.strokes * (this.work.nowS ? MOST_KICKS : KICKS_WITHOUT_CLOCK);
+  }
+
+  /** Share of the budget used after so many kicks, 0 … 1; throws when cancelled. */
+  used(kicks: number): number {
+    stopIfCancelled(this.work);
+    if (this.work.enough?.aborted) return 1;
+    const byTime = this.work.nowS ? (this.work.nowS() - this.startS) / this.seconds : 0;
+    const share = Math.min(Math.max(byTime, kicks / this.kicks), 1);
+    this.work.onProgress?.((this.strokesBefore + share * this.strokes) / this.totalStrokes, "ordering");
+    return share;
+  }
+}
+
+function improveRange(
+  lines: Lines,
+  tour: Tour,
+  first: number,
+  end: number,
+  from: Spot,
+  to: Spot,
+  freeStart: boolean,
+  budget: Budget,
+): void {
+  const count = end - first;
+  if (count < 2) return;
+  const ring = new Int32Array(2 * count + 2);
+  const xy = new Float64Array(2 * ring.length);
+  // The stroke that stands for the rest of the plot: entered where this layer ends, left where it begins.
+  ring.set([2 * count, 2 * count + 1]);
+  xy.set([to.x, to.y, from.x, from.y], 4 * count);
+  for (let k = 0; k < count; k++) {
+    const i = tour.order[first + k];
+    const backwards = tour.reversed[i];
+    ring[2 * k + 2] = 2 * (i - first) + backwards;
+    ring[2 * k + 3] = 2 * (i - first) + 1 - backwards;
+    setEnds(lines, tour, i, first, xy);
+  }
+  search(ring, xy, budget, () => freeStart && beginAnew(lines, tour, ring, first, count, xy));
+  readRing(tour, ring, first);
+}
+
+/** The whole ring first, then block by block until the time is up. `beginClosed` may move closed lines in between. */
+function search(ring: Int32Array, xy: Float64Array, budget: Budget, beginClosed: () => boolean): void {
+  const random = randomFrom(3);
+  let kicks = 0;
+  do {
+    if (ring.length <= 2 * MOST_AT_ONCE) {
+      const whole = new TourSearch(xy, ring, random);
+      while (!whole.improve(ENDS_BETWEEN_LOOKS) && budget.used(kicks) < 1) continue;
+      setHomeFirst(ring, whole.ring);
+    }
+  } while (beginClosed() && budget.used(kicks++) < FIRST_SHARE);
+  const goOn = (more: number): boolean => budget.used((kicks += more)) < 1;
+  while (goOn(0) && improveBlocks(ring, xy, random, goOn)) beginClosed();
+  beginClosed();
+}
+
+/** Copies a ring so that home, its last stroke by number, stands at the front and is entered at its even end. */
+function setHomeFirst(ring: Int32Array, found: Int32Array): void {
+  const home = found.length - 2;
+  const place = found.indexOf(home);
+  const step = (place & 1) === 0 ? 1 : found.length - 1;
+  for (let k = 0, p = place; k < found.length; k++, p = (p + step) % found.length) ring[k] = found[p];
+}
+
+/** Coordinates of both ends of line `i`; of a closed line, where it is begun. */
+function setEnds(lines: Lines, tour: Tour, i: number, first: number, xy: Float64Array): void {
+  const closed = isClosedLine(lines, i);
+  const a = lines.offsets[i] + tour.start[i];
+  const b = closed ? a : lines.offsets[i + 1] - 1;
+  xy.set([lines.xy[2 * a], lines.xy[2 * a + 1], lines.xy[2 * b], lines.xy[2 * b + 1]], 4 * (i - first));
+}
+
+/** Begins each closed line at the corner nearest to its neighbours in the ring; true when any has moved. */
+function beginAnew(
+  lines: Lines,
+  tour: Tour,
+  ring: Int32Array,
+  first: number,
+  count: number,
+  xy: Float64Array,
+): boolean {
+  let moved = false;
+  for (let p = 0; p < ring.length; p += 2) {
+    const stroke = ring[p] >> 1;
+    if (stroke === count || !isClosedLine(lines, first + stroke)) continue;
+    const i = first + stroke;
+    const start = bestStart(lines, i, xy, ring[p - 1], ring[(p + 2) % ring.length]);
+    if (start === tour.start[i]) continue;
+    tour.start[i] = start;
+    setEnds(lines, tour, i, first, xy);
+    moved = true;
+  }
+  return moved;
+}
+
+function bestStart(lines: Lines, i: number, xy: Float64Array, before: number, after: number): number {
+  const first = lines.offsets[i];
+  let best = 0;
+  let shortest = Infinity;
+  for (let p = first; p < lines.offsets[i + 1] - 1; p++) {
+    const x = lines.xy[2 * p];
+    const y = lines.xy[2 * p + 1];
+    const way =
+      distance(x, y, xy[2 * before], xy[2 * before + 1]) + distance(x, y, xy[2 * after], xy[2 * after + 1]);
+    if (way < shortest) {
+      shortest = way;
+      best = p - first;
+    }
+  }
+  return best;
+}
+
+/** The ring, home at its front, as a tour. */
+function readRing(tour: Tour, ring: Int32Array, first: number): void {
+  for (let p = 2; p < ring.length; p += 2) {
+    const i = first + (ring[p] >> 1);
+    tour.order[first + p / 2 - 1] = i;
+    tour.reversed[i] = ring[p] & 1;
+  }
+}

@@ -1,0 +1,122 @@
+/**
+ * Searching a long tour piece by piece: a block of strokes that lie together is taken out, searched as a
+ * small tour of its own, and put back. On a ring of a thousand strokes a turned stretch costs microseconds
+ * and all of it is in the cache; on one of twenty thousand the same step costs ten times as much.
+ *
+ *   ring   h ooo [s s s] oooooo [s s] oo [s] oo      s in the block, o outside, h home
+ *   small    A    s s s     B    s s   C  s  D       each run of o is one stroke of the small tour
+ *
+ * A run of outside strokes is entered at its first end and left at its last, and costs the same whichever
+ * way round it is drawn: exactly what a stroke is. So the small tour is the whole problem with the outside
+ * held fast, and every mm that it saves is saved in the whole. (The idea of tour-based partitioning, after
+ * K. Helsgaun's LKH; here the runs need no special case.)
+ */
+import { PointIndex } from "../geometry/point-index.js";
+import { TourSearch } from "./tour-search.js";
+
+const STROKES_IN_BLOCK = 1_000;
+/** Kicks per stroke of a block before the next block has its turn. */
+const KICKS = 8;
+const KICKS_BETWEEN_LOOKS = 512;
+
+/**
+ * One pass over all strokes in blocks. `ring` is changed in place: ends in drawing order, stroke k with ends
+ * 2k and 2k + 1 at `xy`; the stroke that stands for home is at its front and in no block. `goOn` is asked
+ * now and then, with the number of kicks since; answers whether the pass was finished.
+ */
+export function improveBlocks(
+  ring: Int32Array,
+  xy: Float64Array,
+  random: () => number,
+  goOn: (kicks: number) => boolean,
+  strokesInBlock = STROKES_IN_BLOCK,
+): boolean {
+  const strokes = ring.length / 2;
+  const home = ring[0] >> 1;
+  const order = strokesInSpace(xy, strokes);
+  // Another cut in every pass, so that what is a border now lies within a block next time.
+  const shift = Math.floor(random() * strokes);
+  const blocks = Math.max(Math.round(strokes / strokesInBlock), 1);
+  const isIn = new Uint8Array(strokes);
+  for (let block = 0; block < blocks; block++) {
+    const from = Math.floor((block * strokes) / blocks);
+    const to = Math.floor(((block + 1) * strokes) / blocks);
+    isIn.fill(0);
+    for (let k = from; k < to; k++) isIn[order[(k + shift) % strokes]] = 1;
+    isIn[home] = 0;
+    if (!improveBlock(ring, xy, isIn, random, goOn)) return false;
+  }
+  return true;
+}
+
+/** Strokes by where their middle lies, neighbours side by side. */
+function strokesInSpace(xy: Float64Array, strokes: number): Uint32Array {
+  const middles = new Float64Array(2 * strokes);
+  for (let k = 0; k < strokes; k++) {
+    middles[2 * k] = (xy[4 * k] + xy[4 * k + 2]) / 2;
+    middles[2 * k + 1] = (xy[4 * k + 1] + xy[4 * k + 3]) / 2;
+  }
+  return new PointIndex(middles).inSpaceOrder;
+}
+
+function improveBlock(
+  ring: Int32Array,
+  xy: Float64Array,
+  isIn: Uint8Array,
+  random: () => number,
+  goOn: (kicks: number) => boolean,
+): boolean {
+  const starts = smallStrokes(ring, isIn);
+  const count = starts.length - 1;
+  const smallXy = new Float64Array(4 * count);
+  const smallRing = new Int32Array(2 * count);
+  for (let j = 0; j < count; j++) {
+    const first = ring[starts[j]];
+    const last = ring[starts[j + 1] - 1];
+    smallXy[4 * j] = xy[2 * first];
+    smallXy[4 * j + 1] = xy[2 * first + 1];
+    smallXy[4 * j + 2] = xy[2 * last];
+    smallXy[4 * j + 3] = xy[2 * last + 1];
+    smallRing[2 * j] = 2 * j;
+    smallRing[2 * j + 1] = 2 * j + 1;
+  }
+  const search = new TourSearch(smallXy, smallRing, random);
+  search.improve();
+  let more = true;
+  for (let left = KICKS * count; left > 0 && more; left -= KICKS_BETWEEN_LOOKS) {
+    const kicks = Math.min(left, KICKS_BETWEEN_LOOKS);
+    for (let k = 0; k < kicks; k++) search.kick();
+    more = goOn(kicks);
+  }
+  putBack(ring, starts, search.ring);
+  return more;
+}
+
+/** Places in the ring where each stroke of the small tour begins (one inside, or a run outside), and its end. */
+function smallStrokes(ring: Int32Array, isIn: Uint8Array): number[] {
+  const starts: number[] = [];
+  let wasOutside = false;
+  for (let p = 0; p < ring.length; p += 2) {
+    const inside = isIn[ring[p] >> 1] === 1;
+    if (inside || !wasOutside) starts.push(p);
+    wasOutside = !inside;
+  }
+  starts.push(ring.length);
+  return starts;
+}
+
+/** Writes the small tour out in full, beginning with the run that holds home at its front. */
+function putBack(ring: Int32Array, starts: readonly number[], small: Int32Array): void {
+  const old = ring.slice();
+  const place = small.indexOf(0);
+  const forward = (place & 1) === 0;
+  let at = 0;
+  for (let k = 0; k < small.length; k += 2) {
+    const p = (forward ? place + k : place - k + small.length) % small.length;
+    const entry = small[p];
+    const from = starts[entry >> 1];
+    const to = starts[(entry >> 1) + 1];
+    if ((entry & 1) === 0) for (let q = from; q < to; q++) ring[at++] = old[q];
+    else for (let q = to - 1; q >= from; q--) ring[at++] = old[q];
+  }
+}

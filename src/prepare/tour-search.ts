@@ -1,0 +1,331 @@
+/**
+ * The kernel of order "best": local search on a tour of strokes that may be drawn either way round.
+ *
+ * Form of the problem. Every stroke k has two ends, 2k and 2k + 1. The tour is a ring of ends in which the
+ * two ends of a stroke stay side by side; what is between strokes is travel:
+ *
+ *     … 2a+1 │ 6 7 │ 12 13 │ 5 4 │ 2b …        │ travel    6 7 a stroke, 5 4 one drawn backwards
+ *
+ * So every end has exactly one travel edge, to its partner, and turning a stretch of the tour round
+ * (2-opt) turns its strokes too: direction needs no moves of its own. One stroke stands for home: it is
+ * entered where the pen must end, and left where it begins.
+ *
+ * Moves (after S. Lin, 1965, and I. Or, 1976): take out the travel edge t1 t2, go from t2 to a near end t3,
+ * take out its travel edge t3 t4, and either close the ring from t4 to t1 (2-opt) or go on to a near t5,
+ * take out t5 t6 and close there (the sequential 3-opt moves, among them Or's moving of a stretch with or
+ * without turning it). Gains are kept positive at every step, which bounds the search (Lin and Kernighan);
+ * near ends come from lists of the nearest few.
+ *
+ * With rel(x) the place of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last), places of even rel are
+ * entered, of odd rel left. Then rel says at once which moves give one ring again:
+ *
+ *     rel t3 even: 2-opt closes;  t5 behind t3 must be even, t5 before t4 odd
+ *     rel t3 odd : only a third edge inside t2 … t3 makes one ring: any t5 there
+ *
+ * Out of a local optimum: a double bridge over a short stretch, then search again around it, and take it
+ * back if the tour got no shorter (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes
+ * are turned stretches, kept in a log, so taking back costs no more than was done.
+ *
+ * Invariants: `tour` and `place` are inverse; ends of a stroke are neighbours in the ring at places 2i, 2i+1;
+ * `length` falls with every step that is kept. Lengths in mm.
+ */
+import { PointIndex } from "../geometry/point-index.js";
+
+const NEAR = 8;
+/** Of those, how many are tried for the third edge. */
+const NEAR_THIRD = 5;
+/** Smaller gains are rounding. */
+const EPSILON = 1e-9;
+/** A double bridge cuts within so many strokes. */
+const KICK_SPAN = 12;
+
+export class TourSearch {
+  /** Travel length of the ring, mm. */
+  length = 0;
+
+  private readonly ends: number;
+  private readonly tour: Int32Array;
+  private readonly place: Int32Array;
+  private near = new Int32Array(0);
+  private nearDistance = new Float64Array(0);
+  /** Ends whose surroundings are still to be looked at: a ring buffer, each end in it at most once. */
+  private readonly queue: Int32Array;
+  private readonly queued: Uint8Array;
+  private queueFrom = 0;
+  private queueSize = 0;
+  /** Turned stretches since the last mark: first and last place of each. */
+  private log: number[] = [];
+
+  // The best move around the end that is being looked at.
+  private gain = 0;
+  private t3 = 0;
+  private t5 = 0;
+
+  /**
+   * `xy` holds the ends' coordinates, x, y of end 0, of end 1 …; kept, not copied. `order` is the ring to
+   * begin with: the ends in the order in which the pen meets them.
+   */
+  constructor(
+    private readonly xy: Float64Array,
+    order: Int32Array,
+    private readonly random: () => number,
+  ) {
+    this.ends = order.length;
+    this.tour = order.slice();
+    this.place = new Int32Array(this.ends);
+    for (let p = 0; p < this.ends; p++) this.place[this.tour[p]] = p;
+    this.queue = new Int32Array(this.ends);
+    this.queued = new Uint8Array(this.ends);
+    this.refresh();
+  }
+
+  /** To be called when coordinates have changed: lists, length and queue are made anew. */
+  refresh(): void {
+    const { ends, xy } = this;
+    this.near = new Int32Array(ends * NEAR).fill(-1);
+    this.nearDistance = new Float64Array(ends * NEAR);
+    const index = new PointIndex(xy);
+    for (let e = 0; e < ends; e++) {
+      const count = index.nearestMany(e, e ^ 1, NEAR, this.near, e * NEAR);
+      for (let k = 0; k < count; k++) this.nearDistance[e * NEAR + k] = this.gap(e, this.near[e * NEAR + k]);
+    }
+    this.length = 0;
+    for (let p = 1; p < ends; p += 2) this.length += this.gap(this.tour[p], this.tour[this.next(p)]);
+    for (let p = 0; p < ends; p++) this.push(this.tour[p]);
+  }
+
+  /** The ring of ends as it stands. */
+  get ring(): Int32Array {
+    return this.tour;
+  }
+
+  /** Improves until no move around any queued end does, or `steps` ends have been looked at; true when done. */
+  improve(steps = Infinity): boolean {
+    for (let step = 0; this.queueSize > 0 && step < steps; step++) {
+      const t1 = this.pop();
+      while (this.improveAround(t1)) continue;
+    }
+    return this.queueSize === 0;
+  }
+
+  /** One double bridge and the search after it; taken back unless the tour is as short as before. */
+  kick(): void {
+    const strokes = this.ends / 2;
+    if (strokes < 8) return;
+    const before = this.length;
+    this.log.length = 0;
+    const span = Math.min(KICK_SPAN, strokes - 3);
+    const start = Math.floor(this.random() * strokes);
+    const cuts = [0, 0, 0].map(() => 1 + Math.floor(this.random() * span)).sort((a, b) => a - b);
+    // Three different cuts, the last at most strokes − 1 on: the stroke at `start` stays where it is.
+    const c1 = cuts[0];
+    const c2 = Math.max(cuts[1], c1 + 1);
+    const c3 = Math.max(cuts[2], c2 + 1);
+    this.doubleBridge(start, c1, c2, c3);
+    this.improve();
+    if (this.length > before + EPSILON) this.takeBack(before);
+  }
+
+  /** Stretches b, c, d of so many strokes after stroke place `start` come out as d, c, b. */
+  private doubleBridge(start: number, c1: number, c2: number, c3: number): void {
+    const at = (stroke: number, exit: number): number => this.tour[(2 * (start + stroke) + exit) % this.ends];
+    const [p, b0, b1] = [at(0, 1), at(1, 0), at(c1, 1)];
+    const [c0, cEnd, d0, d1, n] = [at(c1 + 1, 0), at(c2, 1), at(c2 + 1, 0), at(c3, 1), at(c3 + 1, 0)];
+    const old = this.gap(p, b0) + this.gap(b1, c0) + this.gap(cEnd, d0) + this.gap(d1, n);
+    this.swap(p, b0, b1, c0, d1, n);
+    this.swap(p, c0, cEnd, d0, d1, b0);
+    this.length += this.gap(p, d0) + this.gap(d1, c0) + this.gap(cEnd, b0) + this.gap(b1, n) - old;
+    for (const end of [p, b0, b1, c0, cEnd, d0, d1, n]) this.push(end);
+  }
+
+  private takeBack(length: number): void {
+    for (let k = this.log.length - 2; k >= 0; k -= 2) this.turnPlaces(this.log[k], this.log[k + 1]);
+    this.log.length = 0;
+    this.length = length;
+  }
+
+  /** Looks for the best move that takes out the travel edge of t1, and makes it. */
+  private improveAround(t1: number): boolean {
+    const { tour, place, near, nearDistance, ends } = this;
+    const p1 = place[t1];
+    // Odd places are left: there the ring goes on forwards to the partner, at even ones backwards.
+    const forward = (p1 & 1) === 1;
+    const p2 = forward ? this.next(p1) : this.previous(p1);
+    const t2 = tour[p2];
+    const d12 = this.gap(t1, t2);
+    this.gain = EPSILON;
+    this.t3 = -1;
+    for (let k = t2 * NEAR; k < (t2 + 1) * NEAR; k++) {
+      const t3 = near[k];
+      const g1 = d12 - nearDistance[k];
+      if (t3 < 0 || g1 <= this.gain) break;
+      if (t3 === t1) continue;
+      const p3 = place[t3];
+      let rel3 = forward ? p3 - p2 : p2 - p3;
+      if (rel3 < 0) rel3 += ends;
+      const t4 = tour[this.partnerPlace(p3)];
+      const g2 = g1 + this.gap(t3, t4);
+      const closes = (rel3 & 1) === 0;
+      if (closes) this.offer(g2 - this.gap(t4, t1), t3, -1);
+      this.tryThird(t1, p2, forward, t3, rel3, t4, g2);
+    }
+    if (this.t3 < 0) return false;
+    this.makeMove(t1, t2);
+    return true;
+  }
+
+  private tryThird(
+    t1: number,
+    p2: number,
+    forward: boolean,
+    t3: number,
+    rel3: number,
+    t4: number,
+    g2: number,
+  ): void {
+    const { tour, place, near, nearDistance, ends } = this;
+    const closes = (rel3 & 1) === 0;
+    for (let k = t4 * NEAR; k < t4 * NEAR + NEAR_THIRD; k++) {
+      const t5 = near[k];
+      const g3 = g2 - nearDistance[k];
+      if (t5 < 0 || g3 <= this.gain) break;
+      const p5 = place[t5];
+      let rel5 = forward ? p5 - p2 : p2 - p5;
+      if (rel5 < 0) rel5 += ends;
+      const fits = closes
+        ? rel5 > rel3
+          ? (rel5 & 1) === 0
+          : rel5 < rel3 - 1 && (rel5 & 1) === 1
+        : rel5 > 0 && rel5 < rel3;
+      if (!fits || t5 === t1) continue;
+      const t6 = tour[this.partnerPlace(p5)];
+      this.offer(g3 + this.gap(t5, t6) - this.gap(t6, t1), t3, t5);
+    }
+  }
+
+  private offer(gain: number, t3: number, t5: number): void {
+    if (gain <= this.gain) return;
+    this.gain = gain;
+    this.t3 = t3;
+    this.t5 = t5;
+  }
+
+  /** Carries out the move found, as turned stretches. */
+  private makeMove(t1: number, t2: number): void {
+    const { t3, t5, place } = this;
+    const t4 = this.tour[this.partnerPlace(place[t3])];
+    const t6 = t5 < 0 ? -1 : this.tour[this.partnerPlace(place[t5])];
+    // t3 is entered from the same side as t2 exactly when the 2-opt move closes.
+    const closes = (place[t3] & 1) === (place[t2] & 1);
+    if (closes) {
+      this.turn(t1, t2, t4, t3);
+      if (t5 >= 0) this.turn(t1, t4, t6, t5);
+    } else if ((place[t5] & 1) === (place[t2] & 1)) {
+      this.turn(t1, t2, t6, t5);
+      this.turn(t2, t5, t3, t4);
+    } else {
+      this.swapShortest(t1, t2, t5, t6, t3, t4);
+    }
+    this.length -= this.gain;
+    this.push(t1);
+    this.push(t2);
+    this.push(t3);
+    this.push(t4);
+    if (t5 >= 0) {
+      this.push(t5);
+      this.push(t6);
+    }
+  }
+
+  /** p [x0 … x1] [y0 … y1] n becomes p [y0 … y1] [x0 … x1] n. */
+  private swap(p: number, x0: number, x1: number, y0: number, y1: number, n: number): void {
+    this.turn(p, x0, y1, n);
+    this.turn(p, y1, y0, x1);
+    this.turn(y1, x1, x0, n);
+  }
+
+  /** The same for a ring of three stretches: exchanging any two neighbours is the same ring, so the two shortest. */
+  private swapShortest(p: number, x0: number, x1: number, y0: number, y1: number, n: number): void {
+    const x = this.span(x0, x1);
+    const y = this.span(y0, y1);
+    const rest = this.ends - x - y;
+    if (rest >= x && rest >= y) this.swap(p, x0, x1, y0, y1, n);
+    else if (x >= y) this.swap(x1, y0, y1, n, p, x0);
+    else this.swap(y1, n, p, x0, x1, y0);
+  }
+
+  private span(a: number, b: number): number {
+    const forward = (this.place[a] & 1) === 0;
+    const span = forward ? this.place[b] - this.place[a] : this.place[a] - this.place[b];
+    return (span < 0 ? span + this.ends : span) + 1;
+  }
+
+  /** Takes out travel a b and c d (b after a, d after c, in either sense), puts in a c and b d: turns b … c. */
+  private turn(a: number, b: number, c: number, d: number): void {
+    const { place, ends } = this;
+    // b … c runs forwards when b is entered (even), else the same stretch is c … b.
+    const forward = (place[b] & 1) === 0;
+    const first = forward ? place[b] : place[c];
+    const last = forward ? place[c] : place[b];
+    let inner = last - first;
+    if (inner < 0) inner += ends;
+    // Turning the rest of the ring instead gives the same ring.
+    if (2 * (inner + 1) <= ends) this.turnPlaces(first, last);
+    else if (forward) this.turnPlaces(place[d], place[a]);
+    else this.turnPlaces(place[a], place[d]);
+  }
+
+  private turnPlaces(first: number, last: number): void {
+    const { tour, place, ends } = this;
+    this.log.push(first, last);
+    let count = last - first;
+    if (count < 0) count += ends;
+    let i = first;
+    let j = last;
+    for (let k = (count + 1) >> 1; k > 0; k--) {
+      const a = tour[i];
+      const b = tour[j];
+      tour[i] = b;
+      place[b] = i;
+      tour[j] = a;
+      place[a] = j;
+      if (++i === ends) i = 0;
+      if (--j < 0) j = ends - 1;
+    }
+  }
+
+  private next(p: number): number {
+    return p + 1 === this.ends ? 0 : p + 1;
+  }
+
+  private previous(p: number): number {
+    return p === 0 ? this.ends - 1 : p - 1;
+  }
+
+  /** Where the other end of the travel edge stands. */
+  private partnerPlace(p: number): number {
+    return (p & 1) === 1 ? this.next(p) : this.previous(p);
+  }
+
+  private gap(a: number, b: number): number {
+    const dx = this.xy[2 * a] - this.xy[2 * b];
+    const dy = this.xy[2 * a + 1] - this.xy[2 * b + 1];
+    return Math.sqrt(dx * dx + dy * dy);
+  }
+
+  private push(end: number): void {
+    if (this.queued[end] === 1) return;
+    this.queued[end] = 1;
+    let at = this.queueFrom + this.queueSize++;
+    if (at >= this.ends) at -= this.ends;
+    this.queue[at] = end;
+  }
+
+  private pop(): number {
+    const end = this.queue[this.queueFrom];
+    this.queueFrom = this.next(this.queueFrom);
+    this.queueSize--;
+    this.queued[end] = 0;
+    return end;
+  }
+}

@@ -1,0 +1,62 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { PointIndex } from "../../../src/geometry/point-index.js";
+
+/** Few different values, so that points coincide and stand in rows. */
+const value = fc.oneof(fc.integer({ min: 0, max: 5 }), fc.double({ min: -1e3, max: 1e3, noNaN: true }));
+const points = fc.array(fc.tuple(value, value), { minLength: 1, maxLength: 60 });
+const RUNS = { numRuns: 1_000 };
+
+describe("PointIndex", () => {
+  it("finds as near a point as a look at all of them, while points are removed", () => {
+    fc.assert(
+      fc.property(
+        points,
+        fc.array(fc.tuple(value, value, fc.boolean()), { maxLength: 80 }),
+        (given, queries) => {
+          const index = new PointIndex(Float64Array.from(given.flat()));
+          const left = new Set(given.keys());
+          for (const [x, y, remove] of queries) {
+            const best = Math.min(
+              Infinity,
+              ...[...left].map((i) => (given[i][0] - x) ** 2 + (given[i][1] - y) ** 2),
+            );
+            const found = index.nearest(x, y);
+            if (left.size === 0) expect(found).toBe(-1);
+            else {
+              expect(left.has(found)).toBe(true);
+              expect((given[found][0] - x) ** 2 + (given[found][1] - y) ** 2).toBe(best);
+              if (remove) {
+                index.remove(found);
+                left.delete(found);
+              }
+            }
+            expect(index.size).toBe(left.size);
+          }
+        },
+      ),
+      RUNS,
+    );
+  });
+
+  it("lists the nearest few, nearest first, without the point itself and the one to leave out", () => {
+    fc.assert(
+      fc.property(points, fc.nat(59), fc.nat(59), fc.integer({ min: 1, max: 8 }), (given, a, b, count) => {
+        const id = a % given.length;
+        const except = b % given.length;
+        const out = new Int32Array(count + 1).fill(-7);
+        const found = new PointIndex(Float64Array.from(given.flat())).nearestMany(id, except, count, out, 1);
+        const d2 = (i: number): number =>
+          (given[i][0] - given[id][0]) ** 2 + (given[i][1] - given[id][1]) ** 2;
+        const others = [...given.keys()].filter((i) => i !== id && i !== except);
+        const expected = others
+          .map(d2)
+          .sort((p, q) => p - q)
+          .slice(0, count);
+        expect([...out.subarray(1, 1 + found)].map(d2)).toEqual(expected);
+        expect(new Set(out.subarray(1, 1 + found)).size).toBe(found);
+      }),
+      RUNS,
+    );
+  });
+});
