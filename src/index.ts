@@ -127,9 +127,9 @@ export {
 export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
 export { SessionLog } from "./board/session-log.js";
 export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
+export { streamCommands } from "./board/stream-commands.js";
 export {
   parseSteps,
-  streamCommands,
   Streamer,
   type StreamOptions,
   type StreamPlace,

@@ -179,8 +179,23 @@ export function snappedPlace(
   return { stroke: place.stroke, alongMm: bestMm };
 }
 
+/** The first command that begins `leadS` after command `index` or later. */
+export function commandAfter(commands: CommandStream, index: number, leadS: number): number {
+  const fromS = commands.boardS[index]! + leadS;
+  let i = index;
+  while (i < commands.count && commands.boardS[i]! < fromS) i++;
+  return i;
+}
+
+/** A plan begins with the pen coming down; here it is down already. */
+export function withoutDrop(commands: CommandStream): CommandStream {
+  let first = 0;
+  while (first < commands.count && commands.run[first]! < 0) first++;
+  return streamFrom(commands, first);
+}
+
 /** A stream without its first commands. */
-export function streamFrom(stream: CommandStream, index: number): CommandStream {
+function streamFrom(stream: CommandStream, index: number): CommandStream {
   return {
     ...stream,
     count: stream.count - index,

@@ -26,6 +26,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
 import {
   boardStateBefore,
+  commandAfter,
   isPenUpBefore,
   machineOf,
   movedPlace,
@@ -34,9 +35,10 @@ import {
   restingStream,
   pointOfPlace,
   snappedPlace,
-  streamFrom,
+  withoutDrop,
 } from "./plan-places.js";
 import { RunProgress, type Part } from "./run-progress.js";
+import { Waiters } from "./waiters.js";
 import type {
   LivePlotRun,
   PlannedPlot,
@@ -87,8 +89,7 @@ export class CarriageRun implements LivePlotRun {
   private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   private readonly heldListeners: ((held: boolean) => void)[] = [];
   private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
-  private waiters: { until: () => boolean; resolve: () => void; reject: (error: Error) => void }[] = [];
-  private ended: Error | true | null = null;
+  private readonly waiters = new Waiters();
 
   constructor(
     private readonly carriage: Carriage,
@@ -102,11 +103,11 @@ export class CarriageRun implements LivePlotRun {
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
     this.finished = this.run().then(
       (outcome) => {
-        this.end(true);
+        this.waiters.end(true);
         return outcome;
       },
       (error: unknown) => {
-        this.end(error instanceof Error ? error : new Error(String(error)));
+        this.waiters.end(error instanceof Error ? error : new Error(String(error)));
         throw error;
       },
     );
@@ -129,18 +130,18 @@ export class CarriageRun implements LivePlotRun {
 
   pause(): Promise<void> {
     if (this.wish === "run") this.ask("hold");
-    return this.until(() => this.held || this.wish === "cancel");
+    return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
   resume(): Promise<void> {
     if (this.wish === "hold") this.ask("run");
-    return this.until(() => !this.held);
+    return this.waiters.until(() => !this.held);
   }
 
   cancel(): Promise<void> {
     this.ask("cancel");
     this.cancelPlanning?.(cancelled());
-    return this.until(() => false);
+    return this.waiters.until(() => false);
   }
 
   emergencyStop(): Promise<void> {
@@ -151,7 +152,7 @@ export class CarriageRun implements LivePlotRun {
       this.carriage.connection.session.write([{ line: "ES" }]);
       streamer.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
     }
-    return this.until(() => this.held || this.wish === "cancel");
+    return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
   /** The board can no longer do what it is told: nothing more is written, `finished` rejects. */
@@ -426,7 +427,7 @@ export class CarriageRun implements LivePlotRun {
   private setHeld(held: boolean): void {
     this.held = held;
     for (const listener of this.heldListeners) listener(held);
-    this.settleWaiters();
+    this.waiters.check();
   }
 
   private tick(): () => void {
@@ -456,43 +457,6 @@ export class CarriageRun implements LivePlotRun {
     const { xMm, yMm, penUp, elapsedS } = latest;
     this.start.journal?.record({ place: left, xMm, yMm, penUp, elapsedS });
   }
-
-  private until(condition: () => boolean): Promise<void> {
-    return new Promise((resolve, reject) => {
-      this.waiters.push({ until: condition, resolve, reject });
-      this.settleWaiters();
-    });
-  }
-
-  private end(how: Error | true): void {
-    this.ended = how;
-    this.settleWaiters();
-  }
-
-  private settleWaiters(): void {
-    const waiters = this.waiters;
-    this.waiters = waiters.filter(({ until, resolve, reject }) => {
-      if (this.ended instanceof Error) reject(this.ended);
-      else if (this.ended || until()) resolve();
-      else return true;
-      return false;
-    });
-  }
-}
-
-/** The first command that begins `leadS` after command `index` or later. */
-function commandAfter(commands: CommandStream, index: number, leadS: number): number {
-  const fromS = commands.boardS[index]! + leadS;
-  let i = index;
-  while (i < commands.count && commands.boardS[i]! < fromS) i++;
-  return i;
-}
-
-/** A plan begins with the pen coming down; here it is down already. */
-function withoutDrop(commands: CommandStream): CommandStream {
-  let first = 0;
-  while (first < commands.count && commands.run[first]! < 0) first++;
-  return streamFrom(commands, first);
 }
 
 const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

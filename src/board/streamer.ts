@@ -19,7 +19,7 @@ import type { CommandStream } from "../ebb/command-stream.js";
 import { PlotwrightError } from "../errors.js";
 import { BoardPace } from "./board-pace.js";
 import type { BoardSession, Outgoing } from "./session.js";
-import type { Cancellation, Clock } from "./transport.js";
+import type { Clock } from "./transport.js";
 
 export interface StreamOptions {
   /** Counts board seconds. */
@@ -458,34 +458,6 @@ export class Streamer {
     const settle = this.settle;
     this.settle = null;
     settle?.reject(error);
-  }
-}
-
-/** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */
-export async function streamCommands(
-  session: BoardSession,
-  stream: CommandStream,
-  options: StreamOptions & {
-    readonly cancel?: Cancellation;
-    readonly onProgress?: (place: StreamPlace) => void;
-    /** Board seconds between two calls of `onProgress`, and two looks at `cancel`. Default 0.06. */
-    readonly progressEveryS?: number;
-  },
-): Promise<StreamReport & { readonly underrunCount: number }> {
-  const streamer = new Streamer(session, options);
-  let stopTicking: (() => void) | null = null;
-  const tick = (): void => {
-    if (options.cancel?.aborted && streamer.playing) streamer.cut();
-    else options.onProgress?.(streamer.place());
-    stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
-  };
-  const played = streamer.play(stream);
-  tick();
-  try {
-    const report = await played;
-    return { ...report, underrunCount: streamer.underrunCount };
-  } finally {
-    (stopTicking as (() => void) | null)?.();
   }
 }
 
