@@ -84,6 +84,7 @@ describe("the installed package", () => {
     ["plotwright", "plan, importSvg, prepare, compile, VirtualBoard"],
     ["plotwright/schema", "plotSettingsSchema, jobSchema"],
     ["plotwright/server", "createServer"],
+    ["plotwright/web-serial", "requestBoard, openWebSerial, browserClock"],
   ])("lets a program import from %s", (entry, names) => {
     const program = `import { ${names} } from "${entry}"; console.log([${names}].every((name) => name !== undefined));`;
     writeFileSync(path.join(app, "program.js"), program);

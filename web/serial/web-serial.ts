@@ -1,0 +1,159 @@
+/**
+ * Entry "plotwright/web-serial": a board driven straight from a page, by the browser's Web Serial
+ * (Chromium browsers; a secure context, which http://localhost is too).
+ */
+import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
+
+/** What is needed of the browser's `SerialPort`. */
+export interface WebSerialPort {
+  readonly readable: ReadableStream<Uint8Array> | null;
+  readonly writable: WritableStream<Uint8Array> | null;
+  open(options: { baudRate: number }): Promise<void>;
+  close(): Promise<void>;
+}
+
+/** What is needed of `navigator.serial`. */
+export interface WebSerial {
+  requestPort(options: { filters: { usbVendorId: number; usbProductId: number }[] }): Promise<WebSerialPort>;
+}
+
+/** The EiBotBoard's USB numbers: Microchip's, the product given to it. */
+const EBB_FILTER = { usbVendorId: 0x04d8, usbProductId: 0xfd92 };
+/** The board is a USB device that ignores the rate; it has to be some legal number. */
+const BAUD_RATE = 115_200;
+
+/**
+ * Lets the user choose a board in the browser's own dialogue, and opens it. Call it from a click: browsers
+ * refuse otherwise. Rejects with `no-board` (nothing chosen), `not-allowed` (no Web Serial here), `busy`.
+ */
+export async function requestBoard(serial: WebSerial | undefined = browserSerial()): Promise<Transport> {
+  if (serial === undefined) {
+    throw new PlotwrightError(
+      "not-allowed",
+      "This browser can’t open USB boards from a page: use Chrome or Edge, at https or on localhost.",
+    );
+  }
+  let port: WebSerialPort;
+  try {
+    port = await serial.requestPort({ filters: [EBB_FILTER] });
+  } catch (cause) {
+    throw new PlotwrightError("no-board", "No board was chosen. Plug it in, and choose it in the list.", {
+      cause,
+    });
+  }
+  return openWebSerial(port);
+}
+
+/** Opens a port that the page already has, for example from `navigator.serial.getPorts()`. Rejects with `busy`. */
+export async function openWebSerial(port: WebSerialPort): Promise<Transport> {
+  try {
+    await port.open({ baudRate: BAUD_RATE });
+  } catch (cause) {
+    throw new PlotwrightError(
+      "busy",
+      "The board can’t be opened: close other programs and pages that use it, then connect again.",
+      { cause },
+    );
+  }
+  if (port.readable === null || port.writable === null) throw lost();
+  return new WebSerialTransport(port, port.readable.getReader(), port.writable.getWriter());
+}
+
+/** The page's clock, for `BoardSession` and `Streamer`. */
+export function browserClock(): Clock {
+  return {
+    nowS: () => performance.now() / 1_000,
+    after(delayS, callback) {
+      const timer = setTimeout(callback, delayS * 1_000);
+      return () => clearTimeout(timer);
+    },
+  };
+}
+
+class WebSerialTransport implements Transport {
+  readonly #port: WebSerialPort;
+  readonly #reader: ReadableStreamDefaultReader<Uint8Array>;
+  readonly #writer: WritableStreamDefaultWriter<Uint8Array>;
+  readonly #ended: Promise<void>;
+  #onData: (bytes: Uint8Array) => void = () => undefined;
+  #onClose: ((error?: Error) => void) | null = null;
+  #end: { readonly error: Error | undefined } | null = null;
+  #isClosing = false;
+
+  constructor(
+    port: WebSerialPort,
+    reader: ReadableStreamDefaultReader<Uint8Array>,
+    writer: WritableStreamDefaultWriter<Uint8Array>,
+  ) {
+    this.#port = port;
+    this.#reader = reader;
+    this.#writer = writer;
+    // A write that fails says so itself; without this the loss would also be an unhandled rejection.
+    writer.closed.catch(() => undefined);
+    this.#ended = this.#read();
+  }
+
+  async write(bytes: Uint8Array): Promise<void> {
+    if (this.#end !== null || this.#isClosing) throw lost();
+    try {
+      await this.#writer.write(bytes);
+    } catch (cause) {
+      throw lost(cause);
+    }
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.#onData = listener;
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.#onClose = listener;
+    if (this.#end !== null) this.#tellEnd();
+  }
+
+  async close(): Promise<void> {
+    if (!this.#isClosing) {
+      this.#isClosing = true;
+      await this.#reader.cancel().catch(() => undefined);
+    }
+    await this.#ended;
+  }
+
+  /** Until the port is closed or lost; then gives the streams and the port back. */
+  async #read(): Promise<void> {
+    let failure: unknown;
+    try {
+      for (;;) {
+        const { value, done } = await this.#reader.read();
+        if (done) break;
+        this.#onData(value);
+      }
+    } catch (error) {
+      failure = error;
+    }
+    this.#reader.releaseLock();
+    await this.#writer.abort().catch(() => undefined);
+    this.#writer.releaseLock();
+    await this.#port.close().catch(() => undefined);
+    this.#end = { error: this.#isClosing ? undefined : lost(failure) };
+    this.#tellEnd();
+  }
+
+  #tellEnd(): void {
+    const listener = this.#onClose;
+    if (listener === null || this.#end === null) return;
+    this.#onClose = null;
+    listener(this.#end.error);
+  }
+}
+
+function browserSerial(): WebSerial | undefined {
+  return (globalThis as { navigator?: { serial?: WebSerial } }).navigator?.serial;
+}
+
+const lost = (cause?: unknown): PlotwrightError =>
+  new PlotwrightError(
+    "disconnected",
+    "The connection to the board is lost: check its USB cable and power, then connect again.",
+    { cause },
+  );
