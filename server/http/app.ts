@@ -1,12 +1,12 @@
 /** Express put together: guards first, then the API, then the page. */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
-import type { Snapshot } from "../../src/schema/index.js";
+import { queueSettingsSchema, type Snapshot } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import type { Access } from "../security/access.js";
-import { errorResponder, notFound } from "./errors.js";
+import { errorResponder, notFound, parseWith } from "./errors.js";
 import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
 import { guardHosts } from "./guard.js";
@@ -51,6 +51,7 @@ function apiRoutes(parts: AppParts): Router {
   const snapshot = (): Snapshot => ({
     version: parts.version,
     plotters: [...plotters.values()].map((plotter) => plotter.snapshot()),
+    queue: queue.settings,
     jobs: queue.list(),
   });
   router.use((_request, response, next) => {
@@ -63,6 +64,14 @@ function apiRoutes(parts: AppParts): Router {
   router.get("/events", (request, response) => parts.hub.open(request, response, snapshot));
   router.get("/me", (request, response) => {
     response.json({ role: roleOf(request, parts.access) });
+  });
+  router.get("/queue", (_request, response) => {
+    response.json(queue.settings);
+  });
+  router.patch("/queue", express.json({ limit: "10kb" }), (request, response) => {
+    queue.settings = parseWith(queueSettingsSchema, request.body);
+    parts.hub.announce({ type: "queue", queue: queue.settings });
+    response.json(queue.settings);
   });
   router.use("/access", accessRoutes(parts.access));
   router.use("/jobs", jobsRoutes(queue, parts.files));

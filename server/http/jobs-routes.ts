@@ -69,6 +69,10 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
     });
   }
 
+  router.post("/:id/duplicate", (request, response) => {
+    response.status(201).json(queue.duplicate(request.params.id));
+  });
+
   router.post("/:id/emergency-stop", async (request, response) => {
     response.json(await queue.emergencyStop(request.params.id));
   });
@@ -94,16 +98,23 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
 
   async function addFromJson(request: Request): Promise<Job> {
     if (isSmall(request)) {
-      const { drawing, ...rest } = parseWith(newJobSchema, request.body);
-      return queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+      const { drawing, copies, ...rest } = parseWith(newJobSchema, request.body);
+      const first = await queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+      return withCopies(first, copies);
     }
     const { drawing, rest } = await files.addFromJson(bytesOf(request));
     try {
-      return await queue.add({ ...parseWith(newJobSchema.omit({ drawing: true }), rest), drawing });
+      const { copies, ...wanted } = parseWith(newJobSchema.omit({ drawing: true }), rest);
+      return withCopies(await queue.add({ ...wanted, drawing }), copies);
     } catch (error) {
       await files.remove(drawing.id);
       throw error;
     }
+  }
+
+  function withCopies(first: Job, copies = 1): Job {
+    for (let copy = 1; copy < copies; copy++) queue.duplicate(first.id);
+    return first;
   }
 
   /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */

@@ -64,6 +64,7 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
         ...next,
         place: null,
         speedPct: 100,
+        plottedS: null,
         progress: 0,
         elapsedS: 0,
         remainingS: null,

@@ -4,11 +4,11 @@
  *
  * Progress is the exception: it is announced as it comes and written only with the next change of state.
  */
-import { randomUUID } from "node:crypto";
 import { z } from "zod";
 import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
 import {
   ENDED_STATES,
+  queueSettingsSchema,
   type Job,
   type JobChange,
   type JobPatch,
@@ -16,12 +16,14 @@ import {
   type JobStats,
   type MovePlace,
   type PlotSettings,
+  type QueueSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
 import type { PlotPlanner, PlotProgress } from "../plotter/types.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 import { applyJobEvent, type JobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
+import { MovingTimer, queuedJob } from "./queued-job.js";
 import { Runner, type RunEnd } from "./runner.js";
 import type { Store } from "./store.js";
 
@@ -67,6 +69,7 @@ export class JobQueue {
   readonly #parts: QueueParts;
   readonly #jobs = new Map<string, Job>();
   readonly #runners = new Map<string, { readonly jobId: string; readonly runner: Runner }>();
+  readonly #timers = new Map<string, MovingTimer>();
   #closing = false;
 
   /** Loads what is on disk; a job that was plotting when the server ended becomes interrupted. */
@@ -91,6 +94,30 @@ export class JobQueue {
     return job;
   }
 
+  get settings(): QueueSettings {
+    const kept = queueSettingsSchema.safeParse(this.#parts.store.setting(QUEUE_SETTING));
+    return kept.success ? kept.data : { runOn: false };
+  }
+
+  set settings(settings: QueueSettings) {
+    this.#parts.store.saveSetting(QUEUE_SETTING, settings);
+  }
+
+  /** A queued copy, with the same drawing and settings: behind a queued job, else last. */
+  duplicate(id: string): Job {
+    const job = this.get(id);
+    const { store } = this.#parts;
+    const waiting = this.#order().filter((one) => this.get(one).state === "queued");
+    const behind = waiting[waiting.indexOf(id) + 1] ?? null;
+    const copy = queuedJob(job, this.#parts.nowIso());
+    store.addJob(copy, { id: store.drawingOf(id), bytes: 0 });
+    if (job.state === "queued" && behind !== null) store.moveJob(copy.id, behind);
+    this.#jobs.set(copy.id, copy);
+    this.#announceJob(copy);
+    this.#announceOrder();
+    return copy;
+  }
+
   /** Plans the drawing to know it can be plotted, then appends it. Throws what planning throws, and
    *  then the drawing is gone. */
   async add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
@@ -110,24 +137,11 @@ export class JobQueue {
       wanted.settings,
       signal,
     );
-    const job: Job = {
-      id: randomUUID(),
-      plotterId,
-      name: wanted.name,
-      state: "queued",
-      settings: wanted.settings,
-      stats,
-      warnings: [...warnings],
-      progress: 0,
-      elapsedS: 0,
-      remainingS: stats.durationS,
-      message: null,
-      place: null,
-      speedPct: 100,
-      createdAt: this.#parts.nowIso(),
-      startedAt: null,
-      endedAt: null,
-    };
+    const { name, settings } = wanted;
+    const job = queuedJob(
+      { plotterId, name, settings, stats, warnings: [...warnings] },
+      this.#parts.nowIso(),
+    );
     this.#parts.store.addJob(job, wanted.drawing);
     this.#jobs.set(job.id, job);
     this.#announceJob(job);
@@ -137,7 +151,11 @@ export class JobQueue {
 
   /** A name at any time; settings only while queued, and only such that can be planned. */
   async patch(id: string, patch: JobPatch): Promise<Job> {
-    const { name, settings } = patch;
+    const { name, settings, plotterId } = patch;
+    if (plotterId !== undefined) {
+      this.#mustBeQueued(id, "Its plotter");
+      this.#plotter(plotterId);
+    }
     let planned: Partial<Job> = {};
     if (settings !== undefined) {
       this.#mustBeQueued(id, "Its settings");
@@ -146,7 +164,12 @@ export class JobQueue {
       this.#mustBeQueued(id, "Its settings");
       planned = { settings, stats, warnings: [...warnings], remainingS: stats.durationS };
     }
-    return this.#save({ ...this.get(id), ...planned, ...(name === undefined ? {} : { name }) });
+    return this.#save({
+      ...this.get(id),
+      ...planned,
+      ...(name === undefined ? {} : { name }),
+      ...(plotterId === undefined ? {} : { plotterId }),
+    });
   }
 
   move(id: string, beforeId: string | null): void {
@@ -279,6 +302,7 @@ export class JobQueue {
       },
     );
     this.#runners.set(plotter.id, { jobId: job.id, runner });
+    this.#timers.set(job.id, new MovingTimer(this.#parts.nowIso()));
   }
 
   #progress(id: string, plotterId: string, progress: PlotProgress): void {
@@ -305,9 +329,13 @@ export class JobQueue {
     const { state } = this.get(id);
     if (held && state === "plotting") {
       const place = this.#holdPlace(id);
+      this.#timers.get(id)?.hold(this.#parts.nowIso());
       this.#save({ ...this.#apply(id, { type: "hold" }), place });
     }
-    if (!held && state === "paused") this.#save({ ...this.#apply(id, { type: "release" }), place: null });
+    if (!held && state === "paused") {
+      this.#timers.get(id)?.release(this.#parts.nowIso());
+      this.#save({ ...this.#apply(id, { type: "release" }), place: null });
+    }
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
@@ -322,10 +350,25 @@ export class JobQueue {
     else if (end.kind === "cancelled") this.#apply(id, { type: "cancel" });
     else {
       if (this.get(id).state === "paused") this.#apply(id, { type: "release" });
-      this.#apply(id, { type: "finish" });
+      const done = this.#apply(id, { type: "finish" });
+      const plottedS = this.#timers.get(id)?.movedS(this.#parts.nowIso()) ?? null;
+      this.#save({ ...done, plottedS });
     }
+    this.#timers.delete(id);
     if (ENDED_STATES.includes(this.get(id).state)) store.clearJournal(id);
     this.#announceOrder();
+    if (end.kind === "done" && this.settings.runOn && !this.#closing) this.#startNext(plotterId);
+  }
+
+  /** The next job of that plotter, when the operator lets the queue run on. */
+  #startNext(plotterId: string): void {
+    const next = this.list().find((job) => job.plotterId === plotterId && job.state === "queued");
+    if (next === undefined) return;
+    try {
+      this.start(next.id);
+    } catch (error) {
+      this.#note(next.id, error instanceof Error ? error.message : String(error));
+    }
   }
 
   /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
@@ -421,6 +464,8 @@ export class JobQueue {
     return first;
   }
 }
+
+const QUEUE_SETTING = "queue";
 
 const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
 

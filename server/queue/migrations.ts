@@ -36,6 +36,7 @@ const MIGRATIONS: readonly string[] = [
      job_id     TEXT PRIMARY KEY REFERENCES jobs (id) ON DELETE CASCADE,
      entry      TEXT NOT NULL         -- JSON: how far the pen has come
    );`,
+  `ALTER TABLE jobs ADD COLUMN plotted_s REAL;`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

@@ -19,7 +19,7 @@ type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
 
 const COLUMNS =
-  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, created_at, started_at, ended_at";
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, created_at, started_at, ended_at";
 const PLACES = COLUMNS.split(", ")
   .map(() => "?")
   .join(", ");
@@ -212,6 +212,7 @@ function rowFromJob(job: Job): Value[] {
     job.message,
     job.place === null ? null : JSON.stringify(job.place),
     job.speedPct,
+    job.plottedS,
     job.createdAt,
     job.startedAt,
     job.endedAt,
@@ -234,6 +235,7 @@ function jobFromRow(row: Row): Job {
     message: row["message"],
     place: row["place"] === null ? null : (JSON.parse(String(row["place"])) as unknown),
     speedPct: row["speed_pct"],
+    plottedS: row["plotted_s"],
     createdAt: row["created_at"],
     startedAt: row["started_at"],
     endedAt: row["ended_at"],

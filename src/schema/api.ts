@@ -15,6 +15,9 @@
  *   POST   /api/v1/jobs/:id/recover           an interrupted job, held at its place, nothing drawn yet → Job
  *   POST   /api/v1/jobs/:id/place             MovePlace: moves the place of a held job → Job
  *   POST   /api/v1/jobs/:id/check-place       walks to the place with the pen up → Job
+ *   POST   /api/v1/jobs/:id/duplicate         a queued copy, right behind it or last → 201 Job
+ *   GET    /api/v1/queue                      → QueueSettings
+ *   PATCH  /api/v1/queue                      QueueSettings → QueueSettings
  *   DELETE /api/v1/jobs/:id                   → { ok: true }  (not while plotting or paused)
  *   POST   /api/v1/plotters/:id/pen           { up: boolean, heightPct? } → Plotter
  *   POST   /api/v1/plotters/:id/motors-off    → Plotter
@@ -37,11 +40,18 @@ export const newJobSchema = z.object({
   drawing: z.string().min(1),
   settings: plotSettingsSchema,
   plotterId: z.string().max(100).optional(),
+  /** So many jobs, one after the other. */
+  copies: z.int().min(1).max(100).optional(),
 });
 export type NewJob = z.infer<typeof newJobSchema>;
 
 export const jobPatchSchema = z
-  .object({ name: z.string().trim().min(1).max(200), settings: plotSettingsSchema })
+  .object({
+    name: z.string().trim().min(1).max(200),
+    settings: plotSettingsSchema,
+    /** To another plotter's queue; only while queued. */
+    plotterId: z.string().max(100),
+  })
   .partial();
 export type JobPatch = z.infer<typeof jobPatchSchema>;
 
@@ -90,9 +100,16 @@ export const plotterSchema = z.object({
 });
 export type Plotter = z.infer<typeof plotterSchema>;
 
+export const queueSettingsSchema = z.object({
+  /** False: after a job the next one waits until somebody has changed the paper and starts it. */
+  runOn: z.boolean(),
+});
+export type QueueSettings = z.infer<typeof queueSettingsSchema>;
+
 /** Jobs: queue order first, then history, newest first. */
 export const snapshotSchema = z.object({
   version: z.string(),
+  queue: queueSettingsSchema.default({ runOn: false }),
   plotters: z.array(plotterSchema),
   jobs: z.array(jobSchema),
 });
@@ -105,6 +122,7 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   /** Ids of all jobs, in the order of Snapshot.jobs. */
   z.object({ type: z.literal("order"), ids: z.array(z.string()) }),
   z.object({ type: z.literal("plotter"), plotter: plotterSchema }),
+  z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
   /** Several times a second while plotting. */
   z.object({
     type: z.literal("progress"),

@@ -61,6 +61,8 @@ export const jobSchema = z.object({
   place: jobPlaceSchema.nullable().default(null),
   /** Percent of the set speeds, changed while plotting. */
   speedPct: z.number().default(100),
+  /** Seconds that it really took, holds left out; null until it is done. */
+  plottedS: z.number().nullable().default(null),
   createdAt: z.string(),
   startedAt: z.string().nullable(),
   endedAt: z.string().nullable(),

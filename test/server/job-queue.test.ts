@@ -202,6 +202,39 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
+  it("makes copies that share the drawing, right behind the one they are of", async () => {
+    const fern = await add("fern");
+    await add("moss");
+    const copy = queue.duplicate(fern.id);
+    expect(names()).toEqual(["fern queued", "fern queued", "moss queued"]);
+    expect(queue.list()[1]?.id).toBe(copy.id);
+    expect(queue.drawingPath(copy.id)).toBe(queue.drawingPath(fern.id));
+    queue.cancel(fern.id);
+    queue.duplicate(fern.id);
+    expect(names()).toEqual(["fern queued", "moss queued", "fern queued", "fern cancelled"]);
+    await queue.remove(fern.id);
+    expect(queue.drawingPath(copy.id)).toMatch(/\.svg$/);
+  });
+
+  it("waits between jobs for the paper, or runs on when it is told to", async () => {
+    const [a, b] = [await add("fern"), await add("moss")];
+    queue.start(a.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(queue.get(b.id).state).toBe("queued");
+    queue.settings = { runOn: true };
+    await add("ivy");
+    queue.start(b.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names().slice(0, 1)).toEqual(["ivy plotting"]);
+    (await plotter.nextRun()).fail(new PlotwrightError("board-error", "Motor power is off."));
+    await settled();
+    store.close();
+    openQueue();
+    expect(queue.settings).toEqual({ runOn: true });
+  });
+
   it("changes settings only while queued, and the name at any time", async () => {
     const { id } = await add("fern");
     const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "axidraw-se-a3" };

@@ -14,6 +14,7 @@ export const makeJob = (id: string, more: Partial<Job> = {}): Job => ({
   message: null,
   place: null,
   speedPct: 100,
+  plottedS: null,
   createdAt: "2026-01-01T00:00:00.000Z",
   startedAt: null,
   endedAt: null,

@@ -26,6 +26,7 @@ export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
     message: null,
     place: null,
     speedPct: 100,
+    plottedS: null,
     createdAt: "2026-01-01T00:00:00.000Z",
     startedAt: null,
     endedAt: null,

@@ -1,0 +1,53 @@
+/** A job at the beginning of its life, and the watch that runs while it moves. */
+import { randomUUID } from "node:crypto";
+import type { Job } from "../../src/schema/index.js";
+
+/** A job as it is when it comes into the queue; of another job it takes drawing, plotter and settings. */
+export function queuedJob(
+  from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">,
+  nowIso: string,
+): Job {
+  return {
+    id: randomUUID(),
+    plotterId: from.plotterId,
+    name: from.name,
+    state: "queued",
+    settings: from.settings,
+    stats: from.stats,
+    warnings: from.warnings,
+    progress: 0,
+    elapsedS: 0,
+    remainingS: from.stats?.durationS ?? null,
+    message: null,
+    place: null,
+    speedPct: 100,
+    plottedS: null,
+    createdAt: nowIso,
+    startedAt: null,
+    endedAt: null,
+  };
+}
+
+/** Seconds that a plot has moved, holds left out. Times are ISO 8601, as in the job. */
+export class MovingTimer {
+  #since: number | null;
+  #movedMs = 0;
+
+  constructor(nowIso: string) {
+    this.#since = Date.parse(nowIso);
+  }
+
+  hold(nowIso: string): void {
+    this.#movedMs = this.movedS(nowIso) * 1000;
+    this.#since = null;
+  }
+
+  release(nowIso: string): void {
+    this.#since = Date.parse(nowIso);
+  }
+
+  movedS(nowIso: string): number {
+    const now = this.#since === null ? 0 : Date.parse(nowIso) - this.#since;
+    return (this.#movedMs + now) / 1000;
+  }
+}
