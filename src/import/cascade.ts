@@ -94,6 +94,7 @@ export class Cascade {
   /** By name number of the tree: whether the attribute is a presentation attribute. */
   private readonly isPresentation: Uint8Array;
   private readonly refs = new Map<number, ElementRef>();
+  private readonly positions = new Map<number, number>();
   private readonly childLists = new Map<number, ElementRef[]>();
   private readonly matched: FiledRule[] = [];
 
@@ -163,6 +164,7 @@ export class Cascade {
       try {
         matches = compile<ElementRef, ElementRef>(rule.selector, {
           adapter: this.adapter,
+          pseudos: this.pseudos,
           xmlMode: true,
           cacheResults: false,
         });
@@ -197,12 +199,30 @@ export class Cascade {
       list = [];
       const { tree } = this;
       for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-        if (tagOf(tree, child) !== TEXT_NODE) list.push(this.ref(child));
+        if (tagOf(tree, child) === TEXT_NODE) continue;
+        this.positions.set(child, list.length);
+        list.push(this.ref(child));
       }
       this.childLists.set(parent, list);
     }
     return list;
   }
+
+  /** Index among the siblings, and how many come after. Looked up, not counted: siblings may be many thousands. */
+  private place(node: ElementRef): { readonly before: number; readonly after: number } {
+    const siblings = this.adapter.getSiblings(node);
+    const before = this.positions.get(node.index) ?? 0;
+    return { before, after: siblings.length - 1 - before };
+  }
+
+  private readonly pseudos = {
+    "first-child": (node: ElementRef): boolean => this.place(node).before === 0,
+    "last-child": (node: ElementRef): boolean => this.place(node).after === 0,
+    "nth-child": (node: ElementRef, formula?: string | null): boolean =>
+      isNth(formula ?? "", this.place(node).before + 1),
+    "nth-last-child": (node: ElementRef, formula?: string | null): boolean =>
+      isNth(formula ?? "", this.place(node).after + 1),
+  };
 
   private readonly adapter = {
     isTag: (node: ElementRef): node is ElementRef => node.index >= 0,
@@ -219,6 +239,10 @@ export class Cascade {
       const parent = this.tree.parents[node.index];
       return parent < 0 ? [node] : this.children(parent);
     },
+    prevElementSibling: (node: ElementRef): ElementRef | null => {
+      const { before } = this.place(node);
+      return before === 0 ? null : this.adapter.getSiblings(node)[before - 1];
+    },
     removeSubsets: (nodes: ElementRef[]): ElementRef[] => nodes,
   };
 
@@ -230,6 +254,16 @@ export class Cascade {
     }
     return undefined;
   }
+}
+
+/** Whether n ≥ 1 is among the numbers a k + b, k ≥ 0, of a formula like "2n+1", "odd" or "3" (Selectors 4, §6.6.5). */
+function isNth(formula: string, n: number): boolean {
+  const text = formula.replace(/\s+/g, "").toLowerCase();
+  const match = /^([+-]?\d*)n([+-]\d+)?$/.exec(text === "odd" ? "2n+1" : text === "even" ? "2n" : text);
+  if (match === null) return Number(text) === n;
+  const step = match[1] === "" || match[1] === "+" ? 1 : match[1] === "-" ? -1 : Number(match[1]);
+  const rest = n - Number(match[2] ?? 0);
+  return step === 0 ? rest === 0 : rest % step === 0 && rest / step >= 0;
 }
 
 function apply(declarations: readonly Declaration[], important: boolean, into: Declared): void {

@@ -114,6 +114,29 @@ describe("the cascade", () => {
     expect(stroke(style, element)).toEqual(["#ff0000"]);
   });
 
+  it.each([
+    ["odd", [1, 3, 5, 7]],
+    ["2n", [2, 4, 6]],
+    ["3n+2", [2, 5]],
+    ["-n+3", [1, 2, 3]],
+    ["4", [4]],
+    [" n + 6 ", [6, 7]],
+  ])("counts children: :nth-child(%s)", (formula, expected) => {
+    const body = `<style>path:nth-child(${formula}){stroke:red}</style><g>${`<path ${PATH}/>`.repeat(7)}</g>`;
+    const red = strokes(draw(body)).flatMap((color, i) => (color === "#ff0000" ? [i + 1] : []));
+    expect(red).toEqual(expected);
+  });
+
+  it("counts children from the end", () => {
+    const body = `<style>path:nth-last-child(2),path:last-child{stroke:red}</style><g>${`<path ${PATH}/>`.repeat(4)}</g>`;
+    expect(strokes(draw(body))).toEqual(["#000000", "#000000", "#ff0000", "#ff0000"]);
+  });
+
+  it("counts among 50 000 siblings without counting them each time", () => {
+    const body = `<style>path:nth-child(2n) + path{stroke:red}</style><g>${`<path ${PATH}/>`.repeat(50_000)}</g>`;
+    expect(strokes(draw(body)).filter((color) => color === "#ff0000").length).toBe(24_999);
+  });
+
   it("reads style sheets in CDATA, and those that come last", () => {
     expect(strokes(draw(`<path ${PATH}/><style><![CDATA[ g > x, path { stroke: red } ]]></style>`))).toEqual([
       "#ff0000",
