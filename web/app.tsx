@@ -1,6 +1,7 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "./panels/drawing.js";
 import { FillPanel } from "./panels/fill.js";
+import { HelpSheet } from "./panels/help.js";
 import { LayersPanel } from "./panels/layers.js";
 import { LinesPanel } from "./panels/lines.js";
 import { MachinePanel } from "./panels/machine.js";
@@ -10,6 +11,9 @@ import { PaperPanel } from "./panels/paper.js";
 import { PenPanel } from "./panels/pen.js";
 import { PlotBar } from "./panels/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "./panels/queue.js";
+import { PresetsPanel } from "./panels/presets.js";
+import type { Player } from "./preview/player.js";
+import type { Shortcut } from "./state/shortcuts.js";
 import { TopBar } from "./panels/top-bar.js";
 import { Preview } from "./preview/preview.js";
 import { TimeLine } from "./preview/time-line.js";
@@ -20,8 +24,13 @@ import { DropZone } from "./ui/drop-zone.js";
 const TABS = ["setup", "queue", "machine"] as const;
 type Tab = (typeof TABS)[number];
 
+interface AppProps {
+  readonly player: Player;
+  readonly shortcuts: readonly Shortcut[];
+}
+
 /** Where the panels stand. On a narrow screen the side columns become tabs under the paper. */
-export const App = () => {
+export const App = ({ player, shortcuts }: AppProps) => {
   const [tab, setTab] = useState<Tab>("setup");
   const { openFile, openPasted } = useActions();
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
@@ -31,7 +40,7 @@ export const App = () => {
         <TopBar />
         <main className="centre">
           <Preview />
-          <TimeLine />
+          <TimeLine player={player} />
         </main>
         <Tabs tab={tab} onChange={setTab} />
         <aside className="column column-setup" aria-label={text.tabs.setup}>
@@ -40,6 +49,7 @@ export const App = () => {
           <LayersPanel />
           <MotionPanel />
           <PenPanel />
+          <PresetsPanel />
           <FillPanel />
           <LinesPanel />
         </aside>
@@ -57,6 +67,7 @@ export const App = () => {
         </aside>
       </div>
       <Notices />
+      <HelpSheet shortcuts={shortcuts} />
     </DropZone>
   );
 };

@@ -6,6 +6,10 @@ import { openEvents } from "./api/events.js";
 import { App } from "./app.js";
 import { createActions } from "./state/actions.js";
 import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
+import { watchJobs } from "./state/notify.js";
+import { Player } from "./preview/player.js";
+import { readPresets, writePresets } from "./state/presets.js";
+import { listenForShortcuts, shortcutsFor } from "./state/shortcuts.js";
 import { applyServerEvent } from "./state/server-events.js";
 import { activeJob, createPageStore, type PageStore } from "./state/store.js";
 import { PageContext } from "./state/use-store.js";
@@ -54,6 +58,13 @@ const actions = createActions({
 });
 
 keepRemembered(store);
+keepPresets(store);
+const player = new Player(store);
+const shortcuts = shortcutsFor({ store, actions, player });
+listenForShortcuts(shortcuts);
+watchJobs(store, (sentence) => {
+  if (window.Notification?.permission === "granted") new Notification(text.appName, { body: sentence });
+});
 openEvents("/api/v1/events", {
   onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
   onLink: (isConnected) => store.setState({ link: isConnected ? "connected" : "lost" }),
@@ -66,7 +77,7 @@ createRoot(root).render(
   <StrictMode>
     <ErrorBoundary>
       <PageContext value={{ store, actions }}>
-        <App />
+        <App player={player} shortcuts={shortcuts} />
       </PageContext>
     </ErrorBoundary>
   </StrictMode>,
@@ -84,6 +95,13 @@ function keepRemembered(pageStore: PageStore): void {
     if (state.settings === before.settings && state.view === before.view) return;
     if (kept !== null) clearTimeout(kept);
     kept = setTimeout(() => writeRemembered(storage, pageStore.getState()), 300);
+  });
+}
+
+function keepPresets(pageStore: PageStore): void {
+  pageStore.setState({ presets: readPresets(storage) });
+  pageStore.subscribe(({ presets }, before) => {
+    if (presets !== before.presets) writePresets(storage, presets);
   });
 }
 

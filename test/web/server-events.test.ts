@@ -12,7 +12,12 @@ const after = (state: PageState, ...events: ServerEvent[]): PageState =>
   events.reduce((now, event) => ({ ...now, ...applyServerEvent(now, event) }), state);
 const snapshot = (...ids: string[]): ServerEvent => ({
   type: "snapshot",
-  snapshot: { version: "0.1.0", plotters: [makePlotter("virtual")], jobs: ids.map((id) => makeJob(id)) },
+  snapshot: {
+    version: "0.1.0",
+    queue: { runOn: false },
+    plotters: [makePlotter("virtual")],
+    jobs: ids.map((id) => makeJob(id)),
+  },
 });
 const progress = (jobId: string, share: number): ServerEvent => ({
   type: "progress",

@@ -4,6 +4,7 @@ import {
   apiErrorSchema,
   jobSchema,
   plotterSchema,
+  queueSettingsSchema,
   type Job,
   type JobChange,
   type JobPatch,
@@ -11,6 +12,7 @@ import {
   type NewJob,
   type PenRequest,
   type Plotter,
+  type QueueSettings,
 } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 
@@ -62,6 +64,9 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
       ask(jobSchema, "POST", `${job(id)}/change`, change),
     movePlace: (id: string, way: MovePlace): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/place`, way),
     moveJob: (id: string, beforeId: string | null) => ask(okSchema, "POST", `${job(id)}/move`, { beforeId }),
+    duplicateJob: (id: string): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/duplicate`),
+    setQueue: (settings: QueueSettings): Promise<QueueSettings> =>
+      ask(queueSettingsSchema, "PATCH", "/queue", settings),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
     jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),
     movePen: (id: string, request: PenRequest): Promise<Plotter> =>

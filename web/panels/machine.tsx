@@ -1,7 +1,7 @@
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { currentPlotter } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Select } from "../ui/choice.js";
 
@@ -33,6 +33,7 @@ export const MachinePanel = () => {
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
+      <PlotterSelect />
       {plotter && <PlotterFacts plotter={plotter} />}
       <ModelSelect />
       <HandControls plotter={plotter} />
@@ -85,6 +86,22 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
   }
   if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
   return message ? <p className="note">{message}</p> : null;
+};
+
+/** Which of the server's plotters the page shows and sends to; absent where there is one. */
+const PlotterSelect = () => {
+  const plotters = usePageState((state) => state.plotters);
+  const current = usePageState(currentPlotter);
+  const store = usePageStore();
+  if (plotters.length < 2 || !current) return null;
+  return (
+    <Select
+      label={words.which}
+      value={current.id}
+      options={plotters.map(({ id, name }) => ({ value: id, label: name }))}
+      onChange={(plotterId) => store.setState({ plotterId })}
+    />
+  );
 };
 
 const ModelSelect = () => {

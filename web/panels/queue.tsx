@@ -3,9 +3,11 @@ import { ACTIVE_STATES, activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatDuration } from "../ui/format.js";
+import { Segments } from "../ui/choice.js";
 import { Icon, type IconName } from "../ui/icon.js";
 import { ActiveJob } from "./active-job.js";
 import { JobHead } from "./job-head.js";
+import { NotifyButton } from "./notify-button.js";
 
 const words = text.queue;
 const SHOWN_HISTORY = 20;
@@ -33,12 +35,32 @@ export const QueuePanel = () => {
           </li>
         ))}
       </ul>
+      <BetweenJobs />
+      <NotifyButton />
     </section>
   );
 };
 
+/** Whether the queue stops for somebody to change the paper. */
+const BetweenJobs = () => {
+  const queue = usePageState((state) => state.queue);
+  const { setQueue } = useActions();
+  if (!queue) return null;
+  return (
+    <Segments
+      label={words.between}
+      value={queue.runOn ? "run" : "wait"}
+      options={[
+        { value: "wait", label: words.wait },
+        { value: "run", label: words.runOn },
+      ]}
+      onChange={(value) => void setQueue({ runOn: value === "run" })}
+    />
+  );
+};
+
 const WaitingJob = ({ job, queue }: { job: Job; queue: readonly Job[] }) => {
-  const { actOnJob, moveJob, removeJob } = useActions();
+  const { actOnJob, duplicateJob, moveJob, removeJob } = useActions();
   const isFree = usePageState((state) => activeJob(state) === null);
   const index = queue.indexOf(job);
   const before = (place: number): string | null => queue[place]?.id ?? null;
@@ -73,6 +95,7 @@ const WaitingJob = ({ job, queue }: { job: Job; queue: readonly Job[] }) => {
           isOff={index >= queue.length - 1}
           onClick={() => void moveJob(job.id, before(index + 2))}
         />
+        <IconButton icon="copy" label={words.duplicate(job.name)} onClick={() => void duplicateJob(job.id)} />
         <IconButton icon="close" label={words.removeNamed(job.name)} onClick={() => void removeJob(job.id)} />
       </div>
     </article>

@@ -1,5 +1,5 @@
 import { THEMES, type Theme } from "../state/persist.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Icon, type IconName } from "../ui/icon.js";
 import { MachineState } from "./machine.js";
@@ -16,6 +16,7 @@ export const TopBar = () => (
     <div className="top-tools">
       <UndoButtons />
       <ThemeButton />
+      <HelpButton />
     </div>
   </header>
 );
@@ -54,6 +55,21 @@ const UndoButtons = () => {
         <Icon name="redo" />
       </button>
     </>
+  );
+};
+
+const HelpButton = () => {
+  const store = usePageStore();
+  return (
+    <button
+      type="button"
+      className="tool tool-keys"
+      aria-label={text.shortcuts.title}
+      title={text.shortcuts.title}
+      onClick={() => store.setState({ isHelpOpen: true })}
+    >
+      <Icon name="help" />
+    </button>
   );
 };
 

@@ -1,18 +1,16 @@
-import { lazy, Suspense, useMemo } from "react";
+import { lazy, Suspense } from "react";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatMoment } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { PLAY_RATES, Player } from "./player.js";
+import { PLAY_RATES, type Player } from "./player.js";
 
 const words = text.timeLine;
 const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
 const STEPS = 2_000;
 
 /** The plot as time: drag through it, play it, see speed and acceleration under it. */
-export const TimeLine = () => {
-  const store = usePageStore();
-  const player = useMemo(() => new Player(store), [store]);
+export const TimeLine = ({ player }: { player: Player }) => {
   const totalS = usePageState((state) => state.planned?.trajectory.totalS ?? 0);
   const isOpen = usePageState((state) => state.view.showGraph);
   if (totalS === 0) return null;

@@ -1,9 +1,10 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import type { JobAction, ApiClient } from "../api/client.js";
-import type { Job, JobChange, MovePlace, PlotSettings } from "../../src/schema/index.js";
+import type { Job, JobChange, MovePlace, PlotSettings, QueueSettings } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
 import type { ExportFormat } from "../worker/protocol.js";
+import { withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
 import { currentPlotter, type Notice, type PageStore } from "./store.js";
 
@@ -163,6 +164,11 @@ export const createActions = (deps: ActionDeps) => {
     changeJob: (id: string, change: JobChange) => attempt(`change ${id}`, () => api.changeJob(id, change)),
     movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => api.movePlace(id, way)),
     moveJob: (id: string, beforeId: string | null) => attempt(`move ${id}`, () => api.moveJob(id, beforeId)),
+    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => api.duplicateJob(id)),
+    setQueue: async (settings: QueueSettings): Promise<void> => {
+      const queue = await attempt("queue", () => api.setQueue(settings));
+      if (queue) store.setState({ queue });
+    },
     removeJob: (id: string) => attempt(`remove ${id}`, () => api.removeJob(id)),
     movePen: async (up: boolean, heightPct?: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
@@ -177,6 +183,12 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => api.home(id));
     },
+    savePreset: (name: string): void =>
+      store.setState(({ presets, settings }) => ({ presets: withPreset(presets, name, settings) })),
+    takePreset: ({ name, motion, pen }: Preset): void =>
+      changeSettings(`preset ${name}`, (settings) => ({ ...settings, motion, pen })),
+    removePreset: (name: string): void =>
+      store.setState(({ presets }) => ({ presets: presets.filter((preset) => preset.name !== name) })),
     exportAs: (format: ExportFormat): void => planner.export(format),
     loadSamples: async (): Promise<void> => {
       const samples = await attempt("samples", () => api.samples());

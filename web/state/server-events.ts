@@ -22,6 +22,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return { jobs: ordered(state, event.ids) };
     case "plotter":
       return { plotters: upserted(state.plotters, event.plotter) };
+    case "queue":
+      return { queue: event.queue };
     case "progress":
       return applyProgress(state, event);
   }

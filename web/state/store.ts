@@ -1,8 +1,9 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
-import type { Job, PlotSettings, Plotter } from "../../src/schema/index.js";
+import type { Job, PlotSettings, Plotter, QueueSettings } from "../../src/schema/index.js";
 import type { Hover } from "../preview/hover.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
+import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
 /** The drawing on the paper. */
@@ -61,9 +62,13 @@ export interface PageState {
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
   readonly jobs: readonly Job[];
+  /** How the queue goes on from job to job; null until the server has said. */
+  readonly queue: QueueSettings | null;
   readonly live: LivePlot | null;
   readonly samples: readonly SampleInfo[];
 
+  readonly presets: readonly Preset[];
+  readonly isHelpOpen: boolean;
   readonly notices: readonly Notice[];
   /** The button whose request is under way, by name: it is disabled meanwhile. */
   readonly busyAction: string | null;
@@ -89,8 +94,11 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     plotters: [],
     plotterId: null,
     jobs: [],
+    queue: null,
     live: null,
     samples: [],
+    presets: [],
+    isHelpOpen: false,
     notices: [],
     busyAction: null,
   }));

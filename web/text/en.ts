@@ -195,6 +195,7 @@ export const en = {
     on: "on",
     off: "off",
     firmware: "Firmware",
+    which: "Send to",
     model: "Model",
     log: "Save the log of the connection",
     connection: {
@@ -221,6 +222,10 @@ export const en = {
     pausing: "Pauses at the next pen lift",
     resume: "Resume",
     cancel: "Cancel",
+    duplicate: (name: string) => `Once more: ${name}`,
+    between: "After a plot",
+    wait: "Wait for paper",
+    runOn: "Run on",
     remove: "Remove",
     removeNamed: (name: string) => `Remove ${name}`,
     again: "Plot again",
@@ -285,6 +290,32 @@ export const en = {
     last: "last",
     hint: "Arrow keys move, plus and minus zoom, 0 shows the whole paper.",
     noGl: "Drawn without the graphics card: large drawings move slowly here.",
+  },
+
+  shortcuts: {
+    title: "Keys",
+    play: "Play the plot, or stop",
+    travel: "Show pen-up moves",
+    graph: "Show speed over time",
+    pause: "Pause the plotter, or resume",
+    fields: "In a number: arrow up and down step it, with Shift ten times as far.",
+  },
+
+  presets: {
+    title: "Pens",
+    hint: "Speeds and heights under a name, to come back to with one press.",
+    name: "Name of this pen",
+    save: "Keep",
+    remove: (name: string) => `Forget ${name}`,
+  },
+
+  notify: {
+    ask: "Tell me when a plot ends",
+    asked: "You are told when a plot ends or fails",
+    denied: "The browser forbids notifications for this page. Allow them in its settings.",
+    done: (name: string) => `${name} is plotted.`,
+    failed: (name: string) => `${name} failed. Have a look at the queue.`,
+    interrupted: (name: string) => `${name} was interrupted. It can go on from there.`,
   },
 
   hover: {

@@ -1,0 +1,30 @@
+import { useEffect, useRef, type ReactNode } from "react";
+import { text } from "../text/text.js";
+import { Icon } from "./icon.js";
+
+interface DialogProps {
+  readonly title: string;
+  onClose(): void;
+  readonly children: ReactNode;
+}
+
+/** A sheet over the page; the browser's own dialog keeps the focus inside and closes on Escape. */
+export const Dialog = ({ title, onClose, children }: DialogProps) => {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    const element = dialog.current;
+    element?.showModal();
+    return () => element?.close();
+  }, []);
+  return (
+    <dialog ref={dialog} className="dialog" aria-label={title} onClose={onClose}>
+      <header className="dialog-head">
+        <h2>{title}</h2>
+        <button type="button" className="tool" aria-label={text.errors.close} onClick={onClose}>
+          <Icon name="close" />
+        </button>
+      </header>
+      {children}
+    </dialog>
+  );
+};
