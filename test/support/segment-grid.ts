@@ -1,7 +1,10 @@
+/** A cell's number; the columns and rows of a sheet of paper fit. */
+const keyOf = (column: number, row: number): number => (column + 0x8000) * 0x10000 + (row + 0x8000);
+
 /** Distances from points to a heap of line segments, quickly: a grid of cells over the segments. */
 export class SegmentGrid {
   private readonly segments: number[] = [];
-  private readonly cells = new Map<string, number[]>();
+  private readonly cells = new Map<number, number[]>();
 
   /** `cellMm` should be larger than the distances that matter. */
   constructor(private readonly cellMm = 0.5) {}
@@ -19,7 +22,7 @@ export class SegmentGrid {
     let nearest = Infinity;
     for (let c = column - 1; c <= column + 1; c++) {
       for (let r = row - 1; r <= row + 1; r++) {
-        for (const segment of this.cells.get(`${c},${r}`) ?? []) {
+        for (const segment of this.cells.get(keyOf(c, r)) ?? []) {
           nearest = Math.min(nearest, this.toSegment(segment, x, y));
         }
       }
@@ -31,11 +34,11 @@ export class SegmentGrid {
     const index = this.segments.length;
     this.segments.push(x0, y0, x1, y1);
     const stepCount = Math.max(1, Math.ceil((2 * Math.hypot(x1 - x0, y1 - y0)) / this.cellMm));
-    let last = "";
+    let last = NaN;
     for (let k = 0; k <= stepCount; k++) {
       const x = x0 + ((x1 - x0) * k) / stepCount;
       const y = y0 + ((y1 - y0) * k) / stepCount;
-      const key = `${Math.floor(x / this.cellMm)},${Math.floor(y / this.cellMm)}`;
+      const key = keyOf(Math.floor(x / this.cellMm), Math.floor(y / this.cellMm));
       if (key === last) continue;
       last = key;
       const cell = this.cells.get(key);
