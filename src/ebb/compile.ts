@@ -74,7 +74,7 @@ class Compiler {
   private readonly leg = newLeg();
   private readonly half = newLeg();
   private heights: { up: number; down: number };
-  private run_ = 0;
+  private runIndex = 0;
   /** Where the leg being made ends: its tick, the block whose law holds there, and whether the run ends too. */
   private cutTick = 0;
   private cutBlock = 0;
@@ -109,7 +109,7 @@ class Compiler {
     const { walk, columns, leg } = this;
     walk.begin(run, columns.boardTicks);
     if (walk.first === walk.end) return;
-    this.run_ = run;
+    this.runIndex = run;
     let block = walk.first;
     let notBefore = 0;
     for (;;) {
@@ -201,7 +201,7 @@ class Compiler {
     walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
     leg.ticks = this.cutTick - tick;
     leg.isParabola = block === this.cutBlock && !walk.hasJerk(block);
-    leg.isLast = this.cutIsRunEnd && this.run_ === this.trajectory.runs.count - 1;
+    leg.isLast = this.cutIsRunEnd && this.runIndex === this.trajectory.runs.count - 1;
     this.slowDown(leg);
   }
 
@@ -255,7 +255,7 @@ class Compiler {
     const planS = this.walk.planS(columns.boardTicks);
     const ticks = this.writer.write(leg, m1, m2);
     if (ticks === 0) return false;
-    columns.add(ticks, planS, this.run_, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, this.runIndex, m1.steps, m2.steps, m1.acc, m2.acc);
     return true;
   }
 
