@@ -35,6 +35,12 @@ import { writeStraight, type Straight } from "./straight.js";
 /** Below this sin²(φ/2) the way goes straight on: there is nothing to round. */
 const STRAIGHT = 1e-24;
 
+/**
+ * cos φ of a turn so sharp that the curve is made no longer than A needs when V keeps the pen slower than vc:
+ * speed dips to cos(φ/2) in the middle of a curve. Gentler turns stay long and soft, as in a dense curve.
+ */
+const SHARP = 0.755;
+
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
 
@@ -115,13 +121,17 @@ export class BlendPlanner {
   /** Pieces last: one parabola a corner, a trapezoid on each straight between. */
   private writeBlocks(path: RunPath, accel: number, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
-    const { tangent, vIn, vOut, straight } = this;
+    const { tangent, cosine, vIn, vOut, straight } = this;
     let along = path.startAlong;
     let used = 0;
     for (let i = 0; i < n; i++) {
       const v0 = vIn[i + 1]!;
       const v1 = vOut[i + 1]!;
-      const tau = tangent[i + 1]! > 0 ? tangent[i + 1]! / (v0 > v1 ? v0 : v1) : 0;
+      let tau = tangent[i + 1]! > 0 ? tangent[i + 1]! / (v0 > v1 ? v0 : v1) : 0;
+      if (cosine[i + 1]! < SHARP) {
+        const change2 = v0 * v0 + v1 * v1 - 2 * v0 * v1 * cosine[i + 1]!;
+        tau = Math.min(tau, Math.sqrt(change2) / (2 * accel));
+      }
       const ex = ux[i]!;
       const ey = uy[i]!;
       straight.length = length[i]! - used - v0 * tau;

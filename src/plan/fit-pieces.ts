@@ -24,6 +24,9 @@ const SLACK = 1.0009;
 /** The search for the longest stretch ends within one part in so many of it. */
 const FINENESS = 8;
 
+/** Share of ε that the places looked at may use: between them the distance can be a little more. */
+const BETWEEN = 0.85;
+
 /** Longest stretch, s: older boards cannot be stopped within a piece, so pieces stay below a quarter second. */
 const LONGEST_S = 0.48;
 
@@ -167,15 +170,19 @@ export class PieceFitter {
       const jx = px[i]!;
       const jy = py[i]!;
       if (jx * jx + jy * jy > (jerk * SLACK) ** 2) return false;
-      // Speed is looked at in the middle and at the end of each piece.
-      const mx = vx + (h / 2) * (ax + (h * jx) / 4);
-      const my = vy + (h / 2) * (ay + (h * jy) / 4);
+      // Between two of four places in a piece, speed is at most |j| (h/4)²/8 above the greater of theirs.
+      const most = speed * SLACK - (Math.sqrt(jx * jx + jy * jy) * h * h) / 128;
+      for (let q = 1; q <= 4; q++) {
+        const u = (h * q) / 4;
+        const wx = vx + u * (ax + (u * jx) / 2);
+        const wy = vy + u * (ay + (u * jy) / 2);
+        if (most < 0 || wx * wx + wy * wy > most * most) return false;
+      }
       vx += h * (ax + (h * jx) / 2);
       vy += h * (ay + (h * jy) / 2);
       ax += h * jx;
       ay += h * jy;
-      const v2 = Math.max(mx * mx + my * my, vx * vx + vy * vy);
-      if (ax * ax + ay * ay > (accel * SLACK) ** 2 || v2 > speed * speed) return false;
+      if (ax * ax + ay * ay > (accel * SLACK) ** 2) return false;
     }
     return true;
   }
@@ -183,7 +190,7 @@ export class PieceFitter {
   /** Compares the pieces with the plan at the end and middle of every block that they replace. */
   private isNear(k: number, m: number): boolean {
     const { from } = this;
-    const most = this.settings.toleranceMm ** 2;
+    const most = (BETWEEN * this.settings.toleranceMm) ** 2;
     const start = this.startOf(k);
     for (let i = k; i < m; i++) {
       const half = from.durationS[i]! / 2;

@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import {
+  DEFAULT_FIT,
   DEFAULT_PEN,
   MOTION_MODES,
   plan,
@@ -129,6 +130,33 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
           if (now.stroke >= 0) expect(now.penUp).toBe(false);
         },
       ),
+      RUNS,
+    );
+  });
+});
+
+describe.each(MOTION_MODES)("a fitted plan of any drawing in mode %s", (mode) => {
+  it("keeps the same limits, hits the same end, and leaves the line by no more than ε besides", () => {
+    fc.assert(
+      fc.property(arbitraryStrokeSet, motionIn(mode), (strokes, motion) => {
+        const size = Math.max(...Array.from(strokes.xy, Math.abs), 1);
+        fc.pre(size < 10_000);
+        const trajectory = plan(strokes, { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
+        const allowed = motion.draw.cornerMm + DEFAULT_FIT.toleranceMm;
+        const worst = worstOf(trajectory, strokes, motion.draw, motion.travel, allowed);
+        expect(worst.finite).toBe(true);
+        expect(worst.speed).toBeLessThanOrEqual(1.001);
+        expect(worst.accel).toBeLessThanOrEqual(1.001);
+        expect(worst.restSpeed).toBeLessThan(1e-6);
+        expect(worst.gap).toBeLessThanOrEqual(1e-9);
+        // Between the places that the fit looked at, a little more.
+        expect(worst.distance).toBeLessThanOrEqual(1.05 * allowed);
+        if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(1e-6);
+        if (mode === "scurve") {
+          expect(worst.jerk).toBeLessThanOrEqual(1.001);
+          expect(worst.accelJump).toBeLessThan(1e-2);
+        }
+      }),
       RUNS,
     );
   });
