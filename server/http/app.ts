@@ -11,6 +11,7 @@ import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./
 import type { EventHub } from "./events.js";
 import { guardHosts } from "./guard.js";
 import { jobsRoutes } from "./jobs-routes.js";
+import { openApiDocument } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
 import { samplesRoutes } from "./samples.js";
 
@@ -45,7 +46,29 @@ export function createApp(parts: AppParts): Express {
   return app;
 }
 
+/** The API in its parts: where each stands below /api/v1, and its routes. */
+export function apiMounts(parts: AppParts): readonly (readonly [string, Router])[] {
+  const { queue } = parts;
+  return [
+    ["", stateRoutes(parts)],
+    ["/access", accessRoutes(parts.access)],
+    ["/jobs", jobsRoutes(queue, parts.files)],
+    ["/plotters", plottersRoutes(parts.plotters, queue)],
+    ["/samples", samplesRoutes(parts.samplesDir)],
+  ];
+}
+
 function apiRoutes(parts: AppParts): Router {
+  const router = Router();
+  router.use((_request, response, next) => {
+    response.set("Cache-Control", "no-store");
+    next();
+  });
+  for (const [path, routes] of apiMounts(parts)) router.use(path === "" ? "/" : path, routes);
+  return router;
+}
+
+function stateRoutes(parts: AppParts): Router {
   const { queue, plotters } = parts;
   const router = Router();
   const snapshot = (): Snapshot => ({
@@ -54,9 +77,8 @@ function apiRoutes(parts: AppParts): Router {
     queue: queue.settings,
     jobs: queue.list(),
   });
-  router.use((_request, response, next) => {
-    response.set("Cache-Control", "no-store");
-    next();
+  router.get("/openapi.json", (_request, response) => {
+    response.json(openApiDocument(parts.version));
   });
   router.get("/state", (_request, response) => {
     response.json(snapshot());
@@ -73,10 +95,6 @@ function apiRoutes(parts: AppParts): Router {
     parts.hub.announce({ type: "queue", queue: queue.settings });
     response.json(queue.settings);
   });
-  router.use("/access", accessRoutes(parts.access));
-  router.use("/jobs", jobsRoutes(queue, parts.files));
-  router.use("/plotters", plottersRoutes(plotters, queue));
-  router.use("/samples", samplesRoutes(parts.samplesDir));
   return router;
 }
 

@@ -5,7 +5,7 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { prepareDataDir } from "../../../server/data-dir.js";
-import { createApp } from "../../../server/http/app.js";
+import { apiMounts, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
 import { DrawingFiles } from "../../../server/queue/drawing-files.js";
 import { JobQueue, type Planning } from "../../../server/queue/job-queue.js";
@@ -20,6 +20,8 @@ export interface TestApp {
   readonly store: Store;
   readonly access: Access;
   readonly logged: string[];
+  /** "method path" of every route below /api/v1. */
+  routes(): string[];
   drawingsOnDisk(): string[];
   close(): Promise<void>;
 }
@@ -50,7 +52,7 @@ export async function startApp(
   const logged: string[] = [];
   const access = new Access(store, { trustsLoopback: options.trustsLoopback });
   access.onRevoke(() => hub.dropAll());
-  const app = createApp({
+  const parts: AppParts = {
     version: "0.0.0",
     queue,
     files,
@@ -61,7 +63,8 @@ export async function startApp(
     samplesDir: new URL("../../../samples", import.meta.url).pathname,
     access,
     log: (line) => logged.push(line),
-  });
+  };
+  const app = createApp(parts);
   const http: Server = createServer(app);
   await new Promise<void>((resolve) => http.listen(0, "127.0.0.1", resolve));
   return {
@@ -70,6 +73,14 @@ export async function startApp(
     queue,
     store,
     access,
+    routes: () =>
+      apiMounts(parts).flatMap(([mount, router]) =>
+        router.stack.flatMap(({ route }) =>
+          (route?.stack ?? []).map(
+            ({ method }) => `${method} ${mount}${route?.path === "/" ? "" : route?.path}`,
+          ),
+        ),
+      ),
     logged,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),
     close: async () => {

@@ -1,0 +1,34 @@
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { API_ROUTES } from "../../server/http/openapi.js";
+import { startApp, type TestApp } from "./support/app.js";
+
+let app: TestApp;
+beforeEach(async () => {
+  app = await startApp();
+});
+afterEach(() => app.close());
+
+describe("the OpenAPI document", () => {
+  it("names every route that there is, and none that there is not", () => {
+    const documented = API_ROUTES.map(({ method, path }) => `${method} ${path}`);
+    expect(documented.sort()).toEqual([...new Set(app.routes())].sort());
+  });
+
+  it("is served, with a schema for each body and answer", async () => {
+    const response = await fetch(`${app.url}/api/v1/openapi.json`);
+    const document = (await response.json()) as {
+      openapi: string;
+      paths: Record<string, Record<string, { requestBody?: unknown; responses: Record<string, unknown> }>>;
+    };
+    expect(document.openapi).toBe("3.1.0");
+    expect(Object.values(document.paths).flatMap((path) => Object.keys(path))).toHaveLength(
+      API_ROUTES.length,
+    );
+    const add = document.paths["/api/v1/jobs"]?.["post"];
+    expect(JSON.stringify(add?.requestBody)).toMatch(/speedMmPerS/);
+    expect(Object.keys(add?.responses ?? {})).toEqual(["201", "default"]);
+    expect(document.paths["/api/v1/jobs/{id}/move"]?.["post"]).toMatchObject({
+      parameters: [{ name: "id", in: "path" }],
+    });
+  });
+});
