@@ -350,9 +350,9 @@ export class JobQueue {
     else if (end.kind === "cancelled") this.#apply(id, { type: "cancel" });
     else {
       if (this.get(id).state === "paused") this.#apply(id, { type: "release" });
-      const done = this.#apply(id, { type: "finish" });
       const plottedS = this.#timers.get(id)?.movedS(this.#parts.nowIso()) ?? null;
-      this.#save({ ...done, plottedS });
+      this.#jobs.set(id, { ...this.get(id), plottedS });
+      this.#apply(id, { type: "finish" });
     }
     this.#timers.delete(id);
     if (ENDED_STATES.includes(this.get(id).state)) store.clearJournal(id);

@@ -133,11 +133,6 @@ describe("a server", { timeout: 120_000 }, () => {
       ["truncated", LINE.slice(0, -12), 422],
       ["without lines", svg(""), 422],
       [
-        "entity bomb",
-        `<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>${svg("<text>&b;</text>")}`,
-        422,
-      ],
-      [
         "larger than the machine",
         svg('<path d="M0 0L900 900"/>', 'width="900mm" height="900mm" viewBox="0 0 900 900"'),
         422,
@@ -158,6 +153,7 @@ describe("a server", { timeout: 120_000 }, () => {
       "NaN coordinates": svg('<path d="M NaN NaN L 10 10"/><path d="M10 10h50"/>'),
       "huge coordinates": svg('<path d="M0 0L1e300 1e300"/><path d="M10 10h50"/>'),
       "circular use": svg('<g id="a"><path d="M10 10h50"/><use xlink:href="#a"/></g>'),
+      "entity bomb": `<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>${svg("<text>&b;</text>")}`,
       "one point": svg('<path d="M20 20z"/><path d="M10 10h50"/>'),
       "100 000 nested groups": svg(`${"<g>".repeat(100_000)}<path d="M10 10h50"/>${"</g>".repeat(100_000)}`),
       "50 MB": svg(`<path d="M10 10h50"/><!--${"x".repeat(50_000_000)}-->`),
