@@ -86,6 +86,9 @@ const UNIFORMS = [
 ] as const;
 type Uniforms = Record<(typeof UNIFORMS)[number], WebGLUniformLocation | null>;
 const COLOR_CODE = { speed: 0, order: 1, layer: 2, ink: 3 } as const;
+/** What is drawn of a large drawing while it is moved; a stride may be 255 bytes at most. */
+const MOVING_PIECES = 200_000;
+const MAX_SKIP = Math.floor(255 / PIECE_BYTES);
 const PLAIN = 3;
 const MAX_LAYERS = 2_048;
 
@@ -213,10 +216,11 @@ class GlRenderer implements SceneRenderer {
     gl.uniform1f(this.#uniforms.radius, (lineWidthPx(frame) * frame.ratio) / 2);
     const done = frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
     this.#setPlain(GHOST_COLOR, 1);
-    this.#drawRange(buffer, done, pieces.count);
+    const skip = frame.isMoving ? Math.min(MAX_SKIP, Math.ceil(pieces.count / MOVING_PIECES)) : 1;
+    this.#drawRange(buffer, done, pieces.count, skip);
     gl.uniform1i(this.#uniforms.colorBy, COLOR_CODE[frame.colorBy]);
     if (frame.colorBy === "ink") this.#setPlain(INK_COLOR, 1);
-    this.#drawRange(buffer, 0, done);
+    this.#drawRange(buffer, 0, done, skip);
   }
 
   #drawTravel(frame: Frame, { pieces, buffer }: Loaded): void {
@@ -232,16 +236,18 @@ class GlRenderer implements SceneRenderer {
     this.#gl.uniform4f(this.#uniforms.plain, r / 255, g / 255, b / 255, alpha);
   }
 
-  #drawRange(buffer: WebGLBuffer, from: number, to: number): void {
+  /** Every `skip`-th piece: instances are stepped over by a wider stride. */
+  #drawRange(buffer: WebGLBuffer, from: number, to: number, skip = 1): void {
     if (to <= from) return;
     const gl = this.#gl;
     const base = from * PIECE_BYTES;
+    const stride = PIECE_BYTES * skip;
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.vertexAttribPointer(0, 4, gl.FLOAT, false, PIECE_BYTES, base);
-    gl.vertexAttribPointer(1, 2, gl.FLOAT, false, PIECE_BYTES, base + 16);
-    gl.vertexAttribPointer(2, 2, gl.UNSIGNED_SHORT, true, PIECE_BYTES, base + SPEED_SHORT * 2);
-    gl.vertexAttribPointer(3, 1, gl.UNSIGNED_SHORT, false, PIECE_BYTES, base + LAYER_SHORT * 2);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, to - from);
+    gl.vertexAttribPointer(0, 4, gl.FLOAT, false, stride, base);
+    gl.vertexAttribPointer(1, 2, gl.FLOAT, false, stride, base + 16);
+    gl.vertexAttribPointer(2, 2, gl.UNSIGNED_SHORT, true, stride, base + SPEED_SHORT * 2);
+    gl.vertexAttribPointer(3, 1, gl.UNSIGNED_SHORT, false, stride, base + LAYER_SHORT * 2);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, Math.floor((to - from) / skip));
   }
 }
 

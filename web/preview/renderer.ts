@@ -17,6 +17,8 @@ export interface Frame {
   readonly layerColors: readonly string[];
   /** What lies later than this many seconds is shown pale; null shows the whole plot as drawn. */
   readonly untilS: number | null;
+  /** The view is being moved: a large drawing may be shown coarser until it rests. */
+  readonly isMoving: boolean;
 }
 
 export interface SceneRenderer {

@@ -20,11 +20,13 @@ export interface StageCanvases {
   readonly overlay: HTMLCanvasElement;
 }
 
-export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
+export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio" | "isMoving">;
 
 const INSET_PX = 26;
 /** The legend and the tools lie here. */
 const BELOW_PX = 54;
+/** A view that has not been moved for so long rests, and is drawn in full. */
+const REST_MS = 160;
 const MAX_RATIO = 2;
 
 export class Stage {
@@ -44,6 +46,9 @@ export class Stage {
   /** Until the user pans or zooms, the paper is kept whole in sight. */
   #isFitted = true;
   #areStrokesStale = true;
+  /** The 2D canvases are drawn again only when something on them has changed. */
+  #areSheetsStale = true;
+  #restTimer: ReturnType<typeof setTimeout> | null = null;
   #request = 0;
 
   constructor(canvases: StageCanvases, desk: Desk, look: FrameLook) {
@@ -75,6 +80,11 @@ export class Stage {
   setView(view: View): void {
     this.#view = view;
     this.#isFitted = false;
+    if (this.#restTimer !== null) clearTimeout(this.#restTimer);
+    this.#restTimer = setTimeout(() => {
+      this.#restTimer = null;
+      this.#refresh(true);
+    }, REST_MS);
     this.#refresh(true);
   }
 
@@ -127,6 +137,7 @@ export class Stage {
 
   close(): void {
     cancelAnimationFrame(this.#request);
+    if (this.#restTimer !== null) clearTimeout(this.#restTimer);
     this.#observer.disconnect();
     this.#canvases.strokes.removeEventListener("webglcontextlost", this.#onLost);
     this.#canvases.strokes.removeEventListener("webglcontextrestored", this.#onRestored);
@@ -164,14 +175,25 @@ export class Stage {
 
   #refresh(areStrokesStale: boolean): void {
     this.#areStrokesStale ||= areStrokesStale;
+    this.#areSheetsStale = true;
+    this.#schedule();
+  }
+
+  #schedule(): void {
     if (this.#request === 0) this.#request = requestAnimationFrame(this.#frame);
   }
 
   readonly #frame = (): void => {
     this.#request = 0;
-    const { desk, overlay } = this.#canvases;
     if (this.#size.width === 0 || this.#size.height === 0) return;
     const ratio = Math.min(MAX_RATIO, window.devicePixelRatio || 1);
+    if (this.#areSheetsStale) this.#drawSheets(ratio);
+    if (this.#areStrokesStale) this.#drawStrokes(ratio);
+  };
+
+  #drawSheets(ratio: number): void {
+    const { desk, overlay } = this.#canvases;
+    this.#areSheetsStale = false;
     const deskContext = beginCanvas(desk, this.#size, ratio);
     if (deskContext) drawBackdrop(deskContext, this.#view, this.#desk, this.#colors);
     const overlayContext = beginCanvas(overlay, this.#size, ratio);
@@ -180,15 +202,20 @@ export class Stage {
       if (this.#marker) drawMarker(overlayContext, this.#view, this.#marker, this.#colors);
       drawRulers(overlayContext, this.#view, this.#size, this.#colors);
     }
-    if (this.#areStrokesStale) this.#drawStrokes(ratio);
-  };
+  }
 
   #drawStrokes(ratio: number): void {
     const { strokes } = this.#canvases;
-    const frame: Frame = { ...this.#look, ...this.#size, ratio, view: this.#view };
+    const frame: Frame = {
+      ...this.#look,
+      ...this.#size,
+      ratio,
+      view: this.#view,
+      isMoving: this.#restTimer !== null,
+    };
     if (this.#renderer && !this.#renderer.draw(frame)) {
       strokes.style.transform = this.#drawnView ? transformBetween(this.#drawnView, this.#view) : "";
-      this.#refresh(true);
+      this.#schedule();
       return;
     }
     strokes.style.transform = "";
