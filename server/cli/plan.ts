@@ -2,7 +2,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import {
   PlotwrightError,
-  importSvg,
+  importDrawing,
   machineById,
   plan,
   compile,
@@ -13,13 +13,14 @@ import {
   closingCommands,
   commandLine,
   penCommand,
+  penMoveOf,
   setUpCommands,
   type CommandStream,
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { BOARD_AT_HOME, nowS, prepareDrawing, type PreparedJob } from "../planning/stages.js";
+import { BOARD_AT_HOME, prepareDrawing, type PreparedJob } from "../planning/stages.js";
 import type { CliIo } from "./io.js";
 import { withOnlyLayers } from "./layers.js";
 
@@ -91,20 +92,19 @@ export function readDrawing(file: string): string {
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
   const machine: MachineProfile = machineById(base.machine);
   const clock = stopwatch();
-  const drawing = importSvg(readDrawing(file));
+  const drawing = importDrawing(file, readDrawing(file));
   const importMs = clock();
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
   const job = prepareDrawing(drawing, settings, machine, {
-    nowS,
     onProgress: (_done, step) => {
       if (step === "ordering") orderingFrom = performance.now();
     },
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
-  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen);
+  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen, { machine });
   const planMs = clock();
   const commands = compile(trajectory, {
     machine,
@@ -145,7 +145,7 @@ function plotLines(
   firmware: string,
 ): string[] {
   const lines = setUpCommands(machine, pen, firmware);
-  lines.push(penCommand(machine, true, pen.upPct, Math.abs(pen.upPct - pen.downPct), pen.liftMs));
+  lines.push(penCommand(machine, penMoveOf(pen, true)));
   for (let index = 0; index < commands.count; index++) lines.push(commandLine(commands, index));
   lines.push(...closingCommands());
   return lines;

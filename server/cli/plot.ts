@@ -4,7 +4,7 @@
  */
 import { SingleBar } from "cli-progress";
 import { resolve } from "node:path";
-import { PlotwrightError, importSvg, machineById } from "../../src/index.js";
+import { PlotwrightError, importDrawing, machineById } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "../planning/planner.js";
 import type { PlotProgress, PlotRun } from "../plotter/types.js";
@@ -25,7 +25,7 @@ export async function runPlot(
   io: CliIo,
 ): Promise<number> {
   const text = readDrawing(file);
-  const settings = options.only === undefined ? base : withOnlyLayers(importSvg(text), base, options.only);
+  const settings = options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {

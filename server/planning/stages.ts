@@ -6,7 +6,7 @@ import {
   PlotwrightError,
   checkBounds,
   compile,
-  importSvg,
+  importDrawing,
   plan,
   prepare,
   strokeCount,
@@ -23,17 +23,20 @@ import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
 export const BOARD_AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
 
-export const nowS = (): number => performance.now() / 1000;
-
 export interface PreparedJob {
   readonly prepared: Prepared;
   /** The file's and the paper's. Plain text. */
   readonly warnings: readonly string[];
 }
 
-/** Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`. */
+/**
+ * The format is told from the content. No clock goes in: the same text and settings give the same strokes in
+ * every process, so that a place in a job stays valid after a restart.
+ *
+ * Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`.
+ */
 export function prepareText(text: string, settings: PlotSettings, machine: MachineProfile): PreparedJob {
-  return prepareDrawing(importSvg(text), settings, machine, { nowS });
+  return prepareDrawing(importDrawing("", text), settings, machine);
 }
 
 export function prepareDrawing(
@@ -61,6 +64,7 @@ export function planAndCompile(
     ...(from === null ? {} : { from }),
     startX: request.startXMm,
     startY: request.startYMm,
+    machine,
   });
   const commands = compile(trajectory, {
     machine,

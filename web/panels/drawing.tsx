@@ -38,7 +38,7 @@ const ChooseFile = () => {
       <input
         id={id}
         type="file"
-        accept=".svg,image/svg+xml"
+        accept=".svg,image/svg+xml,.dxf,.hpgl,.hpg,.plt,.json"
         className="visually-hidden"
         onChange={(event) => {
           const file = event.target.files?.[0];

@@ -56,7 +56,8 @@ export const createActions = (deps: ActionDeps) => {
     const { drawing, settings } = store.getState();
     if (!drawing) return;
     store.setState({ isPlanning: true });
-    planner.request(drawing, { prepare: settings.prepare, motion: settings.motion, pen: settings.pen });
+    const { machine, prepare, motion, pen } = settings;
+    planner.request(drawing, { machine, prepare, motion, pen });
   };
 
   const setSettings = (settings: PlotSettings): void => {
@@ -98,7 +99,7 @@ export const createActions = (deps: ActionDeps) => {
   const openFile = async (file: File): Promise<void> => {
     const svg = await file.text();
     if (svg.slice(0, 4_096).includes("\0")) notify("error", text.drawing.notText(file.name));
-    else openDrawing(file.name.replace(/\.svgz?$/i, ""), svg);
+    else openDrawing(file.name.replace(/\.(svg|dxf|hpgl|hpg|plt|json)$/i, ""), svg);
   };
 
   const openPasted = (svg: string): void => {

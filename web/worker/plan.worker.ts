@@ -6,7 +6,8 @@
  * import the file again, and a change of margin does not either.
  */
 import {
-  importSvg,
+  importDrawing,
+  MACHINES,
   placeDrawing,
   plan,
   pointCount,
@@ -76,7 +77,9 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
-    const trajectory = plan(ready.strokes, settings.motion, settings.pen);
+    const trajectory = plan(ready.strokes, settings.motion, settings.pen, {
+      machine: MACHINES.find(({ id }) => id === settings.machine),
+    });
     const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer);
@@ -109,7 +112,7 @@ function drawingOf({ drawingKey }: PlanRequest): Drawing {
   if (imported?.key !== drawingKey) {
     if (received?.key !== drawingKey)
       throw new Error("the worker was asked for a drawing it was never given");
-    imported = { key: drawingKey, drawing: importSvg(received.text) };
+    imported = { key: drawingKey, drawing: importDrawing("", received.text) };
   }
   if (received?.key === drawingKey) received = null;
   return imported.drawing;
@@ -122,7 +125,7 @@ function preparedOf(
 ): NonNullable<typeof prepared> {
   const key = `${drawingKey} ${JSON.stringify(settings.prepare)}`;
   if (prepared?.key !== key) {
-    const result = prepare(drawing, settings.prepare, { nowS: () => performance.now() / 1_000 });
+    const result = prepare(drawing, settings.prepare);
     prepared = { key, result, placement: placeDrawing(drawing, settings.prepare) };
   }
   return prepared;

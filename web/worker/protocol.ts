@@ -14,6 +14,8 @@ import type { FrameMm } from "../preview/placing.js";
 import type { Scene } from "../preview/scene.js";
 
 export interface PlanSettings {
+  /** Profile id: its motors' limits bound the plan. */
+  readonly machine: string;
   readonly prepare: PrepareSettings;
   readonly motion: MotionSettings;
   readonly pen: PenSettings;
