@@ -20,6 +20,7 @@ export default defineConfig({
           testTimeout: 120_000,
           hookTimeout: 120_000,
           pool: "forks",
+          setupFiles: ["test/support/fixed-seed.ts"],
         },
       },
       {
@@ -30,6 +31,7 @@ export default defineConfig({
           testTimeout: 120_000,
           hookTimeout: 120_000,
           pool: "forks",
+          setupFiles: ["test/support/fixed-seed.ts"],
           fileParallelism: false,
         },
       },

@@ -44,11 +44,14 @@ export const distanceToRings = (rings: readonly Ring[], x: number, y: number): n
 
 export type Segment = readonly [readonly [number, number], readonly [number, number]];
 
+/** A dot is a segment without length. */
 export function segmentsOf(strokes: StrokeSet): Segment[] {
   const segments: Segment[] = [];
   for (let i = 0; i + 1 < strokes.offsets.length; i++) {
-    for (let p = strokes.offsets[i]; p + 1 < strokes.offsets[i + 1]; p++) {
-      const [x0, y0, x1, y1] = strokes.xy.subarray(2 * p, 2 * p + 4);
+    const [first, end] = [strokes.offsets[i], strokes.offsets[i + 1]];
+    for (let p = first; p < Math.max(first + 1, end - 1); p++) {
+      const [x0, y0] = strokes.xy.subarray(2 * p, 2 * p + 2);
+      const [x1, y1] = p + 1 < end ? strokes.xy.subarray(2 * p + 2, 2 * p + 4) : [x0, y0];
       segments.push([
         [x0, y0],
         [x1, y1],
