@@ -19,7 +19,7 @@ export class RunWriter {
     private readonly mode: MotionMode,
     fit: FitSettings | null,
   ) {
-    this.fitter = fit ? new PieceFitter(fit, mode === "scurve") : null;
+    this.fitter = fit ? new PieceFitter(fit, mode) : null;
     this.unfitted = new BlockColumns(0, mode === "scurve");
   }
 
@@ -28,8 +28,14 @@ export class RunWriter {
     // A single straight has no piece too many.
     if (this.fitter === null || n < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
-    this.writeMode(path, isDense(path, limits.speed) ? withMargin(limits) : limits, this.unfitted);
+    this.writeMode(path, isDense(path, limits.speed) ? this.withMargin(limits) : limits, this.unfitted);
     this.fitter.write(this.unfitted, limits, path.x[n]!, path.y[n]!, path.endAlong(), n, out);
+  }
+
+  private withMargin(limits: RunLimits): RunLimits {
+    // Pieces of constant acceleration slow down for V where they must, on their own.
+    const speed = this.mode === "scurve" ? limits.speed * SPEED_MARGIN : limits.speed;
+    return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed };
   }
 
   private writeMode(path: RunPath, limits: RunLimits, out: BlockColumns): void {
@@ -51,8 +57,4 @@ function isDense(path: RunPath, speed: number): boolean {
   let short = 0;
   for (let i = 0; i < path.segmentCount; i++) if (path.length[i]! < speed * DENSE_S) short++;
   return 2 * short > path.segmentCount;
-}
-
-function withMargin(limits: RunLimits): RunLimits {
-  return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed: limits.speed * SPEED_MARGIN };
 }
