@@ -41,6 +41,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
         <main className="centre">
           <Preview />
           <TimeLine player={player} />
+          <Notices />
         </main>
         <Tabs tab={tab} onChange={setTab} />
         <aside className="column column-setup" aria-label={text.tabs.setup}>
@@ -66,7 +67,6 @@ export const App = ({ player, shortcuts }: AppProps) => {
           </div>
         </aside>
       </div>
-      <Notices />
       <HelpSheet shortcuts={shortcuts} />
     </DropZone>
   );

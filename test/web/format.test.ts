@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import {
   formatCount,
   formatDuration,
+  formatFixed,
   formatLength,
   formatMoment,
   formatPercent,
@@ -44,6 +45,13 @@ describe("lengths and counts", () => {
     expect(plain(formatLength(3140))).toBe("3.1 m");
     expect(plain(formatLength(250_000))).toBe("250 m");
     expect(plain(formatLength(1_234_000))).toBe("1.23 km");
+  });
+
+  it("have no sign where they round to zero", () => {
+    expect(formatFixed(-0.04, 1)).toBe("0.0");
+    expect(formatFixed(-0, 1)).toBe("0.0");
+    expect(formatFixed(-0.05001, 1)).toBe("-0.1");
+    expect(formatFixed(-10, 1)).toBe("-10.0");
   });
 
   it("have spaces between thousands", () => {

@@ -9,7 +9,12 @@ import type {
   WorkerRequest,
 } from "../../web/worker/protocol.js";
 
-const settings = { machine: "axidraw-v3", prepare: DEFAULT_PREPARE, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
+const settings = {
+  machine: "axidraw-v3",
+  prepare: DEFAULT_PREPARE,
+  motion: DEFAULT_MOTION,
+  pen: DEFAULT_PEN,
+};
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {

@@ -3,6 +3,7 @@ import type { Plotter } from "../../src/schema/index.js";
 import { currentPlotter } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
+import { formatFixed } from "../ui/format.js";
 import { Select } from "../ui/choice.js";
 
 const words = text.machine;
@@ -49,7 +50,8 @@ export const MachinePanel = () => {
 
 const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   const { xMm, yMm } = plotter;
-  const place = xMm === null || yMm === null ? words.unknown : `${xMm.toFixed(1)}, ${yMm.toFixed(1)} mm`;
+  const place =
+    xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
   const facts = [
     [words.position, place],
     [words.pen, plotter.penUp === null ? words.unknown : plotter.penUp ? words.up : words.down],

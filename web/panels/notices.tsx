@@ -2,7 +2,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Icon } from "../ui/icon.js";
 
-/** What has just happened, and what went wrong, in words; errors stay until they are closed. */
+/** What has just happened, and what went wrong, in words; errors stay until they are closed or something goes right. */
 export const Notices = () => {
   const notices = usePageState((state) => state.notices);
   const { dismiss } = useActions();

@@ -161,6 +161,9 @@ export class Stage {
     this.#size = { width, height };
     if (this.#isFitted) this.#fitNow();
     this.#refresh(true);
+    // Before the browser shows the new size, not a frame after it.
+    cancelAnimationFrame(this.#request);
+    this.#frame();
   }
 
   #fitNow(): void {
@@ -219,6 +222,9 @@ export class Stage {
       return;
     }
     strokes.style.transform = "";
+    // A picture keeps the size that it was drawn for until the next one: the box may have changed.
+    strokes.style.width = `${this.#size.width}px`;
+    strokes.style.height = `${this.#size.height}px`;
     this.#drawnView = this.#view;
     this.#areStrokesStale = false;
   }

@@ -39,11 +39,17 @@ export const createActions = (deps: ActionDeps) => {
   const dismiss = (id: number): void =>
     store.setState(({ notices }) => ({ notices: notices.filter((notice) => notice.id !== id) }));
 
+  /** What went wrong is over as soon as something goes right. */
+  const clearErrors = (): void =>
+    store.setState(({ notices }) => ({ notices: notices.filter(({ kind }) => kind !== "error") }));
+
   /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
   const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
     store.setState({ busyAction: name });
     try {
-      return await request();
+      const answer = await request();
+      clearErrors();
+      return answer;
     } catch (error) {
       notify("error", error instanceof Error ? error.message : String(error));
       return null;
@@ -87,6 +93,7 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const openDrawing = (name: string, svg: string, jobId: string | null = null): void => {
+    clearErrors();
     store.setState(({ settings }) => ({
       drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId },
       settings: jobId === null ? withoutHidden(settings) : settings,

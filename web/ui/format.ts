@@ -40,6 +40,10 @@ export const formatLength = (mm: number): string => {
 export const formatCount = (n: number): string =>
   String(Math.round(n)).replace(/\B(?=(\d{3})+(?!\d))/g, NARROW);
 
+/** Exactly `digits` decimals; what rounds to zero has no sign. */
+export const formatFixed = (n: number, digits: number): string =>
+  n.toFixed(digits).replace(/^-(?=[0.]+$)/, "");
+
 /** At most `digits` decimals, none where they are zero. */
 export const formatNumber = (n: number, digits = 2): string =>
   Number.isFinite(n) ? String(Number(n.toFixed(digits))) : "–";

@@ -6,7 +6,7 @@
  * import the file again, and a change of margin does not either.
  */
 import {
-  importDrawing,
+  importSvg,
   MACHINES,
   placeDrawing,
   plan,
@@ -70,7 +70,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   let stage: PlanFault["stage"] = "import";
   try {
     const t0 = performance.now();
-    const drawing = drawingOf(request);
+    const drawing = await drawingOf(request);
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
@@ -108,14 +108,21 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   }
 }
 
-function drawingOf({ drawingKey }: PlanRequest): Drawing {
+async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
   if (imported?.key !== drawingKey) {
     if (received?.key !== drawingKey)
       throw new Error("the worker was asked for a drawing it was never given");
-    imported = { key: drawingKey, drawing: importDrawing("", received.text) };
+    imported = { key: drawingKey, drawing: await drawingIn(received.text) };
   }
   if (received?.key === drawingKey) received = null;
   return imported.drawing;
+}
+
+/** The readers of other formats than SVG are fetched when the first such file is opened. */
+async function drawingIn(text: string): Promise<Drawing> {
+  if (/^[\ufeff\s]*</.test(text)) return importSvg(text);
+  const { importDrawing } = await import("./other-formats.js");
+  return importDrawing("", text);
 }
 
 function preparedOf(
