@@ -88,6 +88,8 @@ export {
 } from "./plan/trajectory.js";
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
+export { penOfLayer } from "./plan/pen-times.js";
+
 // machines
 export type { MachineProfile } from "./machines/profile.js";
 export { MACHINES, machineById } from "./machines/profiles.js";
@@ -97,7 +99,15 @@ export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
 export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
-export { closingCommands, penCommand, penSetUpCommands, setUpCommands } from "./ebb/commands.js";
+export {
+  closingCommands,
+  penCommand,
+  penMoveOf,
+  penMoveSetUp,
+  penSetUpCommands,
+  setUpCommands,
+  type PenWay,
+} from "./ebb/commands.js";
 export {
   compareFirmware,
   firmwareFeatures,

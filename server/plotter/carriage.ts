@@ -11,6 +11,7 @@ import {
   plan,
   PlotwrightError,
   penCommand,
+  penMoveOf,
   penSetUpCommands,
   setUpCommands,
   Streamer,
@@ -223,13 +224,10 @@ export class Carriage {
     const machine = machineOf(settings);
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
     const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
-    const waitMs = up ? pen.liftMs : pen.dropMs;
+    const way = penMoveOf(pen, up);
     for (const line of penSetUpCommands(machine, pen)) await session.send(line);
-    await session.send(
-      penCommand(machine, up, pct, Math.abs(pen.upPct - pen.downPct), waitMs),
-      waitMs / 1000,
-    );
-    await new Promise<void>((resolve) => void boardClock.after(waitMs / 1000 + SETTLE_S, resolve));
+    await session.send(penCommand(machine, way), way.timeMs / 1000);
+    await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
     this.penUp = up;
     this.events.changed();
   }

@@ -13,6 +13,8 @@ import {
   comeToRest,
   compile,
   penCommand,
+  penMoveOf,
+  penOfLayer,
   penSetUpCommands,
   PlotwrightError,
   strokeCount,
@@ -274,7 +276,7 @@ export class CarriageRun implements LivePlotRun {
   private async play(plot: PlannedPlot): Promise<void> {
     if (this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
     this.boardPen = this.settings.pen;
-    this.progress.add({ ...plot, start: this.carriage.boardState! });
+    this.progress.add({ ...plot, start: this.carriage.boardState!, afterS: 0 });
     const streamer = this.carriage.streamer();
     const played = this.carriage.play(streamer, plot);
     this.streamer = streamer;
@@ -317,25 +319,39 @@ export class CarriageRun implements LivePlotRun {
     lifts: boolean,
   ): { part: Part; place: Place | null; state: BoardState } {
     const { commands, trajectory } = part;
-    const { draw, travel } = this.settings.motion;
-    const { trajectory: restTrajectory, planS } = comeToRest(
-      trajectory,
-      commands.planS[index]!,
-      { drawAccel: draw.accelMmPerS2, travelAccel: travel.accelMmPerS2 },
-      lifts ? this.settings.pen : null,
-    );
+    const fromS = commands.planS[index]!;
+    const { limits, pen } = this.layerSettings(placeAt(trajectory, fromS));
+    const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
+    const { trajectory: restTrajectory, planS } = rest;
+    const leftS = Math.max(0, trajectory.totalS - planS) + part.afterS;
     const start = boardStateBefore(commands, index, part.start);
     const restCommands = compile(restTrajectory, {
       machine: machineOf(this.settings),
       firmware: this.carriage.connection.features.version,
-      pen: this.settings.pen,
+      pen,
       start,
     });
     const state = boardStateBefore(restCommands, restCommands.count, start);
     return {
-      part: { commands: restCommands, trajectory: restTrajectory, start },
+      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS },
       place: this.snapped(placeAt(trajectory, planS), restTrajectory.endX, restTrajectory.endY),
       state,
+    };
+  }
+
+  /** What the layer that is being drawn does differently. */
+  private layerSettings(place: Place | null): {
+    limits: { drawAccel: number; travelAccel: number };
+    pen: PenSettings;
+  } {
+    const { motion, pen } = this.settings;
+    const { layer, layers } = this.planner.strokes;
+    const id = place ? layers[layer[place.stroke]!]?.id : undefined;
+    const own = id === undefined ? undefined : motion.layers?.[id];
+    const drawAccel = own?.accelMmPerS2 ?? motion.draw.accelMmPerS2;
+    return {
+      limits: { drawAccel, travelAccel: motion.travel.accelMmPerS2 },
+      pen: id === undefined ? pen : penOfLayer(pen, id),
     };
   }
 
@@ -376,9 +392,10 @@ export class CarriageRun implements LivePlotRun {
       const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
       if (!streamer.cutAt(index, rest.part.commands, heights, commands)) continue;
       this.boardPen = this.settings.pen;
-      this.progress.add(rest.part);
-      this.progress.add({ commands: heights, trajectory, start: rest.state });
-      this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state });
+      const afterS = plot.trajectory.totalS;
+      this.progress.add({ ...rest.part, afterS });
+      this.progress.add({ commands: heights, trajectory, start: rest.state, afterS });
+      this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state, afterS: 0 });
       return;
     }
   }
@@ -390,7 +407,10 @@ export class CarriageRun implements LivePlotRun {
     const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
     const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
     if (isDown && byPct > 0) {
-      lines.push([penCommand(machine, false, pen.downPct, byPct, RESEAT_MS), RESEAT_MS / 1000]);
+      const { heightPct, ratePctPerS } = penMoveOf(pen, false);
+      const timeMs = ratePctPerS ? RESEAT_MS + (1_000 * byPct) / ratePctPerS : RESEAT_MS;
+      const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
+      lines.push([penCommand(machine, reseat), timeMs / 1000]);
     }
     return restingStream(lines, state, planS);
   }

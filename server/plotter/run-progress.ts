@@ -17,6 +17,8 @@ export interface Part {
   readonly trajectory: Trajectory;
   /** What the board holds before its first command. */
   readonly start: BoardState;
+  /** What of the plot still follows its end: a way to rest ends in the middle of the drawing. */
+  readonly afterS: number;
 }
 
 export class RunProgress {
@@ -70,7 +72,7 @@ export class RunProgress {
       now.stroke >= 0 ? { stroke: now.stroke, alongMm: now.alongMm } : nextPlace(part.trajectory, at.planS);
     if (left) this.place = left;
     const elapsedS = this.doneS + this.partS;
-    const remainingS = Math.max(0, part.trajectory.totalS - at.planS);
+    const remainingS = Math.max(0, part.trajectory.totalS - at.planS) + part.afterS;
     const progress = elapsedS + remainingS > 0 ? elapsedS / (elapsedS + remainingS) : 1;
     this.latest = {
       progress: Math.max(progress, this.latest?.progress ?? 0),

@@ -1,14 +1,20 @@
 /**
- * A controlled stop in the middle of a trajectory: along the very same path, at A, then the pen up.
+ * A controlled stop in the middle of a trajectory: along the very same path, within A, then the pen up.
  *
- *   speed ^ ‾‾‾‾\            v(s)² = min( plan's v(s)², v₀² − 2 A s )      s: mm from the point of the hold
- *         |       \   plan   The plan's own slowing before corners stays, so no corner is taken faster
- *         |  hold  \  ‾‾‾‾   than planned; on a curve the pull towards its middle only falls.
+ *   speed ^ ‾‾‾‾\            d(v²)/ds = −2 √(A² − (κ v²)²)      s: mm from the point of the hold
+ *         |       \   plan   κ: curvature of the path, 1/mm      v never above the plan's
+ *         |  hold  \  ‾‾‾‾
  *         +---------+----> s
  *
- * Every piece runs from a place of the plan to the next (block ends and every few ms between), with v² linear
- * in s, so on straight blocks it is exact and on curved ones within a fraction of a micrometre.
+ * The pull towards the middle of a curve, κ v², and the braking share the acceleration A (the friction circle of
+ * vehicle dynamics). While κ is constant, with u = κ v²/A the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage
+ * that takes a circle as fast as it can comes to rest within an eighth of it; where κ = 0 that is v₀² − 2 A s.
+ * The plan's own slowing before corners stays, so no corner is taken faster than planned.
+ *
+ * Every piece runs from a place of the plan to a next one, a few ms or half a degree later, with v² linear in s, so on
+ * straight blocks it is exact and on curved ones within a fraction of a micrometre.
  */
+import { liftTiming } from "../plan/pen-times.js";
 import type { PenSettings } from "../plan/settings.js";
 import { blockLength, blockState, stateAt, type MotionState, type Trajectory } from "../plan/trajectory.js";
 
@@ -21,8 +27,16 @@ export interface RestPlan {
 
 /** Longest piece of the plan's time, s. */
 const PIECE_S = 0.006;
+/** Most that a piece turns, rad: what its acceleration leaves the friction circle by grows with the square. */
+const PIECE_TURN = 0.01;
+/** Of A; the rest is for what a piece of one acceleration differs by from the true curve. */
+const SHARE_OF_ACCEL = 0.998;
+/** Shortest piece, s: a motor does not follow more than that. */
+const SHORTEST_PIECE_S = 2e-5;
 /** Slower than this counts as rest, mm/s. */
 const REST_SPEED = 1e-6;
+/** Straighter than this is straight, 1/mm. */
+const STRAIGHT = 1e-9;
 
 interface Pieces {
   readonly durationS: number[];
@@ -69,51 +83,91 @@ function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: num
   const { runs, durationS, startS } = trajectory;
   let k = blockAt(trajectory, tS);
   const end = runs.firstBlock[runOf(trajectory, k) + 1]!;
-  const stopMm = speed2 / (2 * accel);
-  let doneMm = 0;
+  let v2 = speed2;
   let t = tS - startS[k]!;
   for (; k < end; k++, t = 0) {
     while (durationS[k]! - t > 1e-9) {
-      const next = Math.min(durationS[k]!, t + PIECE_S);
+      const next = pieceEnd(trajectory, k, t);
       const lengthMm = blockLength(trajectory, k, next) - blockLength(trajectory, k, t);
-      const isLast = doneMm + lengthMm >= stopMm;
-      const until = isLast ? timeAfter(trajectory, k, t, next, stopMm - doneMm) : next;
-      const pieceMm = isLast ? stopMm - doneMm : lengthMm;
-      addPiece(
-        trajectory,
-        k,
-        t,
-        until,
-        pieceMm,
-        speed2 - 2 * accel * doneMm,
-        speed2 - 2 * accel * (doneMm + pieceMm),
-        pieces,
-      );
-      if (isLast) return startS[k]! + until;
-      doneMm += lengthMm;
+      const curvature = mostCurved(trajectory, k, t, next);
+      const from = blockState(trajectory, k, t, newState());
+      v2 = Math.min(v2, from.vx * from.vx + from.vy * from.vy);
+      // Faster on a curve than A allows, after a change of settings: brakes from there, not at once.
+      const brake = new Brake(Math.max(SHARE_OF_ACCEL * accel, curvature * v2), curvature, v2);
+      if (brake.stopMm <= lengthMm) {
+        const until = timeAfter(trajectory, k, t, next, brake.stopMm);
+        addPiece(from, blockState(trajectory, k, until, newState()), brake.stopMm, v2, 0, pieces);
+        return startS[k]! + until;
+      }
+      const to = blockState(trajectory, k, next, newState());
+      const end2 = Math.min(brake.speed2After(lengthMm), to.vx * to.vx + to.vy * to.vy);
+      addPiece(from, to, lengthMm, v2, end2, pieces);
+      if (end2 <= REST_SPEED * REST_SPEED) return startS[k]! + next;
+      v2 = end2;
       t = next;
     }
   }
   return startS[end - 1]! + durationS[end - 1]!;
 }
 
-/** One piece from `t` to `until` in block `k`; `hold0`, `hold1`: v² that the stop allows at its ends. */
+/** Braking along a circle of that curvature within the friction circle of `accel`. */
+class Brake {
+  private readonly angle: number;
+  readonly stopMm: number;
+
+  constructor(
+    private readonly accel: number,
+    private readonly curvature: number,
+    private readonly speed2: number,
+  ) {
+    this.angle = Math.asin(Math.min(1, (curvature * speed2) / accel));
+    this.stopMm = curvature > STRAIGHT ? this.angle / (2 * curvature) : speed2 / (2 * accel);
+  }
+
+  speed2After(mm: number): number {
+    if (this.curvature <= STRAIGHT) return Math.max(0, this.speed2 - 2 * this.accel * mm);
+    return (this.accel / this.curvature) * Math.sin(Math.max(0, this.angle - 2 * this.curvature * mm));
+  }
+}
+
+/** Where a piece from `t` in block `k` ends: the path turns little on it. */
+function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
+  const from = blockState(trajectory, k, t, newState());
+  const leftS = trajectory.durationS[k]! - t;
+  let stepS = Math.min(PIECE_S, leftS);
+  for (; stepS > SHORTEST_PIECE_S; stepS /= 2) {
+    const to = blockState(trajectory, k, t + stepS, newState());
+    const turn = Math.atan2(from.vx * to.vy - from.vy * to.vx, from.vx * to.vx + from.vy * to.vy);
+    if (Math.abs(turn) <= PIECE_TURN) break;
+  }
+  // No crumbs.
+  return leftS - stepS < SHORTEST_PIECE_S ? trajectory.durationS[k]! : t + stepS;
+}
+
+/** The largest curvature of block `k` from `t` to `until`, 1/mm, as three places show it. */
+function mostCurved(trajectory: Trajectory, k: number, t: number, until: number): number {
+  let most = 0;
+  for (const at of [t, (t + until) / 2, until]) {
+    const { vx, vy, ax, ay } = blockState(trajectory, k, at, newState());
+    const speed = Math.hypot(vx, vy);
+    if (speed > REST_SPEED) most = Math.max(most, Math.abs(vx * ay - vy * ax) / speed ** 3);
+  }
+  return most;
+}
+
+/** One piece between two places of the plan; `from2`, `to2`: v² at its ends. */
 function addPiece(
-  trajectory: Trajectory,
-  k: number,
-  t: number,
-  until: number,
+  from: MotionState,
+  to: MotionState,
   lengthMm: number,
-  hold0: number,
-  hold1: number,
+  from2: number,
+  to2: number,
   pieces: Pieces,
 ): void {
-  const from = blockState(trajectory, k, t, newState());
-  const to = blockState(trajectory, k, until, newState());
-  const plan0 = Math.hypot(from.vx, from.vy);
-  const v0 = Math.sqrt(Math.max(0, Math.min(plan0 * plan0, hold0)));
-  const v1 = Math.sqrt(Math.max(0, Math.min(to.vx * to.vx + to.vy * to.vy, hold1)));
+  const v0 = Math.sqrt(from2);
+  const v1 = Math.sqrt(to2);
   if (!(v0 + v1 > 0) || !(lengthMm > 0)) return;
+  const plan0 = Math.hypot(from.vx, from.vy);
   const duration = (2 * lengthMm) / (v0 + v1);
   const vx = plan0 > 0 ? (from.vx / plan0) * v0 : 0;
   const vy = plan0 > 0 ? (from.vy / plan0) * v0 : 0;
@@ -155,7 +209,7 @@ function finish(
   const motionS = count > 0 ? startS[count - 1]! + pieces.durationS[count - 1]! : 0;
   const runCount = count > 0 ? 1 : 0;
   const lifts = pen !== null && !penUpAt(original, planS);
-  const waitS = lifts ? pen.liftMs / 1000 : 0;
+  const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
   const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, heightPct: pen?.upPct ?? 0 };
   const trajectory: Trajectory = {
     blockCount: count,

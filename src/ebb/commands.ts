@@ -26,39 +26,64 @@ export const closingCommands = (): string[] => ["EM,0,0"];
 
 /** Heights and speeds of the pen; they hold for every SP that follows. Empty where S2 moves the pen. */
 export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
+  const lift = penMoveOf(pen, true);
+  const drop = penMoveOf(pen, false);
+  const [upLine, upRateLine] = penMoveSetUp(machine, lift);
+  const [downLine, downRateLine] = penMoveSetUp(machine, drop);
+  return [upLine, downLine, upRateLine, downRateLine].filter((line) => line !== undefined);
+}
+
+/** One move of the pen from height to height. */
+export interface PenWay {
+  readonly up: boolean;
+  /** Where it ends, and how far that is, percent of the servo's range. */
+  readonly heightPct: number;
+  readonly wayPct: number;
+  /** The whole time from the command to a pen at rest. */
+  readonly timeMs: number;
+  /** As fast as asked for; null: as fast as it takes to be there in good time. */
+  readonly ratePctPerS?: number | null | undefined;
+}
+
+/** The move between the two heights of the settings. */
+export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
+  const wayPct = Math.abs(pen.upPct - pen.downPct);
+  const heightPct = up ? pen.upPct : pen.downPct;
+  const delayMs = up ? pen.liftMs : pen.dropMs;
+  const ratePctPerS = up ? pen.liftPctPerS : pen.dropPctPerS;
+  const timeMs = ratePctPerS ? delayMs + (1_000 * wayPct) / ratePctPerS : delayMs;
+  return { up, heightPct, wayPct, timeMs, ratePctPerS };
+}
+
+/** Height and speed of the SP of one direction; empty where S2 moves the pen. */
+export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
   if (machine.servoPin !== STANDARD_PIN) return [];
-  const up = servoPosFromPct(machine, pen.upPct);
-  const down = servoPosFromPct(machine, pen.downPct);
+  const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
   return [
-    `SC,4,${up}`,
-    `SC,5,${down}`,
-    `SC,11,${servoRate(up - down, pen.liftMs)}`,
-    `SC,12,${servoRate(up - down, pen.dropMs)}`,
+    `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
+    `SC,${rateNumber},${servoRate(machine, way)}`,
   ];
 }
 
-/** One pen move to a height, holding the queue for `waitMs`. Heights of SP come from `penSetUpCommands`. */
-export function penCommand(
-  machine: MachineProfile,
-  up: boolean,
-  heightPct: number,
-  wayPct: number,
-  waitMs: number,
-): string {
+/** One pen move, holding the queue for `waitMs`. Heights and speeds of SP come from the set-up commands. */
+export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
-  if (machine.servoPin === STANDARD_PIN) return `SP,${up ? 1 : 0},${delayMs}`;
-  const position = servoPosFromPct(machine, heightPct);
-  const way = servoPosFromPct(machine, wayPct) - servoPosFromPct(machine, 0);
-  return `S2,${position},${machine.servoPin},${servoRate(way, waitMs)},${delayMs}`;
+  if (machine.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
+  const position = servoPosFromPct(machine, way.heightPct);
+  return `S2,${position},${machine.servoPin},${servoRate(machine, way)},${delayMs}`;
 }
 
 /** The longest delay that SP and S2 take. */
 export const MAX_DELAY_MS = 65_535;
 
-/** Change of servo position a 24 ms frame that is done with the way in good time. */
-function servoRate(way: number, waitMs: number): number {
-  const frames = Math.max(1, Math.floor((waitMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
-  return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(Math.abs(way) / frames)));
+/** Change of servo position a 24 ms frame: the rate asked for, or one that is done with the way in good time. */
+function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
+  const unitsPerPct = Math.abs(machine.servoPosAt100Pct - machine.servoPosAt0Pct) / 100;
+  const frames = ratePctPerS
+    ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
+    : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
+  const rate = ratePctPerS && wayPct === 0 ? 1 : (wayPct * unitsPerPct) / frames;
+  return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
 }
 
 const CR = 13;

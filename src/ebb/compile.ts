@@ -14,7 +14,7 @@ import type { MachineProfile } from "../machines/profile.js";
 import type { PenSettings } from "../plan/settings.js";
 import type { PenMove, Trajectory } from "../plan/trajectory.js";
 import { rateFromStepsPerS, TICKS_PER_S } from "../units.js";
-import { MAX_DELAY_MS, penCommand, penSetUpCommands } from "./commands.js";
+import { MAX_DELAY_MS, penCommand, penMoveSetUp, penSetUpCommands, type PenWay } from "./commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { firmwareFeatures, type FirmwareFeatures } from "./firmware.js";
 import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
@@ -73,7 +73,10 @@ class Compiler {
   private readonly writer: LegWriter;
   private readonly leg = newLeg();
   private readonly half = newLeg();
-  private heights: { up: number; down: number };
+  /** Where the pen was told to be, up and down. */
+  private readonly heights: { up: number; down: number };
+  /** The set-up lines that the board has, by "SC,number". */
+  private readonly parameters = new Map<string, string>();
   private runIndex = 0;
   /** Where the leg being made ends: its tick, the block whose law holds there, and whether the run ends too. */
   private cutTick = 0;
@@ -260,25 +263,37 @@ class Compiler {
   }
 
   private setUpPen(): void {
-    for (const line of penSetUpCommands(this.options.machine, this.options.pen)) this.still(line, 0, 0);
+    this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0);
   }
 
-  /** The pen's move, with its height where it is another than before. The carriage waits for the whole of it. */
+  /** The pen's move, with its height and speed where they are others than before. */
   private penMove(move: PenMove): void {
     const { machine, pen } = this.options;
-    const height = move.up ? this.heights.up : this.heights.down;
-    if (move.heightPct !== height) {
-      if (move.up) this.heights = { ...this.heights, up: move.heightPct };
-      else this.heights = { ...this.heights, down: move.heightPct };
-      const { up, down } = this.heights;
-      for (const line of penSetUpCommands(machine, { ...pen, upPct: up, downPct: down })) {
-        this.still(line, 0, move.startS);
-      }
-    }
-    const wayPct = Math.abs(this.heights.up - this.heights.down);
+    const { heights } = this;
+    const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
+    if (move.up) heights.up = move.heightPct;
+    else heights.down = move.heightPct;
+    const wholeS = move.up ? (move.waitS * 100) / (pen.clearPct ?? 100) : move.waitS;
+    const way: PenWay = {
+      up: move.up,
+      heightPct: move.heightPct,
+      wayPct,
+      timeMs: 1_000 * wholeS,
+      ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
+    };
+    this.setUp(penMoveSetUp(machine, way), move.startS);
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const line = penCommand(machine, move.up, move.heightPct, wayPct, waitMs);
-    this.still(line, Math.max(1, waitMs * TICKS_PER_MS), move.startS);
+    this.still(penCommand(machine, way, waitMs), Math.max(1, waitMs * TICKS_PER_MS), move.startS);
+  }
+
+  /** Writes the set-up lines that the board does not have yet. */
+  private setUp(lines: readonly string[], planS: number): void {
+    for (const line of lines) {
+      const parameter = line.slice(0, line.lastIndexOf(","));
+      if (this.parameters.get(parameter) === line) continue;
+      this.parameters.set(parameter, line);
+      this.still(line, 0, planS);
+    }
   }
 
   /** A command in which the motors rest. */
