@@ -1,0 +1,62 @@
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { PlotProgress } from "../../server/plotter/types.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+const COMB = strokesOf(...Array.from({ length: 20 }, (_, i) => [10, 10 + 5 * i, 120, 10 + 5 * i]));
+
+async function begin() {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world });
+  await world.run(driver.start());
+  const run = await world.run(driver.plot(new LocalPlanner(COMB), DEFAULT_PLOT_SETTINGS));
+  const seen: PlotProgress[] = [];
+  run.onProgress((progress) => seen.push(progress));
+  await world.advance(4);
+  return { world, run, seen };
+}
+
+/** Neither the share nor the time left jumps: no report differs from the one before by more than a second's work. */
+function expectSteady(seen: readonly PlotProgress[]): void {
+  const wholeS = seen[0]!.elapsedS + seen[0]!.remainingS;
+  for (let i = 1; i < seen.length; i++) {
+    const [before, now] = [seen[i - 1]!, seen[i]!];
+    expect(now.progress).toBeGreaterThanOrEqual(before.progress);
+    expect(now.progress - before.progress).toBeLessThan(1 / wholeS);
+    expect(Math.abs(now.remainingS - before.remainingS)).toBeLessThan(1);
+  }
+}
+
+describe("the progress of a plot", () => {
+  it("stands where it is while the plot is held, and goes on from there", async () => {
+    const { world, run, seen } = await begin();
+    await world.run(run.pause());
+    const held = seen.at(-1)!;
+    expect(held.progress).toBeLessThan(0.5);
+    expect(held.remainingS).toBeGreaterThan(held.elapsedS);
+    await world.run(run.resume());
+    await world.run(run.finished);
+    expectSteady(seen);
+    expect(seen.at(-1)).toMatchObject({ progress: 1, remainingS: 0 });
+  });
+
+  it("stays where it was when the plot is cancelled", async () => {
+    const { world, run, seen } = await begin();
+    const cancelled = run.cancel();
+    await world.run(run.finished);
+    await cancelled;
+    expectSteady(seen);
+    expect(seen.at(-1)!.progress).toBeLessThan(0.5);
+  });
+
+  it("takes the plan over to which it goes in motion, without a jump", async () => {
+    const { world, run, seen } = await begin();
+    const { pen } = DEFAULT_PLOT_SETTINGS;
+    await world.run(run.change({ pen: { ...pen, downPct: pen.downPct + 5 } }));
+    await world.run(run.finished);
+    expectSteady(seen);
+    expect(seen.at(-1)).toMatchObject({ progress: 1, remainingS: 0 });
+  });
+});
