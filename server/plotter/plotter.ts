@@ -351,7 +351,8 @@ export class PlotterDriver {
 
   /** While plotting, the run's listeners carry the place to the pages; here it only is kept up to date. */
   private movedTo(xMm: number, yMm: number, penUp: boolean): void {
-    this.current = { ...this.current, xMm, yMm, penUp };
+    // A run that ends with the connection still tells where it was; nobody knows where the carriage is then.
+    if (this.carriage) this.current = { ...this.current, xMm, yMm, penUp };
   }
 
   private tell(change: Partial<PlotterState>): void {

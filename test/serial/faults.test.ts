@@ -64,6 +64,17 @@ describe("in the middle of a plot", () => {
     expect(journal[journal.length - 1]!.place.stroke).toBe(0);
   });
 
+  it("a board whose power fails for a moment ends it as disconnected, with the place in the journal", async () => {
+    const { board, driver, journal, ended } = await drawing();
+    board.tell({ type: "reset" });
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^disconnected: /);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    // Its counters are gone: only the user knows where home is.
+    expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
+    expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+  });
+
   it("a board that falls silent ends it as timed out, and is used again when it answers", async () => {
     const { board, driver, ended } = await drawing();
     board.tell({ type: "mute", mute: true });
@@ -155,6 +166,17 @@ describe("when connecting", () => {
     expect(await connected(board.path)).toMatchObject({
       connection: "fault",
       message: expect.stringContaining("Nothing answers on this port"),
+    });
+  });
+
+  it("another machine that answers is no plotter, and says so", async () => {
+    const board = await PtyBoard.open();
+    open.push(board);
+    board.tell({ type: "foreign", answer: "Grbl 1.1h ['$' for help]\r\nok\r\n" });
+    await board.report();
+    expect(await connected(board.path)).toMatchObject({
+      connection: "absent",
+      message: expect.stringContaining("it is no EiBotBoard: choose another device"),
     });
   });
 

@@ -18,10 +18,15 @@ const say = (message: FromBoard): void => void process.send!(message);
 // A shell holds the terminal open and makes it pass bytes as they are; its first line is the terminal's name.
 const terminal = spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], { encoding: null });
 let isOpen = false;
+let foreignAnswer: string | null = null;
 let head = "";
 terminal.onData((data: unknown) => {
   const bytes = data as Buffer;
   if (isOpen) {
+    if (foreignAnswer !== null) {
+      terminal.write(foreignAnswer);
+      return;
+    }
     board.receive(bytes);
     if (!board.accepting) terminal.pause();
     return;
@@ -41,6 +46,12 @@ process.on("message", (message: ToBoard) => {
   switch (message.type) {
     case "unplug":
       board.unplug();
+      break;
+    case "reset":
+      board.resetByPower();
+      break;
+    case "foreign":
+      foreignAnswer = message.answer;
       break;
     case "mute":
       board.setMute(message.mute);

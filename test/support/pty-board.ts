@@ -4,7 +4,9 @@ import { fileURLToPath } from "node:url";
 import type { BoardStatistics, VirtualBoardState } from "../../src/index.js";
 
 export type ToBoard =
-  | { readonly type: "unplug" | "button" | "report" }
+  | { readonly type: "unplug" | "reset" | "button" | "report" }
+  /** From now on the device answers every line as some other machine would. */
+  | { readonly type: "foreign"; readonly answer: string }
   | { readonly type: "mute"; readonly mute: boolean }
   | { readonly type: "garbage"; readonly bytes: readonly number[] }
   | { readonly type: "lose"; readonly count: number }
