@@ -70,7 +70,7 @@ const MainButtons = ({ job }: { job: Job }) => {
     <div className="button-row">
       <button
         type="button"
-        className="button"
+        className={job.state === "plotting" ? "button" : "button button-primary"}
         disabled={busy === `${action} ${job.id}`}
         onClick={() => void actOnJob(job.id, action)}
       >
