@@ -6,9 +6,7 @@
  *
  *   constant acceleration: two pieces of T/2, matching place and velocity at both ends; with the velocity
  *       in the middle  m = 2 Δp/T − (v0 + v1)/2:   a1 = 2 (m − v0)/T,  a2 = 2 (v1 − m)/T
- *   constant jerk: three pieces of h = T/3, matching place, velocity and acceleration at both ends
- *       j1 = C − B    j2 = B − 2 j1    j3 = Sa − j1 − j2, where
- *       Sa = Δa/h     B = (Δv − 3 a0 h)/h² − Sa/2     C = (Δp − 3 v0 h − 9 a0 h²/2)/h³ − Sa/6
+ *   constant jerk: three pieces, see three-jerks.ts
  *
  * The end state is the plan's or, for constant acceleration, one with an evened velocity (even-state.ts). A block
  * can be kept as it is only from a state of the plan's: where nothing goes on from an evened state, the stretch
@@ -24,12 +22,10 @@ import type { BlockColumns } from "./block-columns.js";
 import { EvenState } from "./even-state.js";
 import type { RunLimits } from "./limits.js";
 import type { FitSettings, MotionMode } from "./settings.js";
-
-/** Limits may be passed by this much. */
-const SLACK = 1.0009;
+import { keepsJerkLimits, SLACK, solveAxis } from "./three-jerks.js";
 
 /** The search for the longest stretch ends within one part in so many of it. */
-const FINENESS = 16;
+const FINENESS = 8;
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
 const BETWEEN = 0.95;
@@ -37,7 +33,7 @@ const BETWEEN = 0.95;
 /** Longest stretch, s: older boards cannot be stopped within a piece, so pieces stay below half a second. */
 const LONGEST_S = 0.8;
 
-/** The distance is looked at so many times a stretch, more often where it replaces many blocks. */
+/** The distance is looked at so many times a stretch, and once in every block that it replaces. */
 const LOOKS = 16;
 
 /** What rounding may add to V. */
@@ -48,9 +44,6 @@ const LATER = 1.02;
 
 /** Pieces may run ahead or behind by so much that the line's bend on that way is within half of this of ε. */
 const AHEAD = 0.1;
-
-/** An evened velocity is also tried turned to both sides, by so many ε a piece. */
-const TURNED = 1;
 
 /** After so many stretches that end in evened states one must end as planned: bounds what is done twice. */
 const LONGEST_CHAIN = 16;
@@ -116,18 +109,16 @@ export class PieceFitter {
     this.endY = endY;
     this.endAlong = endAlong;
     out.reserve(Math.min(from.count, segments), segments);
-    const pieces = this.jerky ? 3 : 2;
     const chain = this.chain;
     chain.length = 0;
     this.startPlanned(0);
-    let guess = 2 * pieces;
+    let guess = this.jerky ? 6 : 4;
     let evenStart = false;
     let planOnly = false;
     for (let k = 0; k < from.count;) {
       this.mayEven = !this.jerky && !planOnly && chain.length < LONGEST_CHAIN;
       let m = this.longest(k, guess);
-      const isShort = (this.startOf(m) - this.startOf(k)) / (m - k) < this.settings.floorMs / 1000;
-      if (m - k > pieces || (m - k >= 2 && (evenStart || (m - k === pieces && isShort)))) {
+      if (this.isWorth(k, m, evenStart)) {
         const rest = this.from.clockS - this.startOf(m);
         if (rest > 0 && rest < this.startOf(m) - this.startOf(k)) m = this.balanced(k, m);
         this.fits(k, m);
@@ -163,6 +154,15 @@ export class PieceFitter {
         this.startPlanned(k);
       }
     }
+  }
+
+  /** Whether pieces for [k, m) are fewer than its blocks; or as many, where that leaves fewer short ones. */
+  private isWorth(k: number, m: number, evenStart: boolean): boolean {
+    const pieces = this.jerky ? 3 : 2;
+    if (m - k !== pieces) return m - k > pieces || (evenStart && m - k >= 2);
+    if (evenStart) return true;
+    const floor = this.settings.floorMs / 1000;
+    return this.startOf(m) - this.startOf(k) < pieces * floor;
   }
 
   /** The greatest m found for which blocks [k, m) can be replaced; k + 1 when none. */
@@ -261,23 +261,17 @@ export class PieceFitter {
     this.vy1 = from.vy[m - 1]! + d * from.ay[m - 1]!;
   }
 
-  /** Tries an evened velocity at the end, straight and turned a little to both sides. */
   private fitsEven(k: number, m: number, length: number): boolean {
-    const { even, from, settings } = this;
+    const { even, from } = this;
     even.find(from, m, length / 2);
     const { vx, vy } = even;
-    const v = Math.sqrt(vx * vx + vy * vy);
-    const turn = (2 * TURNED * settings.toleranceMm) / (length * v);
+    const less = Math.min(1, this.limits.speed / Math.sqrt(vx * vx + vy * vy));
     this.isEven = true;
     this.x1 = from.x[m]!;
     this.y1 = from.y[m]!;
-    for (let side = 0; side < 3; side++) {
-      const by = side === 0 ? 0 : side === 1 ? turn : -turn;
-      const less = Math.min(1, this.limits.speed / (v * Math.sqrt(1 + by * by)));
-      this.vx1 = less * (vx - by * vy);
-      this.vy1 = less * (vy + by * vx);
-      if (this.solveAccelerations(length) && this.isNear(k, m)) return true;
-    }
+    this.vx1 = less * vx;
+    this.vy1 = less * vy;
+    if (this.solveAccelerations(length) && this.isNear(k, m)) return true;
     this.isEven = false;
     return false;
   }
@@ -317,53 +311,30 @@ export class PieceFitter {
       from.ay[last]! + d * jy,
       py,
     );
-    return this.keepsLimits(k, h);
+    return keepsJerkLimits(from.vx[k]!, from.vy[k]!, this.a0x, this.a0y, px, py, h, this.limits);
   }
 
-  private keepsLimits(k: number, h: number): boolean {
-    const { from, px, py } = this;
-    const { accel, speed, jerk } = this.limits;
-    let vx = from.vx[k]!;
-    let vy = from.vy[k]!;
-    let ax = this.a0x;
-    let ay = this.a0y;
-    for (let i = 0; i < 3; i++) {
-      const jx = px[i]!;
-      const jy = py[i]!;
-      if (jx * jx + jy * jy > (jerk * SLACK) ** 2) return false;
-      // Between two of four places in a piece, speed is at most |j| (h/4)²/8 above the greater of theirs.
-      const most = speed * SLACK - (Math.sqrt(jx * jx + jy * jy) * h * h) / 128;
-      for (let q = 1; q <= 4; q++) {
-        const u = (h * q) / 4;
-        const wx = vx + u * (ax + (u * jx) / 2);
-        const wy = vy + u * (ay + (u * jy) / 2);
-        if (most < 0 || wx * wx + wy * wy > most * most) return false;
-      }
-      vx += h * (ax + (h * jx) / 2);
-      vy += h * (ay + (h * jy) / 2);
-      ax += h * jx;
-      ay += h * jy;
-      if (ax * ax + ay * ay > (accel * SLACK) ** 2) return false;
-    }
-    return true;
-  }
-
-  /** Compares the pieces with the plan: in every block that they replace, and LOOKS times at least. */
+  /** Compares the pieces with the plan: in every block that they replace, and about LOOKS times at least. */
   private isNear(k: number, m: number): boolean {
     const { from, stretch } = this;
     const most = (BETWEEN * this.settings.toleranceMm) ** 2;
     const start = this.startOf(k);
     const often = (LOOKS * stretch) / this.length;
+    // Roughly first: most stretches that are too long leave the line early.
+    for (let i = k + 2; i < m; i += 4) {
+      const t = (this.startOf(i) - start) * stretch;
+      if (!this.isBeside(t, from.x[i]!, from.y[i]!, from.vx[i]!, from.vy[i]!, most)) return false;
+    }
     for (let i = k; i < m; i++) {
       const t = this.startOf(i) - start;
       const d = from.durationS[i]!;
-      const looks = d * often > 2 ? Math.ceil(d * often) : 2;
+      const looks = d * often > 1.5 ? Math.round(d * often) : 1;
       const ax = from.ax[i]!;
       const ay = from.ay[i]!;
       const jx = from.jx ? from.jx[i]! : 0;
       const jy = from.jy ? from.jy[i]! : 0;
-      for (let look = i > k ? 0 : 1; look < looks; look++) {
-        const u = (d * look) / looks;
+      for (let look = 0; look < looks; look++) {
+        const u = (d * (look + 0.5)) / looks;
         const vx = from.vx[i]! + u * (ax + (u * jx) / 2);
         const vy = from.vy[i]! + u * (ay + (u * jy) / 2);
         const x = from.x[i]! + u * (from.vx[i]! + u * (ax / 2 + (u * jx) / 6));
@@ -471,22 +442,4 @@ export class PieceFitter {
   private yOf(k: number): number {
     return k < this.from.count ? this.from.y[k]! : this.endY;
   }
-}
-
-/** The three jerks of one axis that lead from (v0, a0) over `dp` to (v1, a1) in time 3 h. */
-function solveAxis(
-  h: number,
-  dp: number,
-  v0: number,
-  v1: number,
-  a0: number,
-  a1: number,
-  jerks: Float64Array,
-): void {
-  const sa = (a1 - a0) / h;
-  const b = (v1 - v0 - 3 * a0 * h) / (h * h) - sa / 2;
-  const c = (dp - 3 * v0 * h - 4.5 * a0 * h * h) / (h * h * h) - sa / 6;
-  jerks[0] = c - b;
-  jerks[1] = b - 2 * jerks[0];
-  jerks[2] = sa - jerks[0] - jerks[1];
 }
