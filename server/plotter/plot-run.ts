@@ -287,8 +287,10 @@ export class CarriageRun implements LivePlotRun {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
       const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
-      this.carriage.penUp = isPenUpBefore(trajectory, report.complete ? Infinity : planS);
-      this.tell(this.progress.update({ ...report.end, planS: report.complete ? trajectory.totalS : planS }));
+      // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
+      const isWhole = report.complete && !this.stopped;
+      this.carriage.penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
+      this.tell(this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }));
     } catch (error) {
       if (!this.emergency) throw error;
       await this.afterEmergency(streamer);

@@ -42,6 +42,16 @@ describe("the progress of a plot", () => {
     expect(seen.at(-1)).toMatchObject({ progress: 1, remainingS: 0 });
   });
 
+  it("stands wherever in the plan the plot is held, in motion or at rest", async () => {
+    for (let afterS = 0; afterS < 1.5; afterS += 0.13) {
+      const { world, run, seen } = await begin();
+      await world.advance(afterS);
+      await world.run(run.pause());
+      expectSteady(seen);
+      expect(seen.at(-1)!.progress).toBeLessThan(0.5);
+    }
+  });
+
   it("stays where it was when the plot is cancelled", async () => {
     const { world, run, seen } = await begin();
     const cancelled = run.cancel();
