@@ -62,7 +62,13 @@ export function placeAt(trajectory: Trajectory, planS: number): Place | null {
   return state.stroke >= 0 ? { stroke: state.stroke, alongMm: state.alongMm } : nextPlace(trajectory, planS);
 }
 
-/** The time within `aroundS` of `planS` at which the trajectory comes nearest to a point. */
+/** Distances that differ by less are the same, mm: the counters know the pen's place to a step only. */
+const SAME_DISTANCE_MM = 0.02;
+
+/**
+ * The time within `aroundS` of `planS` at which the trajectory passes nearest to a point; where it passes
+ * more than once, as at the tip of a sharp corner, the pass nearest in time.
+ */
 export function nearestTime(
   trajectory: Trajectory,
   planS: number,
@@ -70,27 +76,34 @@ export function nearestTime(
   x: number,
   y: number,
 ): number {
-  const distanceAt = (tS: number): number => {
-    const state = stateAt(trajectory, tS);
-    return Math.hypot(state.x - x, state.y - y);
-  };
-  let best = planS;
-  let stepS = 0.002;
-  let fromS = Math.max(0, planS - aroundS);
-  let toS = Math.min(trajectory.totalS, planS + aroundS);
-  for (let pass = 0; pass < 3; pass++) {
-    let nearest = Infinity;
-    for (let tS = fromS; tS <= toS; tS += stepS) {
-      const distance = distanceAt(tS);
-      if (distance < nearest) {
-        nearest = distance;
-        best = tS;
-      }
-    }
-    fromS = Math.max(0, best - stepS);
-    toS = Math.min(trajectory.totalS, best + stepS);
-    stepS /= 20;
+  const stepS = 0.002;
+  const fromS = Math.max(0, planS - aroundS);
+  const stepCount = Math.ceil((Math.min(trajectory.totalS, planS + aroundS) - fromS) / stepS);
+  const distances = new Float64Array(Math.max(stepCount, 0));
+  const times = new Float64Array(distances.length);
+  // Distance to the straight piece of each step: two samples on a line may both be far from a point on it.
+  let before = stateAt(trajectory, fromS);
+  for (let i = 0; i < distances.length; i++) {
+    const after = stateAt(trajectory, fromS + (i + 1) * stepS);
+    const [dx, dy] = [after.x - before.x, after.y - before.y];
+    const length2 = dx * dx + dy * dy;
+    const share = length2 > 0 ? ((x - before.x) * dx + (y - before.y) * dy) / length2 : 0;
+    const at = Math.min(1, Math.max(0, share));
+    distances[i] = Math.hypot(before.x + at * dx - x, before.y + at * dy - y);
+    times[i] = fromS + (i + at) * stepS;
+    before = after;
   }
+  const enough = distances.reduce((least, d) => Math.min(least, d), Infinity) + SAME_DISTANCE_MM;
+  let best = planS;
+  let score = Infinity;
+  distances.forEach((distance, i) => {
+    // Time decides only between passes that are as near as each other.
+    const value = distance + SAME_DISTANCE_MM * Math.abs(times[i]! - planS);
+    if (distance <= enough && value < score) {
+      score = value;
+      best = times[i]!;
+    }
+  });
   return best;
 }
 
@@ -142,6 +155,9 @@ export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: num
   return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
 }
 
+/** How much nearer a place further along must be to be taken, mm a mm: keeps to the right side of a sharp tip. */
+const GAP_MM_PER_MM_ALONG = 0.02;
+
 /**
  * The place on the same stroke nearest to a point, not further than `withinMm` along from the given one: where
  * the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not quite the same.
@@ -165,10 +181,9 @@ export function snappedPlace(
     if (lengthMm > 0 && low <= high) {
       const along = ((x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy) / lengthMm;
       const at = Math.min(high, Math.max(low, along));
-      const gap = Math.hypot(
-        xy[2 * i]! + (dx * at) / lengthMm - x,
-        xy[2 * i + 1]! + (dy * at) / lengthMm - y,
-      );
+      const gap =
+        Math.hypot(xy[2 * i]! + (dx * at) / lengthMm - x, xy[2 * i + 1]! + (dy * at) / lengthMm - y) +
+        GAP_MM_PER_MM_ALONG * Math.abs(fromMm + at - place.alongMm);
       if (gap < nearest) {
         nearest = gap;
         bestMm = fromMm + at;
