@@ -25,7 +25,8 @@ export async function runPlot(
   io: CliIo,
 ): Promise<number> {
   const text = readDrawing(file);
-  const settings = options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
+  const settings =
+    options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
