@@ -30,7 +30,7 @@ const PIECE_S = 0.006;
 /** Most that a piece turns, rad: what its acceleration leaves the friction circle by grows with the square. */
 const PIECE_TURN = 0.01;
 /** Of A; the rest is for what a piece of one acceleration differs by from the true curve. */
-const SHARE_OF_ACCEL = 0.998;
+const SHARE_OF_ACCEL = 0.995;
 /** Shortest piece, s: a motor does not follow more than that. */
 const SHORTEST_PIECE_S = 2e-5;
 /** Slower than this counts as rest, mm/s. */
