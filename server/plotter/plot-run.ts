@@ -289,8 +289,13 @@ export class CarriageRun implements LivePlotRun {
       const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
       // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
       const isWhole = report.complete && !this.stopped;
-      this.carriage.penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
-      this.tell(this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }));
+      const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
+      this.carriage.penUp = penUp;
+      // The board has come to rest, so a lift that had begun is over, whatever rounding says of its last instant.
+      this.tell({
+        ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
+        penUp,
+      });
     } catch (error) {
       if (!this.emergency) throw error;
       await this.afterEmergency(streamer);
