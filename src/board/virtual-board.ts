@@ -20,7 +20,8 @@ import { BoardCore, type BoardStatistics } from "./virtual/core.js";
 import type { DrawnPolyline } from "./virtual/drawn-line.js";
 import { InputLines } from "./virtual/input.js";
 import { Interpreter } from "./virtual/interpreter.js";
-import { supplyReading, type BoardInputs } from "./virtual/queries.js";
+import { VirtualLink } from "./virtual/link.js";
+import { factoryInputs, inputsAfterReset, supplyReading } from "./virtual/queries.js";
 
 export type { BoardStatistics } from "./virtual/core.js";
 export type { DrawnPolyline } from "./virtual/drawn-line.js";
@@ -60,9 +61,6 @@ export interface VirtualBoardState {
   readonly boardS: number;
 }
 
-const BOOT_NAME = "";
-const MOTOR_SUPPLY_VOLTS = 9.1;
-
 export class VirtualBoard {
   readonly firmware: string;
   private readonly clock: Clock;
@@ -73,17 +71,7 @@ export class VirtualBoard {
   private readonly systemLimit: number;
   private readonly startS: number;
   private readonly input = new InputLines();
-  private readonly inputs: BoardInputs = {
-    buttonLatched: false,
-    buttonDown: false,
-    motorVolts: MOTOR_SUPPLY_VOLTS,
-    powerLostLatched: false,
-    powerThreshold: 0,
-    name: BOOT_NAME,
-    nodeCount: 0,
-    layer: new Uint8Array(32),
-    servoTimeoutMs: 60_000,
-  };
+  private inputs = factoryInputs();
   private core: BoardCore;
   private interpreter: Interpreter;
   private parserFreeTick = 0;
@@ -200,13 +188,27 @@ export class VirtualBoard {
     if (isDown) this.inputs.buttonLatched = true;
   }
 
-  /** 0 = switched off. Below the threshold set by CU,60 the board remembers it. */
+  /** 0 = switched off, about 5 = fed by USB alone. Below the threshold set by CU,60 the board remembers it. */
   setMotorVolts(volts: number): void {
     const { inputs } = this;
     inputs.motorVolts = volts;
     if (inputs.powerThreshold > 0 && supplyReading(volts) < inputs.powerThreshold) {
       inputs.powerLostLatched = true;
     }
+  }
+
+  /** It answers, but its motion stands still: what runs never ends and what waits never begins, until false. */
+  setFrozen(isFrozen: boolean): void {
+    this.run();
+    this.core.setFrozen(isFrozen);
+    this.run();
+  }
+
+  /** It takes moves and spends their time, but its step counters (and motors) stand still, until false. */
+  setMotionless(isMotionless: boolean): void {
+    this.run();
+    this.core.setMakesSteps(!isMotionless);
+    this.run();
   }
 
   /** Takes everything in and answers nothing, until called with false. */
@@ -261,6 +263,7 @@ export class VirtualBoard {
 
   /** Boot defaults. The line drawn stays drawn. */
   private boot(): void {
+    this.inputs = inputsAfterReset(this.inputs);
     this.core = this.core.rebooted();
     this.interpreter = this.makeInterpreter();
   }
@@ -355,95 +358,5 @@ export class VirtualBoard {
   private sendBytes(bytes: Uint8Array): void {
     this.link?.deliver(bytes);
     for (const listener of this.sendListeners) listener(bytes);
-  }
-}
-
-interface LinkTarget {
-  readonly accepting: () => boolean;
-  readonly nowTick: () => number;
-  readonly take: (bytes: Uint8Array, arrivalTick: number) => void;
-}
-
-interface OutboxEntry {
-  readonly bytes: Uint8Array;
-  taken: number;
-  /** When the host wrote it: it waits in the system's buffer, so it is at hand the moment the board reads. */
-  readonly tick: number;
-  readonly resolve: () => void;
-  readonly reject: (error: Error) => void;
-}
-
-const PACKET_BYTES = 64;
-
-/** The host's end of an in-process line, with the system's buffer in between. */
-class VirtualLink implements Transport {
-  private readonly outbox: OutboxEntry[] = [];
-  private dataListener: ((bytes: Uint8Array) => void) | null = null;
-  private closeListener: ((error?: Error) => void) | null = null;
-  private closed = false;
-  private isPumping = false;
-
-  constructor(
-    private readonly systemLimit: number,
-    private readonly target: LinkTarget,
-  ) {}
-
-  write(bytes: Uint8Array): Promise<void> {
-    if (this.closed) {
-      return Promise.reject(
-        new PlotwrightError("disconnected", "The virtual board's line is closed: open it again."),
-      );
-    }
-    return new Promise((resolve, reject) => {
-      this.outbox.push({ bytes: bytes.slice(), taken: 0, tick: this.target.nowTick(), resolve, reject });
-      this.pump();
-    });
-  }
-
-  onData(listener: (bytes: Uint8Array) => void): void {
-    this.dataListener = listener;
-  }
-
-  onClose(listener: (error?: Error) => void): void {
-    this.closeListener = listener;
-  }
-
-  close(): Promise<void> {
-    this.drop();
-    return Promise.resolve();
-  }
-
-  /** Ends the line; `error` says why, undefined after a plain close. */
-  drop(error?: Error): void {
-    if (this.closed) return;
-    this.closed = true;
-    for (const entry of this.outbox.splice(0)) {
-      entry.reject(error ?? new PlotwrightError("disconnected", "The line was closed before this was sent."));
-    }
-    this.closeListener?.(error);
-  }
-
-  deliver(bytes: Uint8Array): void {
-    if (!this.closed) this.dataListener?.(bytes);
-  }
-
-  /** Hands over packets while the board reads; a write counts as taken once the rest fits into the system's buffer. */
-  pump(): void {
-    if (this.isPumping) return;
-    this.isPumping = true;
-    while (!this.closed && this.outbox.length > 0 && this.target.accepting()) {
-      const entry = this.outbox[0]!;
-      const packet = entry.bytes.subarray(entry.taken, entry.taken + PACKET_BYTES);
-      entry.taken += packet.length;
-      if (entry.taken >= entry.bytes.length) this.outbox.shift()!.resolve();
-      this.target.take(packet, entry.tick);
-    }
-    this.isPumping = false;
-    let waitingBytes = 0;
-    for (const entry of this.outbox) {
-      waitingBytes += entry.bytes.length - entry.taken;
-      if (waitingBytes > this.systemLimit) break;
-      entry.resolve();
-    }
   }
 }

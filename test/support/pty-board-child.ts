@@ -56,6 +56,12 @@ process.on("message", (message: ToBoard) => {
     case "mute":
       board.setMute(message.mute);
       break;
+    case "frozen":
+      board.setFrozen(message.frozen);
+      break;
+    case "motionless":
+      board.setMotionless(message.motionless);
+      break;
     case "garbage":
       board.sendGarbage(Uint8Array.from(message.bytes));
       break;

@@ -8,6 +8,10 @@ export type ToBoard =
   /** From now on the device answers every line as some other machine would. */
   | { readonly type: "foreign"; readonly answer: string }
   | { readonly type: "mute"; readonly mute: boolean }
+  /** It answers, but what runs never ends. */
+  | { readonly type: "frozen"; readonly frozen: boolean }
+  /** It takes moves and spends their time, but its step counters stand still. */
+  | { readonly type: "motionless"; readonly motionless: boolean }
   | { readonly type: "garbage"; readonly bytes: readonly number[] }
   | { readonly type: "lose"; readonly count: number }
   | { readonly type: "volts"; readonly volts: number }

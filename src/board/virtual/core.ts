@@ -74,6 +74,10 @@ export class BoardCore {
   private running: Running | null = null;
   private servo = new Servo(BOOT_SERVO_UP);
   private line: DrawnLine | null;
+  /** Since when the motion stands still (a fault); null while it runs. */
+  private frozenTick: number | null = null;
+  /** False: moves take their time and make no step (a fault). */
+  private makesSteps = true;
   private readonly totals = {
     moveCount: 0,
     movingTicks: 0,
@@ -109,7 +113,36 @@ export class BoardCore {
 
   /** Tick of the running order's end; Infinity when nothing runs or it never ends. */
   get nextEventTick(): number {
-    return this.running?.endTick ?? Infinity;
+    return this.frozenTick === null ? (this.running?.endTick ?? Infinity) : Infinity;
+  }
+
+  /** Whether the running order stands still, neither moving nor ending. Later it goes on where it stood. */
+  setFrozen(isFrozen: boolean): void {
+    if (isFrozen === (this.frozenTick !== null)) return;
+    if (isFrozen) {
+      this.frozenTick = this.nowTick;
+      return;
+    }
+    const { running } = this;
+    if (running !== null) {
+      const standstill = this.nowTick - this.motionTick;
+      const { startTick, endTick } = running;
+      this.running = { ...running, startTick: startTick + standstill, endTick: endTick + standstill };
+    }
+    this.frozenTick = null;
+  }
+
+  /** Whether moves make steps, or pass without any. */
+  setMakesSteps(makesSteps: boolean): void {
+    this.splitRunning();
+    this.makesSteps = makesSteps;
+  }
+
+  /** Where on its way the running order is. */
+  private get motionTick(): number {
+    return this.frozenTick === null
+      ? this.nowTick
+      : Math.max(this.frozenTick, this.running?.startTick ?? this.frozenTick);
   }
 
   enqueue(order: Order): void {
@@ -145,7 +178,7 @@ export class BoardCore {
     if (running !== null && isStoppable(running.order)) {
       hit = running.move !== null;
       left = this.stepsLeft(running);
-      this.settle(running, this.nowTick);
+      this.settle(running, this.motionTick);
       this.running = null;
     }
     hit ||= waiting.length > 0;
@@ -171,8 +204,8 @@ export class BoardCore {
   /** Step counters at this instant. */
   stepsNow(): [number, number] {
     const { running } = this;
-    if (running === null || running.move === null) return [this.steps1, this.steps2];
-    const tick = Math.floor(this.nowTick - running.startTick);
+    if (running === null || running.move === null || !this.makesSteps) return [this.steps1, this.steps2];
+    const tick = Math.floor(this.motionTick - running.startTick);
     const place = { net: 0, acc: 0 };
     const net1 = running.move.motion1.placeAt(tick, place).net;
     const net2 = running.move.motion2.placeAt(tick, place).net;
@@ -181,24 +214,17 @@ export class BoardCore {
 
   /** CS, and EM on every firmware; the running move goes on. */
   clearSteps(clearAccumulators: boolean): void {
-    const running = this.running;
-    if (running !== null && running.move !== null) {
-      this.settle(running, this.nowTick);
-      this.running = null;
+    this.splitRunning(() => {
       this.steps1 = this.steps2 = 0;
       if (clearAccumulators) this.acc1 = this.acc2 = 0;
-      this.goOn(running);
-    } else {
-      this.steps1 = this.steps2 = 0;
-      if (clearAccumulators) this.acc1 = this.acc2 = 0;
-    }
+    });
     this.line?.begin(!this.isLifted, 0, 0);
   }
 
   motorsMoving(): [boolean, boolean] {
     const running = this.running;
     if (running === null || running.move === null) return [false, false];
-    const tick = this.nowTick - running.startTick;
+    const tick = this.motionTick - running.startTick;
     // Timed moves keep their ticks in motor 1's step field, so only its flag shows, whichever runs.
     if (running.move.order.isTimed) return [true, false];
     return [tick < running.move.motion1.ticks, tick < running.move.motion2.ticks];
@@ -232,7 +258,7 @@ export class BoardCore {
   /** The same board after a reset: boot defaults, queue and counters lost, time and drawn line kept. */
   rebooted(): BoardCore {
     const running = this.running;
-    if (running !== null) this.settle(running, this.nowTick);
+    if (running !== null) this.settle(running, this.motionTick);
     this.running = null;
     const fresh = new BoardCore(this.features, this.machine, false);
     fresh.nowTick = this.nowTick;
@@ -244,13 +270,8 @@ export class BoardCore {
 
   /** What was drawn until now, the running move included. */
   drawn(): DrawnPolyline[] {
-    const running = this.running;
-    if (running !== null && running.move !== null) {
-      // The line is sampled as orders end: settle the part that is done, then go on from there.
-      this.settle(running, this.nowTick);
-      this.running = null;
-      this.goOn(running);
-    }
+    // The line is sampled as orders end: settle the part that is done, then go on from there.
+    this.splitRunning();
     return this.line?.polylines() ?? [];
   }
 
@@ -339,6 +360,10 @@ export class BoardCore {
     this.totals.busyTicks += ticks;
     if (move === null) return;
     this.totals.movingTicks += ticks;
+    if (!this.makesSteps) {
+      this.lastMove = null;
+      return;
+    }
     const done = Math.floor(ticks);
     this.line?.addMove(move, done, this.steps1, this.steps2);
     const place1 = move.motion1.placeAt(done, { net: 0, acc: 0 });
@@ -357,10 +382,17 @@ export class BoardCore {
     };
   }
 
-  /** The rest of a move that was settled half way. */
-  private goOn(running: Running): void {
-    if (running.move === null) return;
-    const done = Math.floor(this.nowTick - running.startTick);
+  /** Takes over what a running move has done, lets something be changed, and goes on with the rest of it. */
+  private splitRunning(change: () => void = () => undefined): void {
+    const { running } = this;
+    if (running === null || running.move === null) {
+      change();
+      return;
+    }
+    const tick = this.motionTick;
+    this.settle(running, tick);
+    change();
+    const done = Math.floor(tick - running.startTick);
     const rest = running.move.restAfter(done, this.acc1, this.acc2);
     const startTick = running.startTick + done;
     this.running = { order: rest.order, startTick, endTick: startTick + rest.ticks, move: rest };
@@ -369,7 +401,7 @@ export class BoardCore {
   private stepsLeft(running: Running): [number, number] {
     const { move, order } = running;
     if (move === null || order.kind !== "move" || order.isTimed) return [0, 0];
-    const tick = Math.floor(this.nowTick - running.startTick);
+    const tick = Math.floor(this.motionTick - running.startTick);
     return [
       order.axis1.steps - move.motion1.stepsMadeAfter(tick),
       order.axis2.steps - move.motion2.stepsMadeAfter(tick),

@@ -15,6 +15,29 @@ export interface BoardInputs {
   servoTimeoutMs: number;
 }
 
+const MOTOR_SUPPLY_VOLTS = 9.1;
+
+/** A board that has never been used. */
+export const factoryInputs = (): BoardInputs => ({
+  buttonLatched: false,
+  buttonDown: false,
+  motorVolts: MOTOR_SUPPLY_VOLTS,
+  powerLostLatched: false,
+  powerThreshold: 0,
+  name: "",
+  nodeCount: 0,
+  layer: new Uint8Array(32),
+  servoTimeoutMs: 60_000,
+});
+
+/** What a reset leaves: the name in flash, and what is outside the board. */
+export const inputsAfterReset = ({ name, motorVolts, buttonDown }: BoardInputs): BoardInputs => ({
+  ...factoryInputs(),
+  name,
+  motorVolts,
+  buttonDown,
+});
+
 export class BoardQueries {
   constructor(
     private readonly core: BoardCore,
