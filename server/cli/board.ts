@@ -5,6 +5,7 @@
 import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
 import { nodeClock } from "../serial/node-clock.js";
+import { applyFault, faultHelp } from "./board-faults.js";
 import type { CliIo } from "./io.js";
 
 export interface BoardCommandOptions {
@@ -27,9 +28,11 @@ export interface PtyBoardOptions {
 }
 
 export interface PtyBoard {
-  /** Serial port to open. */
+  /** Serial port to open; another one after `replug`. */
   readonly path: string;
   readonly board: VirtualBoard;
+  /** After the board has dropped its line: it appears again, as a new port. False once it is closed. */
+  replug(): Promise<boolean>;
   close(): Promise<void>;
 }
 
@@ -43,6 +46,13 @@ interface RawPty {
   kill(signal?: string): void;
 }
 
+interface OpenPty {
+  readonly pty: RawPty;
+  readonly path: string;
+}
+
+const REPLUG_MS = 1_000;
+
 type PtyModule = typeof import("@lydell/node-pty");
 
 /**
@@ -51,16 +61,45 @@ type PtyModule = typeof import("@lydell/node-pty");
  * @throws PlotwrightError "no-board" where there are no pseudo-terminals (Windows, or the optional package is missing)
  */
 export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBoard> {
-  const { pty, path } = await openPty();
   const board = new VirtualBoard({ clock: nodeClock, ...options });
-  board.onSend((bytes) => pty.write(bytes));
-  // A full board does not read: the kernel's buffer fills, and the sender's write waits, as with USB.
-  pty.onData((bytes) => {
-    board.receive(bytes);
-    if (!board.accepting) pty.pause();
-  });
-  board.onDrain(() => pty.resume());
-  return { path, board, close: () => closePty(pty) };
+  let line: OpenPty | null = null;
+  let path = "";
+  let isClosed = false;
+  const plug = async (): Promise<void> => {
+    const opened = await openPty();
+    path = opened.path;
+    // A full board does not read: the kernel's buffer fills, and the sender's write waits, as with USB.
+    opened.pty.onData((bytes) => {
+      if (line !== opened) return;
+      board.receive(bytes);
+      if (!board.accepting) opened.pty.pause();
+    });
+    line = opened;
+  };
+  const pull = async (): Promise<void> => {
+    const pulled = line;
+    line = null;
+    if (pulled !== null) await closePty(pulled.pty);
+  };
+  board.onSend((bytes) => line?.pty.write(bytes));
+  board.onDrain(() => line?.pty.resume());
+  board.onDrop(() => void pull());
+  await plug();
+  return {
+    get path() {
+      return path;
+    },
+    board,
+    replug: async () => {
+      await pull();
+      if (!isClosed) await plug();
+      return !isClosed;
+    },
+    close: async () => {
+      isClosed = true;
+      await pull();
+    },
+  };
 }
 
 /** Runs until interrupted. */
@@ -72,13 +111,19 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     ...(options.firmware === undefined ? {} : { firmware: options.firmware }),
     ...(options.speed === undefined ? {} : { speed: options.speed }),
   });
-  const { board, path } = ptyBoard;
-  link(path, options.pty);
+  const { board } = ptyBoard;
+  link(ptyBoard.path, options.pty);
   const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
-  io.err(`Virtual board with firmware ${board.firmware} at ${options.pty} (${path}). Ctrl-C ends it.\n`);
+  const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
+  const dropped = watchDrops(ptyBoard, options.pty, io);
+  io.err(
+    `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Ctrl-C ends it.\n`,
+  );
+  if (io.isTerminal) io.err(faultHelp());
   try {
-    await stopped;
+    await Promise.race([stopped, dropped]);
   } finally {
+    stopListening();
     rmSync(options.pty, { force: true });
     await ptyBoard.close();
   }
@@ -86,6 +131,21 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   const svg = options.svg ?? "drawn.svg";
   writeDrawing(svg, board, machine);
   io.err(`What it drew is in ${svg}.\n`);
+}
+
+/** A board that drops its line is plugged in again a second later. Rejects when it can't be. */
+function watchDrops(ptyBoard: PtyBoard, path: string, io: CliIo): Promise<never> {
+  const replug = async (): Promise<void> => {
+    rmSync(path, { force: true });
+    io.err("The board has dropped its line.\n");
+    await new Promise((resolve) => setTimeout(resolve, REPLUG_MS));
+    if (!(await ptyBoard.replug())) return;
+    link(ptyBoard.path, path);
+    io.err(`It is back at ${path} (${ptyBoard.path}).\n`);
+  };
+  return new Promise((_, reject) => {
+    ptyBoard.board.onDrop(() => void replug().catch(reject));
+  });
 }
 
 function summary(board: VirtualBoard): string {
@@ -174,7 +234,7 @@ function isLink(path: string): boolean {
   }
 }
 
-async function openPty(): Promise<{ pty: RawPty; path: string }> {
+async function openPty(): Promise<OpenPty> {
   const module = await loadPty();
   // Somebody has to hold the terminal's other end open while no program does, or reading it fails.
   const keeper = module.spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], {

@@ -88,6 +88,56 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
     expect(readFileSync(svg, "utf8")).toContain('<path d="M0 0L10 0"/>');
   });
 
+  it("takes faults typed at it, and comes back after the cable was out", async () => {
+    const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
+    folders.push(folder);
+    const path = join(folder, "ebb");
+    let stop = (): void => undefined;
+    let type = (_line: string): void => undefined;
+    let said = "";
+    let heard = (): void => undefined;
+    const says = async (pattern: RegExp): Promise<void> => {
+      while (!pattern.test(said)) await new Promise<void>((resolve) => (heard = resolve));
+      said = "";
+    };
+    const run = runBoard(
+      { pty: path, svg: join(folder, "out.svg"), speed: 1_000 },
+      {
+        out: () => undefined,
+        err: (text) => {
+          said += text;
+          heard();
+        },
+        isTerminal: false,
+        onInterrupt: (listener) => {
+          stop = () => listener(false);
+          return () => undefined;
+        },
+        onLine: (listener) => {
+          type = listener;
+          return () => undefined;
+        },
+      },
+    );
+    await says(/Ctrl-C/);
+    const before = await openPort(path);
+    await before.ask("SM,10,8,8\rQC\r", /0394,0297\r\nOK\r\n$/);
+    type("volts 5");
+    await before.ask("QC\r", /0394,01\d\d\r\nOK\r\n$/);
+    type("motionless on");
+    await before.ask("SM,10,8,8\rSM,1,0,0\rSM,1,0,0\rQS\r", /8,8\n\rOK\r\n$/);
+    type("volts many");
+    await says(/Type volts V/);
+    type("sneeze");
+    await says(/Faults to type/);
+    type("unplug");
+    await says(/It is back/);
+    const after = await openPort(path);
+    await after.ask("QS\r", /^8,8\n\rOK\r\n$/);
+    stop();
+    await run;
+  });
+
   it("does not overwrite a file with its link", async () => {
     const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
     folders.push(folder);

@@ -1,0 +1,77 @@
+/** Faults of the virtual board by a typed line: what a driver's author wants to see happen to a plotter. */
+import type { VirtualBoard } from "../../src/index.js";
+
+interface Fault {
+  readonly usage: string;
+  readonly does: string;
+  /** False when the value makes no sense. */
+  readonly apply: (board: VirtualBoard, value: string | undefined) => boolean;
+}
+
+const noise = Uint8Array.of(0xff, 0x21, 13, 0x80, 0x41, 13, 10);
+
+const FAULTS: Readonly<Record<string, Fault>> = {
+  unplug: { usage: "unplug", does: "the cable comes out, and goes in again", apply: act((b) => b.unplug()) },
+  reset: { usage: "reset", does: "its supply fails for a moment", apply: act((b) => b.resetByPower()) },
+  button: { usage: "button", does: "its button is pressed", apply: act((b) => b.pressButton()) },
+  mute: { usage: "mute on|off", does: "it answers nothing", apply: toggle((b, on) => b.setMute(on)) },
+  freeze: {
+    usage: "freeze on|off",
+    does: "it answers, but what runs never ends",
+    apply: toggle((b, on) => b.setFrozen(on)),
+  },
+  motionless: {
+    usage: "motionless on|off",
+    does: "it takes moves and makes no step",
+    apply: toggle((b, on) => b.setMotionless(on)),
+  },
+  volts: {
+    usage: "volts V",
+    does: "the motors' supply; 9.1 is right, 0 switched off",
+    apply: quantity((b, volts) => b.setMotorVolts(volts)),
+  },
+  lose: { usage: "lose N", does: "the next N answers are lost", apply: quantity((b, n) => b.loseReplies(n)) },
+  garbage: { usage: "garbage", does: "noise on the line", apply: act((b) => b.sendGarbage(noise)) },
+  slow: {
+    usage: "slow BYTES",
+    does: "its line takes so many bytes a second; 0 = as fast as it can",
+    apply: quantity((b, bytesPerS) => b.setUsbBytesPerS(bytesPerS === 0 ? Infinity : bytesPerS)),
+  },
+};
+
+/** Makes the fault happen; returns what to tell the user. */
+export function applyFault(board: VirtualBoard, line: string): string {
+  const [word = "", value] = line.trim().toLowerCase().split(/\s+/);
+  const fault = Object.hasOwn(FAULTS, word) ? FAULTS[word] : undefined;
+  if (fault === undefined) return faultHelp();
+  return fault.apply(board, value) ? `${line.trim()}: done.\n` : `Type ${fault.usage}: ${fault.does}.\n`;
+}
+
+export function faultHelp(): string {
+  const rows = Object.values(FAULTS).map(({ usage, does }) => `  ${usage.padEnd(18)} ${does}\n`);
+  return `Faults to type:\n${rows.join("")}`;
+}
+
+function act(run: (board: VirtualBoard) => void): Fault["apply"] {
+  return (board) => {
+    run(board);
+    return true;
+  };
+}
+
+function toggle(run: (board: VirtualBoard, isOn: boolean) => void): Fault["apply"] {
+  return (board, value = "on") => {
+    if (value !== "on" && value !== "off") return false;
+    run(board, value === "on");
+    return true;
+  };
+}
+
+function quantity(run: (board: VirtualBoard, value: number) => void): Fault["apply"] {
+  return (board, value = "") => {
+    const number = Number(value);
+    if (value === "" || !(number >= 0)) return false;
+    run(board, number);
+    return true;
+  };
+}
