@@ -14,7 +14,13 @@ export type {
   DashPattern,
   ClipRegion,
 } from "./drawing/drawing.js";
-export { strokeCount, pointCount, type StrokeSet, type StrokeLayer } from "./drawing/stroke-set.js";
+export {
+  settingsIdOf,
+  strokeCount,
+  pointCount,
+  type StrokeSet,
+  type StrokeLayer,
+} from "./drawing/stroke-set.js";
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
@@ -43,7 +49,24 @@ export { placeDrawing, type Placement } from "./prepare/place.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { checkBounds } from "./prepare/check-bounds.js";
 export type { Work } from "./prepare/work.js";
-export { NO_CODES, formatLayerName, parseLayerName, type LayerCodes } from "./prepare/layer-codes.js";
+export {
+  NO_CODES,
+  formatLayerName,
+  parseLayerName,
+  shownLayerName,
+  type LayerCodes,
+} from "./prepare/layer-codes.js";
+export {
+  NO_PENS,
+  PEN_STOP_MODES,
+  penOf,
+  penStopsOf,
+  prepareSettingsOf,
+  type PenSetup,
+  type PenStop,
+  type PenStopMode,
+  type PlotPen,
+} from "./prepare/pens.js";
 export {
   DEFAULT_PREPARE,
   LAYER_MODES,
@@ -58,6 +81,7 @@ export {
   type OrderMode,
   type PlacedBox,
   type PrepareSettings,
+  type ShiftMm,
   type SpreadMode,
 } from "./prepare/settings.js";
 
@@ -89,10 +113,17 @@ export {
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 export { penOfLayer } from "./plan/pen-times.js";
+export { codeOfSpeed, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 
 // machines
-export type { MachineProfile } from "./machines/profile.js";
-export { MACHINES, machineById } from "./machines/profiles.js";
+export {
+  INPUT_PORTS,
+  type HomingSwitches,
+  type MachineProfile,
+  type SwitchInput,
+} from "./machines/profile.js";
+export { findMachine, MACHINES, machineById, machineOf, type MachineChoice } from "./machines/profiles.js";
+export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
 export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
@@ -147,6 +178,7 @@ export {
 } from "./board/streamer.js";
 
 // export
+export { codedLayerNames } from "./export/coded-names.js";
 export { toSvg, type SvgOptions } from "./export/strokes-to-svg.js";
 export { toJson, type StrokesJson } from "./export/strokes-to-json.js";
 export { trajectoryToSvg, type TrajectorySvgOptions } from "./export/trajectory-to-svg.js";

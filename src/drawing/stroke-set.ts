@@ -20,7 +20,14 @@ export interface StrokeLayer {
   readonly name: string;
   /** "#rrggbb" of its strokes where they agree, else null. */
   readonly color: string | null;
+  /** Id of the layer that this is a further part of, where stops to take up ink split one; its settings hold. */
+  readonly partOf?: string | undefined;
+  /** By how much its strokes are moved for a pen that sits askew, mm; left out: not at all. */
+  readonly shiftMm?: { readonly x: number; readonly y: number } | undefined;
 }
+
+/** The id under which settings know a layer, or the layer that it is a part of. */
+export const settingsIdOf = (layer: StrokeLayer): string => layer.partOf ?? layer.id;
 
 export const strokeCount = (set: StrokeSet): number => set.offsets.length - 1;
 export const pointCount = (set: StrokeSet): number => set.xy.length / 2;

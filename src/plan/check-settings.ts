@@ -32,7 +32,10 @@ export function checkSettings(motion: MotionSettings, pen: PenSettings): void {
     positive("motor acceleration", motion.motorAccelStepsPerS2, "steps/s²");
   }
   checkPen("pen", pen);
-  for (const layer of Object.keys(pen.layers ?? {})) checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
+  for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
+    checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
+    if (beforeMs !== undefined) within(`layer "${layer}" wait before it`, beforeMs, 60_000, "ms");
+  }
 }
 
 function checkLimits(name: string, limits: MotionLimits): void {

@@ -7,7 +7,7 @@
  * stroke begins exactly where the last of the same layer ended, the pen stays down between them.
  */
 import { PlotwrightError } from "../errors.js";
-import { pointCount, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import { pointCount, settingsIdOf, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
@@ -24,6 +24,8 @@ export interface PlanOptions {
   /** Where the carriage is, mm in the machine frame; default 0, 0. The pen is up there. */
   readonly startX?: number | undefined;
   readonly startY?: number | undefined;
+  /** Begin with a lift: nobody knows where the pen is. Default false: it is up. */
+  readonly liftFirst?: boolean | undefined;
   /** End at 0, 0 with the pen up; default true. False: rest where the last stroke ends. */
   readonly returnHome?: boolean | undefined;
   /** Its motors' limits are kept then too: steps a second, and `motorAccelStepsPerS2`. */
@@ -48,6 +50,7 @@ export function plan(
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, startX = 0, startY = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY);
+  if (options.liftFirst ?? false) builder.liftAnyway();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
     builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0);
@@ -70,6 +73,8 @@ class PlanBuilder {
   /** By layer index. */
   private readonly drawLimits: readonly RunLimits[];
   private readonly pens: readonly PenSettings[];
+  /** Seconds before a layer's first stroke. */
+  private readonly waitsS: readonly number[];
   /** The pen that draws, or drew last. */
   private pen: PenSettings;
   private penUp = true;
@@ -89,8 +94,11 @@ class PlanBuilder {
     }
     this.pen = pen;
     this.heightPct = pen.upPct;
-    this.pens = strokes.layers.map((layer) => penOfLayer(pen, layer.id));
-    this.drawLimits = strokes.layers.map((l) => runLimits(drawLimitsOf(motion, l.id), motion, machine));
+    this.pens = strokes.layers.map((layer) => penOfLayer(pen, settingsIdOf(layer)));
+    this.drawLimits = strokes.layers.map((layer) =>
+      runLimits(drawLimitsOf(motion, settingsIdOf(layer)), motion, machine),
+    );
+    this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
     const segments = pointCount(strokes) + strokeCount(strokes);
     this.blocks = new BlockColumns(segments, motion.mode === "scurve");
@@ -106,8 +114,9 @@ class PlanBuilder {
     const y = path.y[0]!;
     const gap = Math.hypot(x - this.x, y - this.y);
     if (layer !== this.lastLayer || gap >= SHORTEST_MM) this.lift(layer === this.lastLayer ? gap : Infinity);
-    this.lastLayer = layer;
     this.travel(x, y);
+    if (fromAlong === 0 && this.beginsLayer(stroke)) this.wait(this.waitsS[layer]!);
+    this.lastLayer = layer;
     path.startAt(this.x, this.y);
     this.pen = this.pens[layer]!;
     this.drop();
@@ -132,6 +141,20 @@ class PlanBuilder {
     if (this.penUp) return;
     this.heightPct = upHeight(this.pen, travelMm);
     this.movePen(true, liftTiming(this.pen, this.heightPct));
+  }
+
+  liftAnyway(): void {
+    this.movePen(true, liftTiming(this.pen, this.heightPct));
+  }
+
+  private beginsLayer(stroke: number): boolean {
+    const { layer } = this.strokes;
+    return stroke === 0 || layer[stroke - 1] !== layer[stroke];
+  }
+
+  /** With the pen up: it is told once more to be where it is. */
+  private wait(waitS: number): void {
+    if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS });
   }
 
   private drop(): void {

@@ -60,6 +60,8 @@ export interface LayerPen {
   readonly downPct?: number | undefined;
   readonly liftMs?: number | undefined;
   readonly dropMs?: number | undefined;
+  /** A wait with the pen up before the layer's first stroke. */
+  readonly beforeMs?: number | undefined;
 }
 
 /** Short ways between strokes: the pen is lifted less high, and so faster, for hops up to `longestMm`. */

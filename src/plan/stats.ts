@@ -34,11 +34,16 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   return {
     drawMm,
     travelMm,
-    penLiftCount: trajectory.penMoves.reduce((count, move) => count + (move.up ? 1 : 0), 0),
+    penLiftCount: liftCount(trajectory),
     maxSpeed: Math.sqrt(speed2),
     maxAccel: Math.sqrt(accel2),
     durationS: trajectory.totalS,
   };
+}
+
+/** An order to be up where the pen is up already is a wait, and the first one only makes sure: neither is a lift. */
+function liftCount({ penMoves }: Trajectory): number {
+  return penMoves.filter((move, k) => move.up && k > 0 && !penMoves[k - 1]!.up).length;
 }
 
 /** With no jerk speed² is a convex parabola in time: largest at an end. With jerk the inside is sampled. */

@@ -1,8 +1,9 @@
 /** The steps of `prepare` once lines belong to layers: sorted, counted, switched off, handed over. */
 import type { Drawing } from "../drawing/drawing.js";
-import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
+import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import type { LayerTable } from "./layers.js";
+import type { PrepareSettings } from "./settings.js";
 import { inkPortions } from "./spread.js";
 
 /** A layer of the file with what it holds on this paper, whether it is drawn or hidden. */
@@ -66,9 +67,36 @@ export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): s
 
 /**
  * The strokes with the visible layers only, numbered anew. With `reinkMm` a layer becomes several,
- * "red", "red (2)" …, so that the stop between layers is the stop to take up ink.
+ * "red", "red (2)" …, so that the stop between layers is the stop to take up ink. `shifts` by layer id.
  */
 export function strokeSetOf(
+  lines: Lines,
+  layers: readonly StrokeLayer[],
+  isVisible: readonly boolean[],
+  reinkMm: number,
+  shifts: PrepareSettings["layerShifts"] = {},
+): StrokeSet {
+  const strokes = unshifted(lines, layers, isVisible, reinkMm);
+  const shiftsMm = strokes.layers.map((layer) => shifts[settingsIdOf(layer)]);
+  if (shiftsMm.every((shift) => shift === undefined)) return strokes;
+  const { offsets, layer } = strokes;
+  const xy = strokes.xy.slice();
+  for (let i = 0; i < layer.length; i++) {
+    const shift = shiftsMm[layer[i]];
+    if (!shift) continue;
+    for (let p = offsets[i]; p < offsets[i + 1]; p++) {
+      xy[2 * p] += shift.xMm;
+      xy[2 * p + 1] += shift.yMm;
+    }
+  }
+  const moved = strokes.layers.map((one, k) => {
+    const shift = shiftsMm[k];
+    return shift ? { ...one, shiftMm: { x: shift.xMm, y: shift.yMm } } : one;
+  });
+  return { ...strokes, xy, layers: moved };
+}
+
+function unshifted(
   lines: Lines,
   layers: readonly StrokeLayer[],
   isVisible: readonly boolean[],
@@ -108,7 +136,7 @@ function inkedStrokeSet(
       if (portion[i] > part && out.length < MOST_PORTIONS) {
         part = portion[i];
         const { id, name, color } = layers[k];
-        out.push({ id: `${id}~${part + 1}`, name: `${name} (${part + 1})`, color });
+        out.push({ id: `${id}~${part + 1}`, name: `${name} (${part + 1})`, color, partOf: id });
       }
       layer[i] = out.length - 1;
     }

@@ -58,6 +58,12 @@ export function formatLayerName(codes: LayerCodes): string {
     : `${head} ${codes.text}`;
 }
 
+/** The name as people read it: without the codes, its number kept. */
+export function shownLayerName(name: string): string {
+  const { number, text } = parseLayerName(name);
+  return `${number ?? ""}${text}`.trim() || name;
+}
+
 export const NO_CODES: LayerCodes = {
   skip: false,
   pause: false,

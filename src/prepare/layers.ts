@@ -1,7 +1,8 @@
 /** Which layer each shape belongs to: by group of the file, by stroke colour, or all in one. */
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
-import type { LayerMode } from "./settings.js";
+import { parseLayerName } from "./layer-codes.js";
+import type { LayerMode, PrepareSettings } from "./settings.js";
 
 /** StrokeSet keeps a layer index in 16 bits; what is beyond shares the last layer. */
 const MOST_LAYERS = 65_535;
@@ -38,6 +39,31 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const ofShape = new Uint16Array(paths.count);
   for (let shape = 0; shape < paths.count; shape++) ofShape[shape] = indexOfKey[keyOf(shape)];
   return { layers, ofShape };
+}
+
+/** Which layers are drawn: those that nobody switched off, and whose name does not say "%". */
+export function visibleLayers(
+  { layers }: LayerTable,
+  { hiddenLayers, shownLayers }: Pick<PrepareSettings, "hiddenLayers" | "shownLayers">,
+): boolean[] {
+  const hidden = new Set(hiddenLayers);
+  const shown = new Set(shownLayers);
+  return layers.map(({ id, name }) => !hidden.has(id) && (shown.has(id) || !parseLayerName(name).skip));
+}
+
+/** The layers in the order in which they are drawn: those in `wanted` first, the rest as in the file. */
+export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTable {
+  if (wanted.length === 0) return table;
+  const rankOf = new Map([...new Set(wanted)].map((id, rank) => [id, rank]));
+  const rank = ({ id }: StrokeLayer): number => rankOf.get(id) ?? wanted.length;
+  // Array.sort is stable: what is not wanted keeps the file's order.
+  const order = table.layers.map((_, k) => k).sort((a, b) => rank(table.layers[a]) - rank(table.layers[b]));
+  const placeOf = new Uint16Array(order.length);
+  order.forEach((layer, place) => (placeOf[layer] = place));
+  return {
+    layers: order.map((layer) => table.layers[layer]),
+    ofShape: table.ofShape.map((layer) => placeOf[layer]),
+  };
 }
 
 const UNSEEN = -2;

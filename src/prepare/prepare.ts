@@ -23,7 +23,8 @@ import { clipRegions } from "./clip-regions.js";
 import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
-import { layersOf } from "./layers.js";
+import { inOrder, layersOf, visibleLayers } from "./layers.js";
+import { repeatLines, travelAsDrawn } from "./layer-passes.js";
 import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
@@ -42,12 +43,12 @@ import {
 import { simplifyLines } from "./simplify.js";
 import { reloopLines, smoothLines } from "./smooth.js";
 import { spreadLines } from "./spread.js";
-import { fileTour, linesOfTour, travelOf } from "./tour.js";
+import { linesOfTour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 export interface Prepared {
   readonly strokes: StrokeSet;
-  /** All layers of the file under the layer mode, hidden ones too, in the file's order. */
+  /** All layers of the file under the layer mode, hidden ones too, in the order of drawing. */
   readonly layers: readonly PreparedLayer[];
   /** The paper as it lies: after `landscape`. */
   readonly paperWidthMm: number;
@@ -74,9 +75,8 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   progress(0, "placing");
   const place = placeDrawing(drawing, settings);
   const limit = cropBox(settings, place);
-  const table = layersOf(drawing, settings.layers);
-  const hidden = new Set(settings.hiddenLayers);
-  const isVisible = table.layers.map((layer) => !hidden.has(layer.id));
+  const table = inOrder(layersOf(drawing, settings.layers), settings.layerOrder);
+  const isVisible = visibleLayers(table, settings);
   const wanted = shapesOnPaper(drawing, place, limit, warnings);
 
   progress(0.05, "flattening");
@@ -116,7 +116,10 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   const given = lines;
   const tour = orderLines(lines, settings, within(options, 0.55, 0.98));
   lines = spreadLines(linesOfTour(lines, tour), settings.spread);
-  const strokes = strokeSetOf(lines, table.layers, isVisible, settings.reinkMm);
+  const passesOf = (layer: number): number => settings.layerRepeats[table.layers[layer].id] ?? 1;
+  const unordered = travelAsDrawn(repeatLines(given, passesOf));
+  lines = repeatLines(lines, passesOf);
+  const strokes = strokeSetOf(lines, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
 
   progress(1, "done");
   return {
@@ -124,8 +127,8 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
     layers,
     paperWidthMm: place.paper.x1,
     paperHeightMm: place.paper.y1,
-    travelMmUnordered: travelOf(given, fileTour(given)),
-    travelMm: travelOf(lines, fileTour(lines)),
+    travelMmUnordered: unordered,
+    travelMm: travelAsDrawn(lines),
     drawMm: totalLength(lines),
     warnings,
   };

@@ -28,6 +28,11 @@ export interface PlacedBox {
   readonly heightMm: number | null;
 }
 
+export interface ShiftMm {
+  readonly xMm: number;
+  readonly yMm: number;
+}
+
 /** How areas are filled with lines. */
 export interface HatchSettings {
   /** Distance of the lines, which is the width that the pen covers; 0 leaves areas empty. */
@@ -66,6 +71,14 @@ export interface PrepareSettings {
   readonly layers: LayerMode;
   /** Layer ids to leave out. */
   readonly hiddenLayers: readonly string[];
+  /** Layers that are drawn although their name begins with "%". */
+  readonly shownLayers: readonly string[];
+  /** Layer ids that are drawn first, in this order; the rest follow in the file's order. */
+  readonly layerOrder: readonly string[];
+  /** By layer id: how many times it is drawn; once unless told. */
+  readonly layerRepeats: Readonly<Record<string, number>>;
+  /** By layer id: by how much its strokes are moved last of all, so that a pen that sits askew meets the others. */
+  readonly layerShifts?: Readonly<Record<string, ShiftMm>> | undefined;
   readonly order: OrderMode;
   /** How long `best` may search, in the time of the clock that `prepare` is given. */
   readonly orderS: number;
@@ -110,6 +123,9 @@ export const DEFAULT_PREPARE: PrepareSettings = {
   simplifyMm: 0,
   layers: "group",
   hiddenLayers: [],
+  shownLayers: [],
+  layerOrder: [],
+  layerRepeats: {},
   order: "fast",
   orderS: 9,
   margins: null,

@@ -15,12 +15,17 @@ import {
   SPREAD_MODES,
   type PrepareSettings,
 } from "../prepare/settings.js";
+import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
+import { machineProfileSchema } from "./machine.js";
 
 const positive = (max: number) => z.number().gt(0).max(max);
 const nonNegative = (max: number) => z.number().min(0).max(max);
 
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object({ widthMm: positive(5_000), heightMm: positive(5_000) });
+const layerId = z.string().max(500);
+const layerIds = z.array(layerId).max(10_000);
+const byLayer = <T extends z.ZodType>(value: T) => z.record(layerId, value);
 const hatchSchema = z.object({
   spacingMm: nonNegative(100),
   angleDeg: z.number().min(-360).max(360),
@@ -40,7 +45,10 @@ export const prepareSettingsSchema = z.object({
   dropShorterMm: nonNegative(1_000),
   simplifyMm: nonNegative(5),
   layers: z.enum(LAYER_MODES),
-  hiddenLayers: z.array(z.string().max(500)).max(10_000),
+  hiddenLayers: layerIds,
+  shownLayers: layerIds.default([]),
+  layerOrder: layerIds.default([]),
+  layerRepeats: byLayer(z.int().min(1).max(20)).default({}),
   order: z.enum(ORDER_MODES),
   orderS: nonNegative(3_600).default(DEFAULT_PREPARE.orderS),
   margins: z
@@ -107,6 +115,7 @@ const layerPenSchema = z
     downPct: nonNegative(100),
     liftMs: nonNegative(10_000),
     dropMs: nonNegative(10_000),
+    beforeMs: nonNegative(60_000),
   })
   .partial();
 
@@ -125,18 +134,48 @@ export const penSettingsSchema = z.object({
   layers: z.record(z.string().max(500), layerPenSchema).optional(),
 }) satisfies z.ZodType<PenSettings>;
 
+export const plotPenSchema = z.object({
+  id: z.string().min(1).max(100),
+  name: z.string().max(200),
+  color: z
+    .string()
+    .regex(/^#[0-9a-f]{6}$/)
+    .nullable(),
+  widthMm: positive(50),
+  offsetXMm: z.number().min(-100).max(100),
+  offsetYMm: z.number().min(-100).max(100),
+}) satisfies z.ZodType<PlotPen>;
+
 /** Everything that decides what a job puts on paper. Kept whole with every job. */
 export const plotSettingsSchema = z.object({
   machine: z.string().min(1).max(100),
   prepare: prepareSettingsSchema,
   motion: motionSettingsSchema,
   pen: penSettingsSchema,
+  pens: z.array(plotPenSchema).max(1_000).default([]),
+  layerPens: byLayer(z.string().max(100)).default({}),
+  penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
+  layerStops: byLayer(z.boolean()).default({}),
+  /** The whole profile of a machine that plotwright does not know by itself; counts when `machine` is its id. */
+  customMachine: machineProfileSchema.nullable().default(null),
 });
 export type PlotSettings = z.infer<typeof plotSettingsSchema>;
 
 export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   machine: "axidraw-v3",
-  prepare: { ...DEFAULT_PREPARE, hiddenLayers: [], layerHatches: [] },
+  prepare: {
+    ...DEFAULT_PREPARE,
+    hiddenLayers: [],
+    shownLayers: [],
+    layerOrder: [],
+    layerRepeats: {},
+    layerHatches: [],
+  },
   motion: DEFAULT_MOTION,
   pen: DEFAULT_PEN,
+  ...NO_PENS,
+  pens: [],
+  layerPens: {},
+  layerStops: {},
+  customMachine: null,
 };

@@ -1,0 +1,33 @@
+/** Layer names with the codes that say what the settings say, so that other software plots the file likewise. */
+import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
+import { codeOfSpeed, withLayerCodes } from "../plan/coded-layers.js";
+import type { MotionSettings, PenSettings } from "../plan/settings.js";
+import { formatLayerName, parseLayerName } from "../prepare/layer-codes.js";
+import { penStopsOf, type PenSetup } from "../prepare/pens.js";
+
+type Settings = PenSetup & { readonly motion: MotionSettings; readonly pen: PenSettings };
+
+/**
+ * A name for each layer of `strokes`: "!" where the plot stops before it, "+h", "+s" and "+d" where it has a
+ * height, speed or wait of its own. Heights and speeds are whole percents.
+ */
+export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[] {
+  const stops = new Set(penStopsOf(strokes, settings).map(({ strokeIndex }) => strokes.layer[strokeIndex]));
+  const { motion, pen } = withLayerCodes(settings, strokes.layers);
+  const nameOf = (layer: StrokeLayer, index: number): string => {
+    const { number, text } = parseLayerName(layer.name);
+    const id = settingsIdOf(layer);
+    const speedMmPerS = motion.layers?.[id]?.speedMmPerS;
+    const { downPct, beforeMs = 0 } = pen.layers?.[id] ?? {};
+    return formatLayerName({
+      skip: false,
+      pause: stops.has(index),
+      number,
+      penDownPct: downPct === undefined ? null : Math.round(downPct),
+      drawSpeedPct: speedMmPerS === undefined ? null : codeOfSpeed(speedMmPerS),
+      delayMs: beforeMs >= 1 && layer.partOf === undefined ? Math.round(beforeMs) : null,
+      text,
+    });
+  };
+  return strokes.layers.map(nameOf);
+}

@@ -1,0 +1,56 @@
+/**
+ * Codes in layer names as settings: what a name asks for holds for its layer wherever the settings do not say
+ * otherwise themselves.
+ *
+ *   +h40   pen-down height 40 %            passed over where it is not below the height up
+ *   +s25   pen-down speed, percent         of the scale that AxiDraw users write: 110 is 8.6979 inches a second
+ *   +d500  a wait of 500 ms before the layer
+ *
+ * Scale of +s: speed_lim_xy_hr and its use in AxiDraw's axidraw_conf.py and axidraw.py.
+ */
+import { settingsIdOf, type StrokeLayer } from "../drawing/stroke-set.js";
+import { parseLayerName, type LayerCodes } from "../prepare/layer-codes.js";
+import { penOfLayer } from "./pen-times.js";
+import type { LayerMotion, LayerPen, MotionSettings, PenSettings } from "./settings.js";
+
+const MM_PER_INCH = 25.4;
+/** mm/s of one percent. */
+const SPEED_OF_PCT = (8.6979 * MM_PER_INCH) / 110;
+const LONGEST_WAIT_MS = 60_000;
+
+export const speedOfCode = (pct: number): number => Math.round(pct * SPEED_OF_PCT * 10) / 10;
+/** The nearest percent, as far as a code can say it. */
+export const codeOfSpeed = (mmPerS: number): number =>
+  Math.min(110, Math.max(1, Math.round(mmPerS / SPEED_OF_PCT)));
+
+/** The settings with the codes of these layers' names in them. Doing it twice changes nothing. */
+export function withLayerCodes<S extends { readonly motion: MotionSettings; readonly pen: PenSettings }>(
+  settings: S,
+  layers: readonly StrokeLayer[],
+): S {
+  const motionLayers: Record<string, LayerMotion> = {};
+  const penLayers: Record<string, LayerPen> = {};
+  for (const layer of layers) {
+    const codes = parseLayerName(layer.name);
+    const id = settingsIdOf(layer);
+    const speedMmPerS = codes.drawSpeedPct === null ? undefined : speedOfCode(codes.drawSpeedPct);
+    if (speedMmPerS !== undefined) motionLayers[id] = { speedMmPerS, ...settings.motion.layers?.[id] };
+    const pen = penOfCodes(settings.pen, id, codes);
+    if (pen !== null) penLayers[id] = { ...pen, ...settings.pen.layers?.[id] };
+  }
+  if (Object.keys(motionLayers).length + Object.keys(penLayers).length === 0) return settings;
+  return {
+    ...settings,
+    motion: { ...settings.motion, layers: { ...settings.motion.layers, ...motionLayers } },
+    pen: { ...settings.pen, layers: { ...settings.pen.layers, ...penLayers } },
+  };
+}
+
+function penOfCodes(pen: PenSettings, id: string, { penDownPct, delayMs }: LayerCodes): LayerPen | null {
+  const usable = penDownPct !== null && penDownPct < penOfLayer(pen, id).upPct;
+  if (!usable && delayMs === null) return null;
+  return {
+    ...(usable ? { downPct: penDownPct } : {}),
+    ...(delayMs === null ? {} : { beforeMs: Math.min(delayMs, LONGEST_WAIT_MS) }),
+  };
+}

@@ -1,0 +1,108 @@
+/**
+ * The pens of a drawing: which layer is drawn with which, where the plot stops to change them, and by how
+ * much a pen that sits askew in the holder has to be moved.
+ *
+ * Plotting layers a (red) b (red) c (black) stops once, before c's first stroke:
+ *
+ *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    5
+ *   layers    a     | b   | c            "layers"  3, 5
+ */
+import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
+import { parseLayerName, shownLayerName } from "./layer-codes.js";
+import type { PrepareSettings, ShiftMm } from "./settings.js";
+
+export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
+export type PenStopMode = (typeof PEN_STOP_MODES)[number];
+
+export interface PlotPen {
+  readonly id: string;
+  readonly name: string;
+  /** "#rrggbb", or null where it has none of its own: the layer's then. */
+  readonly color: string | null;
+  /** Of its line. */
+  readonly widthMm: number;
+  /** How far from where it should its line lands on paper: to the right, and away from home. */
+  readonly offsetXMm: number;
+  readonly offsetYMm: number;
+}
+
+export interface PenSetup {
+  readonly pens: readonly PlotPen[];
+  /** Pen id by layer id. A layer without one is drawn with whatever pen is in the holder. */
+  readonly layerPens: Readonly<Record<string, string>>;
+  /** "pens": where another pen is needed than the one in the holder, and where a layer's name begins with "!". */
+  readonly penStops: PenStopMode;
+  /** By layer id: a stop before it, or none, whatever its pen and name say. Does not count under "never". */
+  readonly layerStops: Readonly<Record<string, boolean>>;
+}
+
+export const NO_PENS: PenSetup = { pens: [], layerPens: {}, penStops: "pens", layerStops: {} };
+
+/** The plot waits, with the pen up, before it draws that stroke. */
+export interface PenStop {
+  readonly strokeIndex: number;
+  readonly layerId: string;
+  /** Without its codes. */
+  readonly layerName: string;
+  /** The pen to put in; null where the layer has none of its own. */
+  readonly penName: string | null;
+  /** The pen's colour, else the layer's. */
+  readonly color: string | null;
+}
+
+/** The pen that draws a layer, or null for whichever is in the holder. */
+export function penOf({ pens, layerPens }: PenSetup, layer: StrokeLayer): PlotPen | null {
+  const id = layerPens[settingsIdOf(layer)];
+  return id === undefined ? null : (pens.find((pen) => pen.id === id) ?? null);
+}
+
+/**
+ * Where the plot waits for the operator, in order; nothing before the first stroke unless its layer asks for it.
+ * Linear in strokes.
+ */
+export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenStop[] {
+  if (setup.penStops === "never") return [];
+  const stops: PenStop[] = [];
+  let inHolder: string | null = null;
+  const count = strokeCount(strokes);
+  for (let stroke = 0; stroke < count; stroke++) {
+    const isFirst = stroke === 0;
+    if (!isFirst && strokes.layer[stroke] === strokes.layer[stroke - 1]) continue;
+    const layer = strokes.layers[strokes.layer[stroke]];
+    const pen = penOf(setup, layer);
+    const needsOther = !isFirst && pen !== null && pen.id !== inHolder;
+    if (pen !== null) inHolder = pen.id;
+    if (stopsBefore(setup, layer, isFirst, needsOther)) stops.push(stopAt(stroke, layer, pen));
+  }
+  return stops;
+}
+
+function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, needsOther: boolean): boolean {
+  // The further parts of a layer are there for a stop to take up ink.
+  if (layer.partOf !== undefined) return true;
+  const own = setup.layerStops[layer.id];
+  if (own !== undefined) return own;
+  if (parseLayerName(layer.name).pause) return true;
+  return setup.penStops === "layers" ? !isFirst : needsOther;
+}
+
+const stopAt = (strokeIndex: number, layer: StrokeLayer, pen: PlotPen | null): PenStop => ({
+  strokeIndex,
+  layerId: settingsIdOf(layer),
+  layerName: shownLayerName(layer.name),
+  penName: pen?.name ?? null,
+  color: pen?.color ?? layer.color,
+});
+
+/** What `prepare` needs of a job's settings: its own, and by how much each layer's pen is to be corrected. */
+export function prepareSettingsOf(
+  settings: Pick<PenSetup, "pens" | "layerPens"> & { readonly prepare: PrepareSettings },
+): PrepareSettings {
+  const shifts: Record<string, ShiftMm> = {};
+  for (const [layer, penId] of Object.entries(settings.layerPens)) {
+    const pen = settings.pens.find(({ id }) => id === penId);
+    if (!pen || (pen.offsetXMm === 0 && pen.offsetYMm === 0)) continue;
+    shifts[layer] = { xMm: -pen.offsetXMm, yMm: -pen.offsetYMm };
+  }
+  return Object.keys(shifts).length > 0 ? { ...settings.prepare, layerShifts: shifts } : settings.prepare;
+}
