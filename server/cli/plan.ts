@@ -3,7 +3,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import {
   PlotwrightError,
   importDrawing,
-  machineById,
+  machineOf,
   plan,
   compile,
   pointCount,
@@ -12,8 +12,6 @@ import {
   trajectoryToSvg,
   closingCommands,
   commandLine,
-  penCommand,
-  penMoveOf,
   setUpCommands,
   type CommandStream,
   type MachineProfile,
@@ -90,7 +88,7 @@ export function readDrawing(file: string): string {
 }
 
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
-  const machine: MachineProfile = machineById(base.machine);
+  const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
   const drawing = importDrawing(file, readDrawing(file));
   const importMs = clock();
@@ -104,7 +102,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
-  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen, { machine });
+  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen, { machine, liftFirst: true });
   const planMs = clock();
   const commands = compile(trajectory, {
     machine,
@@ -137,7 +135,6 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   return { report, job, trajectory, lines };
 }
 
-/** A plot begins with the pen in an unknown place, so the driver lifts it before the first command of the plan. */
 function plotLines(
   commands: CommandStream,
   machine: MachineProfile,
@@ -145,7 +142,6 @@ function plotLines(
   firmware: string,
 ): string[] {
   const lines = setUpCommands(machine, pen, firmware);
-  lines.push(penCommand(machine, penMoveOf(pen, true)));
   for (let index = 0; index < commands.count; index++) lines.push(commandLine(commands, index));
   lines.push(...closingCommands());
   return lines;

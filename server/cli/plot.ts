@@ -4,7 +4,7 @@
  */
 import { SingleBar } from "cli-progress";
 import { resolve } from "node:path";
-import { PlotwrightError, importDrawing, machineById } from "../../src/index.js";
+import { PlotwrightError, importDrawing, machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "../planning/planner.js";
 import type { PlotProgress, PlotRun } from "../plotter/types.js";
@@ -31,7 +31,7 @@ export async function runPlot(
   const forget = io.onInterrupt(() => stop.abort());
   try {
     const planner = await WorkerPlanner.open(
-      { path: resolve(file), settings, machine: machineById(settings.machine) },
+      { path: resolve(file), settings, machine: machineOf(settings) },
       stop.signal,
     );
     try {

@@ -1,5 +1,5 @@
 /** Planning for the queue: by a stored drawing's id, on a few threads at a time. */
-import { machineById } from "../../src/index.js";
+import { machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { Planning } from "../queue/job-queue.js";
@@ -13,7 +13,7 @@ export function createPlanning(files: DrawingFiles): Planning {
   const input = (drawing: string, settings: PlotSettings) => ({
     path: files.path(drawing),
     settings,
-    machine: machineById(settings.machine),
+    machine: machineOf(settings),
   });
   return {
     measure: (drawing, settings, signal) => turn(() => measureDrawing(input(drawing, settings), signal)),

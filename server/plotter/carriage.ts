@@ -7,6 +7,7 @@
  */
 import {
   compile,
+  machineOf,
   parseSteps,
   plan,
   PlotwrightError,
@@ -24,7 +25,7 @@ import {
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { Connection } from "./connection.js";
-import { boardStateBefore, machineOf, placeOfSteps } from "./plan-places.js";
+import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
 
 /** Motion kept ahead of the pen, seconds of ours. */

@@ -1,6 +1,5 @@
 /** Questions that a driver asks of a plan: where the pen is up, which stroke comes next, how far a place is. */
 import {
-  machineById,
   stateAt,
   xFromMotors,
   yFromMotors,
@@ -284,6 +283,3 @@ export class PlaceTimes {
     return startS[low]! + share * durationS[low]!;
   }
 }
-
-export const machineOf = (settings: { readonly machine: string }): MachineProfile =>
-  machineById(settings.machine);

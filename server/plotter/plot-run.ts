@@ -12,6 +12,7 @@
 import {
   comeToRest,
   compile,
+  machineOf,
   penCommand,
   penMoveOf,
   penOfLayer,
@@ -30,7 +31,6 @@ import {
   boardStateBefore,
   commandAfter,
   isPenUpBefore,
-  machineOf,
   movedPlace,
   nearestTime,
   placeAt,

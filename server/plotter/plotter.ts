@@ -6,13 +6,12 @@
  *      ^                    │            │         │
  *      └── nothing there ───┴── fault <──┴─────────┘   (tried again every 2 s while a device path is known)
  */
-import { PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
+import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Plotter, type PlotSettings } from "../../src/schema/index.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
 import { isButtonPressed, isPowerLow, powerLow, testPatch } from "./health.js";
-import { machineOf } from "./plan-places.js";
 import { CarriageRun } from "./plot-run.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 
@@ -28,7 +27,7 @@ export interface PlotterOptions {
   readonly clock?: Clock | undefined;
 }
 
-export type PlotterState = Omit<Plotter, "id" | "name">;
+export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
 
 const RECONNECT_S = 2;
 const SUPPLY_S = 2;
@@ -61,6 +60,7 @@ export class PlotterDriver {
       kind: isVirtual || options.device === "auto" ? "virtual" : "serial",
       device: isVirtual || options.device === "auto" ? null : options.device,
       connection: "connecting",
+      boardName: null,
       firmware: null,
       message: null,
       penUp: null,

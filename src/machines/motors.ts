@@ -1,22 +1,48 @@
 /**
  * Carriage to motors and back. Frames: machine mm, motor steps.
  *
- *   mixed (H-bot, CoreXY)   m1 = k (x + y)   m2 = k (x − y)      x = (m1 + m2)/2k   y = (m1 − m2)/2k
- *   direct                  m1 = k x         m2 = k y
+ *   as wired                u = ±x, v = ±y (flipX, flipY), the two changed about with swapAxes
+ *   mixed (H-bot, CoreXY)   m1 = k (u + v)   m2 = k (u − v)      u = (m1 + m2)/2k   v = (m1 − m2)/2k
+ *   direct                  m1 = k u         m2 = k v
  *
  * The map is linear, so velocities and accelerations go through it as places do.
  */
 import type { MachineProfile } from "./profile.js";
 
-export const motor1FromXy = (machine: MachineProfile, x: number, y: number): number =>
-  machine.motors === "mixed" ? (x + y) * machine.stepsPerMm : x * machine.stepsPerMm;
+const wiredX = (machine: MachineProfile, x: number): number => (machine.flipX ? -x : x);
+const wiredY = (machine: MachineProfile, y: number): number => (machine.flipY ? -y : y);
 
-export const motor2FromXy = (machine: MachineProfile, x: number, y: number): number =>
-  machine.motors === "mixed" ? (x - y) * machine.stepsPerMm : y * machine.stepsPerMm;
+export function motor1FromXy(machine: MachineProfile, x: number, y: number): number {
+  const sx = wiredX(machine, x);
+  const sy = wiredY(machine, y);
+  // The sum is the same whichever axis comes first.
+  if (machine.motors === "mixed") return (sx + sy) * machine.stepsPerMm;
+  return (machine.swapAxes ? sy : sx) * machine.stepsPerMm;
+}
+
+export function motor2FromXy(machine: MachineProfile, x: number, y: number): number {
+  const sx = wiredX(machine, x);
+  const sy = wiredY(machine, y);
+  const u = machine.swapAxes ? sy : sx;
+  const v = machine.swapAxes ? sx : sy;
+  return (machine.motors === "mixed" ? u - v : v) * machine.stepsPerMm;
+}
 
 /** mm from home of motor steps (whole or not). */
 export const xFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
-  (machine.motors === "mixed" ? (steps1 + steps2) / 2 : steps1) / machine.stepsPerMm;
+  wiredX(
+    machine,
+    machine.swapAxes ? secondAxis(machine, steps1, steps2) : firstAxis(machine, steps1, steps2),
+  );
 
 export const yFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
+  wiredY(
+    machine,
+    machine.swapAxes ? firstAxis(machine, steps1, steps2) : secondAxis(machine, steps1, steps2),
+  );
+
+const firstAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
+  (machine.motors === "mixed" ? (steps1 + steps2) / 2 : steps1) / machine.stepsPerMm;
+
+const secondAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
   (machine.motors === "mixed" ? (steps1 - steps2) / 2 : steps2) / machine.stepsPerMm;

@@ -9,6 +9,11 @@ export interface MachineProfile {
   readonly stepsPerMm: number;
   /** "mixed": motor 1 = x + y, motor 2 = x − y (H-bot, CoreXY). "direct": motor 1 = x, motor 2 = y. */
   readonly motors: "mixed" | "direct";
+  /** The axis runs the other way than its motors are wired for. Left out: it does not. */
+  readonly flipX?: boolean | undefined;
+  readonly flipY?: boolean | undefined;
+  /** The motors are plugged in, or the machine stands, so that x and y have changed places. */
+  readonly swapAxes?: boolean | undefined;
   /** EM argument: 1 = 1/16 microsteps. */
   readonly microstepMode: 1 | 2 | 3 | 4 | 5;
   /** Servo positions at 0 % and 100 % height, units of 1/12 µs (83.3 ns). */
@@ -16,4 +21,22 @@ export interface MachineProfile {
   readonly servoPosAt100Pct: number;
   /** Servo output: 4 = RB1 (standard), 5 = RB2 (brushless upgrade). */
   readonly servoPin: 4 | 5;
+  /** Switches at x = 0 and y = 0; null or left out: home is where the user puts the carriage. */
+  readonly homing?: HomingSwitches | null | undefined;
 }
+
+export interface HomingSwitches {
+  readonly x: SwitchInput;
+  readonly y: SwitchInput;
+}
+
+/** One input pin of the board, as its command PI names it. */
+export interface SwitchInput {
+  readonly port: (typeof INPUT_PORTS)[number];
+  /** 0 … 7. */
+  readonly pin: number;
+  /** What the pin reads while the switch is pressed. */
+  readonly pressed: 0 | 1;
+}
+
+export const INPUT_PORTS = ["A", "B", "C", "D", "E"] as const;

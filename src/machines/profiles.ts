@@ -76,3 +76,19 @@ export function machineById(id: string): MachineProfile {
   }
   return machine;
 }
+
+export interface MachineChoice {
+  readonly machine: string;
+  readonly customMachine?: MachineProfile | null | undefined;
+}
+
+/**
+ * The machine of a job's settings: the profile that they carry when it is the one they name, else the known one.
+ * Throws `bad-setting` for a name that is neither.
+ */
+export const machineOf = ({ machine, customMachine }: MachineChoice): MachineProfile =>
+  customMachine?.id === machine ? customMachine : machineById(machine);
+
+/** The same, null for a name that is neither. */
+export const findMachine = ({ machine, customMachine }: MachineChoice): MachineProfile | null =>
+  customMachine?.id === machine ? customMachine : (MACHINES.find(({ id }) => id === machine) ?? null);

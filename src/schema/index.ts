@@ -3,3 +3,6 @@ export * from "./settings.js";
 export * from "./job.js";
 export * from "./api.js";
 export * from "./access.js";
+export * from "./studio.js";
+export * from "./machine.js";
+export * from "./hand-moves.js";

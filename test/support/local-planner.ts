@@ -1,4 +1,4 @@
-import { compile, machineById, plan, type StrokeSet } from "../../src/index.js";
+import { compile, machineOf, plan, type StrokeSet } from "../../src/index.js";
 import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../server/plotter/types.js";
 
 /** A planner without its worker thread: the same stages, in the test's own thread. */
@@ -16,7 +16,7 @@ export class LocalPlanner implements PlotPlanner {
       startY: request.startYMm,
     });
     const commands = compile(trajectory, {
-      machine: machineById(settings.machine),
+      machine: machineOf(settings),
       firmware: request.firmware,
       pen: settings.pen,
       start: request.board,

@@ -1,5 +1,5 @@
 import { useEffect, useRef, type RefObject } from "react";
-import { MACHINES, stateAt, type StrokeLayer } from "../../src/index.js";
+import { findMachine, stateAt, type StrokeLayer } from "../../src/index.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -127,7 +127,7 @@ const deskOf = ({ settings }: PageState): Desk => {
   const { prepare } = settings;
   const long = Math.max(prepare.paper.widthMm, prepare.paper.heightMm);
   const short = Math.min(prepare.paper.widthMm, prepare.paper.heightMm);
-  const machine = MACHINES.find(({ id }) => id === settings.machine);
+  const machine = findMachine(settings);
   const all = prepare.marginMm;
   return {
     paperMm: prepare.landscape ? { width: long, height: short } : { width: short, height: long },

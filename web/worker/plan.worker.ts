@@ -7,7 +7,7 @@
  */
 import {
   importSvg,
-  MACHINES,
+  findMachine,
   placeDrawing,
   plan,
   pointCount,
@@ -78,7 +78,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t2 = performance.now();
     if (await isSuperseded()) return null;
     const trajectory = plan(ready.strokes, settings.motion, settings.pen, {
-      machine: MACHINES.find(({ id }) => id === settings.machine),
+      machine: findMachine(settings) ?? undefined,
     });
     const t3 = performance.now();
     if (await isSuperseded()) return null;

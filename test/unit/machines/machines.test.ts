@@ -11,6 +11,7 @@ import {
   yFromMotors,
 } from "../../../src/index.js";
 
+const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc.boolean() });
 const mm = fc.double({ min: -1_000, max: 1_000, noNaN: true });
 
 describe("machine profiles", () => {
@@ -31,9 +32,10 @@ describe("machine profiles", () => {
 });
 
 describe("motor axes", () => {
-  it("lead back to where they came from on every machine", () => {
+  it("lead back to where they came from on every machine, however it is wired", () => {
     fc.assert(
-      fc.property(fc.constantFrom(...MACHINES), mm, mm, (machine, x, y) => {
+      fc.property(fc.constantFrom(...MACHINES), flips, mm, mm, (model, wiring, x, y) => {
+        const machine = { ...model, ...wiring };
         const m1 = motor1FromXy(machine, x, y);
         const m2 = motor2FromXy(machine, x, y);
         expect(xFromMotors(machine, m1, m2)).toBeCloseTo(x, 9);

@@ -1,0 +1,45 @@
+/** A plotter's profile as it crosses a wire, a disk or a file. */
+import { z } from "zod";
+import { INPUT_PORTS, type MachineProfile } from "../machines/profile.js";
+
+const switchInputSchema = z.object({
+  port: z.enum(INPUT_PORTS),
+  pin: z.int().min(0).max(7),
+  pressed: z.union([z.literal(0), z.literal(1)]),
+});
+
+/** The board counts servo positions in 16 bits. */
+const servoPosSchema = z.int().min(1).max(65_535);
+
+export const machineProfileSchema = z
+  .object({
+    /** A file's name too. */
+    id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "small letters, digits and -, 63 at most"),
+    name: z.string().trim().min(1).max(100),
+    widthMm: z.number().gt(0).max(5_000),
+    heightMm: z.number().gt(0).max(5_000),
+    stepsPerMm: z.number().min(0.1).max(10_000),
+    motors: z.enum(["mixed", "direct"]),
+    flipX: z.boolean().optional(),
+    flipY: z.boolean().optional(),
+    swapAxes: z.boolean().optional(),
+    microstepMode: z.union([z.literal(1), z.literal(2), z.literal(3), z.literal(4), z.literal(5)]),
+    servoPosAt0Pct: servoPosSchema,
+    servoPosAt100Pct: servoPosSchema,
+    servoPin: z.union([z.literal(4), z.literal(5)]),
+    homing: z.object({ x: switchInputSchema, y: switchInputSchema }).nullable().optional(),
+  })
+  .refine(({ servoPosAt0Pct, servoPosAt100Pct }) => servoPosAt0Pct !== servoPosAt100Pct, {
+    message: "the servo has no range: 0 % and 100 % are the same position",
+    path: ["servoPosAt100Pct"],
+  }) satisfies z.ZodType<MachineProfile>;
+
+/** One of GET /machines. */
+export const listedMachineSchema = machineProfileSchema.safeExtend({
+  /** Comes with plotwright; the others can be changed and removed. */
+  builtIn: z.boolean(),
+});
+export type ListedMachine = z.infer<typeof listedMachineSchema>;
+
+export const machineListSchema = z.object({ machines: z.array(listedMachineSchema) });
+export type MachineList = z.infer<typeof machineListSchema>;

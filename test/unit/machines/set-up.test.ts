@@ -1,0 +1,97 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import {
+  DIRECTIONS,
+  MACHINES,
+  findMachine,
+  machineById,
+  machineOf,
+  machineTurned,
+  motor1FromXy,
+  motor2FromXy,
+  stepsPerMmMeasured,
+  xFromMotors,
+  yFromMotors,
+  type Direction,
+  type MachineProfile,
+} from "../../../src/index.js";
+
+const machines = fc
+  .tuple(fc.constantFrom(...MACHINES), fc.boolean(), fc.boolean(), fc.boolean())
+  .map(([machine, flipX, flipY, swapAxes]): MachineProfile => ({ ...machine, flipX, flipY, swapAxes }));
+
+const VECTORS: Readonly<Record<Direction, readonly [number, number]>> = {
+  right: [1, 0],
+  left: [-1, 0],
+  down: [0, 1],
+  up: [0, -1],
+};
+const directionOf = (x: number, y: number): Direction =>
+  DIRECTIONS.find((one) => Math.abs(VECTORS[one][0] - x) + Math.abs(VECTORS[one][1] - y) < 1e-6)!;
+
+describe("a machine turned to the way it was seen to go", () => {
+  it("goes to the right and down whatever its wiring was and its profile said", () => {
+    fc.assert(
+      fc.property(machines, machines, (wiring, told) => {
+        // What the carriage does when the profile `like` drives motors that are wired as `wiring` says.
+        const seen = (like: MachineProfile, x: number, y: number): Direction => {
+          const real = { ...wiring, motors: like.motors, stepsPerMm: like.stepsPerMm };
+          const steps = [motor1FromXy(like, x, y), motor2FromXy(like, x, y)] as const;
+          return directionOf(xFromMotors(real, ...steps), yFromMotors(real, ...steps));
+        };
+        const turned = machineTurned(told, seen(told, 1, 0), seen(told, 0, 1));
+        expect([seen(turned, 1, 0), seen(turned, 0, 1)]).toEqual(["right", "down"]);
+      }),
+      { numRuns: 1_000 },
+    );
+  });
+
+  it("cannot be made of two moves along one line: a motor does not turn", () => {
+    expect(() => machineTurned(machineById("axidraw-v3"), "right", "left")).toThrow(
+      /one motor does not turn/,
+    );
+  });
+});
+
+describe("the steps for one mm", () => {
+  it("make the square come out as it should when it is drawn again", () => {
+    fc.assert(
+      fc.property(machines, fc.double({ min: 0.2, max: 5, noNaN: true }), (machine, share) => {
+        const stepsPerMm = stepsPerMmMeasured(machine, 100, 100 * share);
+        // The same motors, which really made `machine.stepsPerMm / share` steps for a mm.
+        const realStepsPerMm = machine.stepsPerMm / share;
+        expect((100 * stepsPerMm) / realStepsPerMm).toBeCloseTo(100, 9);
+      }),
+      { numRuns: 1_000 },
+    );
+  });
+
+  it("are the mean of both sides, and of no slip of the ruler", () => {
+    const machine = machineById("axidraw-v3");
+    expect(stepsPerMmMeasured(machine, 50, 49, 51)).toBeCloseTo(80, 9);
+    for (const [x, y] of [
+      [0, 50],
+      [-50, 50],
+      [NaN, 50],
+      [50, 5],
+      [50_000, 50_000],
+    ] as const) {
+      expect(() => stepsPerMmMeasured(machine, 50, x, y)).toThrow(/measure it again/);
+    }
+  });
+});
+
+describe("the machine of a job's settings", () => {
+  const own: MachineProfile = { ...machineById("axidraw-v3"), id: "mine", widthMm: 500 };
+
+  it("is the profile that they carry when it is the one they name, else the one that is known", () => {
+    expect(machineOf({ machine: "mine", customMachine: own })).toBe(own);
+    expect(machineOf({ machine: "axidraw-v3", customMachine: own }).widthMm).toBe(300);
+    expect(machineOf({ machine: "axidraw-v3" }).id).toBe("axidraw-v3");
+  });
+
+  it("is missed by name when nobody knows it", () => {
+    expect(() => machineOf({ machine: "mine" })).toThrow(/no machine "mine"/);
+    expect(findMachine({ machine: "mine" })).toBeNull();
+  });
+});
