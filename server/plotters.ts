@@ -57,7 +57,7 @@ class DrivenPlotter implements PlotterPort {
 
   snapshot(): Plotter {
     const { state } = this.#driver;
-    return { id: this.id, name: state.kind === "virtual" ? "Virtual plotter" : "Plotter", ...state };
+    return { id: this.id, name: state.kind === "virtual" ? "Virtual plotter" : "Plotter", machine: null, ...state };
   }
 
   onChange(listener: (plotter: Plotter) => void): void {

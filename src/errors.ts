@@ -17,6 +17,7 @@ export const ERROR_CODES = [
   "not-found",
   "conflict",
   "not-allowed",
+  "not-operator",
   "cancelled",
   "internal",
 ] as const;
@@ -50,6 +51,7 @@ export const ERROR_TABLE: Readonly<
   "not-found": { httpStatus: 404, exitCode: 3 },
   conflict: { httpStatus: 409, exitCode: 5 },
   "not-allowed": { httpStatus: 403, exitCode: 5 },
+  "not-operator": { httpStatus: 409, exitCode: 5 },
   cancelled: { httpStatus: 409, exitCode: 5 },
   internal: { httpStatus: 500, exitCode: 5 },
 };

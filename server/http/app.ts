@@ -75,6 +75,9 @@ function stateRoutes(parts: AppParts): Router {
     version: parts.version,
     plotters: [...plotters.values()].map((plotter) => plotter.snapshot()),
     queue: queue.settings,
+    queues: Object.fromEntries([...plotters.keys()].map((id) => [id, queue.settings])),
+    operator: null,
+    serverNotices: [],
     jobs: queue.list(),
   });
   router.get("/openapi.json", (_request, response) => {

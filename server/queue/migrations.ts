@@ -37,6 +37,15 @@ const MIGRATIONS: readonly string[] = [
      entry      TEXT NOT NULL         -- JSON: how far the pen has come
    );`,
   `ALTER TABLE jobs ADD COLUMN plotted_s REAL;`,
+  `ALTER TABLE jobs ADD COLUMN expected_s REAL;
+   ALTER TABLE jobs ADD COLUMN wait TEXT;                           -- JSON
+   CREATE TABLE plotters (
+     id         TEXT PRIMARY KEY,
+     position   INTEGER NOT NULL,
+     name       TEXT,                 -- null: named after what it is
+     device     TEXT NOT NULL,
+     machine    TEXT
+   );`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

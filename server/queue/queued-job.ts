@@ -22,6 +22,8 @@ export function queuedJob(
     place: null,
     speedPct: 100,
     plottedS: null,
+    expectedS: null,
+    wait: null,
     createdAt: nowIso,
     startedAt: null,
     endedAt: null,

@@ -19,7 +19,7 @@ type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
 
 const COLUMNS =
-  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, created_at, started_at, ended_at";
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, expected_s, wait, created_at, started_at, ended_at";
 const PLACES = COLUMNS.split(", ")
   .map(() => "?")
   .join(", ");
@@ -213,6 +213,8 @@ function rowFromJob(job: Job): Value[] {
     job.place === null ? null : JSON.stringify(job.place),
     job.speedPct,
     job.plottedS,
+    job.expectedS,
+    job.wait === null ? null : JSON.stringify(job.wait),
     job.createdAt,
     job.startedAt,
     job.endedAt,
@@ -236,6 +238,8 @@ function jobFromRow(row: Row): Job {
     place: row["place"] === null ? null : (JSON.parse(String(row["place"])) as unknown),
     speedPct: row["speed_pct"],
     plottedS: row["plotted_s"],
+    expectedS: row["expected_s"],
+    wait: row["wait"] === null ? null : (JSON.parse(String(row["wait"])) as unknown),
     createdAt: row["created_at"],
     startedAt: row["started_at"],
     endedAt: row["ended_at"],

@@ -19,3 +19,11 @@ export type AccessEntry = z.infer<typeof accessEntrySchema>;
 
 export const newKeySchema = z.object({ name: z.string().trim().min(1).max(200), role: roleSchema });
 export type NewKey = z.infer<typeof newKeySchema>;
+
+/** What the caller is: `id` is its browser's, null for scripts. */
+export const meSchema = z.object({
+  role: roleSchema,
+  id: z.string().nullable(),
+  name: z.string().nullable(),
+});
+export type Me = z.infer<typeof meSchema>;

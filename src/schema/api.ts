@@ -26,7 +26,20 @@
  *   GET    /api/v1/access                     → { entries: AccessEntry[] }: sessions and keys
  *   POST   /api/v1/access/keys                NewKey → 201 { entry, secret }
  *   DELETE /api/v1/access/:id                 → { ok: true }
- *   GET    /api/v1/me                         → { role }
+ *   GET    /api/v1/me                         → Me
+ *   POST   /api/v1/operator/take              the calling browser becomes the operator → { operator }
+ *   GET    /api/v1/devices                    → { devices: Device[] }: boards that are plugged in
+ *   POST   /api/v1/plotters                   NewPlotter → 201 Plotter
+ *   PATCH  /api/v1/plotters/:id               PlotterPatch → Plotter
+ *   DELETE /api/v1/plotters/:id               → { ok: true }  (not with queued or running jobs, nor the last one)
+ *   GET    /api/v1/plotters/:id/queue         → QueueSettings of one plotter
+ *   PATCH  /api/v1/plotters/:id/queue         QueueSettings → QueueSettings
+ *   GET    /api/v1/webhooks                   → { webhooks: Webhook[] }
+ *   POST   /api/v1/webhooks                   NewWebhook → 201 { webhook, secret }
+ *   DELETE /api/v1/webhooks/:id               → { ok: true }
+ *   POST   /api/v1/pairing                    from this computer only → Pairing
+ *   DELETE /api/v1/notices/:id                → { ok: true }: read
+ *   GET    /api/v1/logs                       → what happened, as text to be sent to whoever helps
  *   GET    /api/v1/samples                    → { samples: [{ name, title }] }
  *   GET    /api/v1/samples/:name              → SVG text
  */
@@ -83,7 +96,12 @@ export type PenRequest = z.infer<typeof penRequestSchema>;
 
 export const plotterSchema = z.object({
   id: z.string(),
+  /** The user's. */
   name: z.string(),
+  /** The board's own name (QT), which it keeps; null where it has none. */
+  boardName: z.string().nullable().default(null),
+  /** Id of the machine profile taken for moves by hand; null: that of the last job. */
+  machine: z.string().nullable().default(null),
   /** "virtual": no hardware, the built-in model. */
   kind: z.enum(["virtual", "serial"]),
   /** Serial path, for people; null for the virtual board. */
@@ -106,10 +124,26 @@ export const queueSettingsSchema = z.object({
 });
 export type QueueSettings = z.infer<typeof queueSettingsSchema>;
 
+/** The browser that may change things now; everybody may watch and stop. */
+export const operatorSchema = z.object({ id: z.string(), name: z.string() });
+export type Operator = z.infer<typeof operatorSchema>;
+
+/** Something that went wrong with nobody asking: a drawing in the watched folder that can't be plotted. */
+export const noticeSchema = z.object({ id: z.string(), at: z.string(), message: z.string() });
+export type Notice = z.infer<typeof noticeSchema>;
+
+const queuesSchema = z.record(z.string(), queueSettingsSchema);
+
 /** Jobs: queue order first, then history, newest first. */
 export const snapshotSchema = z.object({
   version: z.string(),
+  /** Of the first plotter. */
   queue: queueSettingsSchema.default({ runOn: false }),
+  /** Of every plotter, by its id. */
+  queues: queuesSchema.default({}),
+  /** Null: whoever acts first becomes it. */
+  operator: operatorSchema.nullable().default(null),
+  serverNotices: z.array(noticeSchema).default([]),
   plotters: z.array(plotterSchema),
   jobs: z.array(jobSchema),
 });
@@ -122,7 +156,14 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   /** Ids of all jobs, in the order of Snapshot.jobs. */
   z.object({ type: z.literal("order"), ids: z.array(z.string()) }),
   z.object({ type: z.literal("plotter"), plotter: plotterSchema }),
+  /** A plotter was added, changed its name, or was removed: all of them. */
+  z.object({ type: z.literal("plotters"), plotters: z.array(plotterSchema) }),
+  /** Of the first plotter; `queues` follows with those of all. */
   z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
+  z.object({ type: z.literal("queues"), queues: queuesSchema }),
+  z.object({ type: z.literal("operator"), operator: operatorSchema.nullable() }),
+  z.object({ type: z.literal("notice"), notice: noticeSchema }),
+  z.object({ type: z.literal("notice-removed"), id: z.string() }),
   /** Several times a second while plotting. */
   z.object({
     type: z.literal("progress"),

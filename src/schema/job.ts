@@ -41,6 +41,18 @@ export const jobPlaceSchema = z.object({
 });
 export type JobPlace = z.infer<typeof jobPlaceSchema>;
 
+/** A stop that the plot has made by itself, until somebody resumes it. */
+export const plotWaitSchema = z.object({
+  /** Another pen has to be put in. */
+  kind: z.literal("pen"),
+  layerName: z.string(),
+  /** Null: no pen has been named for the layer. */
+  penName: z.string().nullable(),
+  /** CSS colour of the pen, else of the layer's first line; null when there is none. */
+  color: z.string().nullable(),
+});
+export type PlotWait = z.infer<typeof plotWaitSchema>;
+
 export const jobSchema = z.object({
   id: z.string(),
   plotterId: z.string(),
@@ -63,6 +75,11 @@ export const jobSchema = z.object({
   speedPct: z.number().default(100),
   /** Seconds that it really took, holds left out; null until it is done. */
   plottedS: z.number().nullable().default(null),
+  /** What it is likely to take on its plotter: the plan's time, corrected by the plots that this plotter has
+   *  ended. Kept as it was at the start, to be compared with plottedS; null until the job is planned. */
+  expectedS: z.number().nullable().default(null),
+  /** What a paused or interrupted job waits for; null when it is held for another reason. */
+  wait: plotWaitSchema.nullable().default(null),
   createdAt: z.string(),
   startedAt: z.string().nullable(),
   endedAt: z.string().nullable(),

@@ -1,6 +1,5 @@
-/** Of a server that is left alone: its plotters, who operates it, whom it tells, and how devices pair with it. */
+/** Of a server that is left alone: its plotters, whom it tells, and how devices pair with it. */
 import { z } from "zod";
-import { roleSchema } from "./access.js";
 
 const nameSchema = z.string().trim().min(1).max(100);
 /** "auto": the first EiBotBoard that no other plotter has, else the virtual board; "virtual"; or a serial path. */
@@ -32,14 +31,6 @@ export const plotterPatchSchema = z
   })
   .partial();
 export type PlotterPatch = z.infer<typeof plotterPatchSchema>;
-
-/** What the caller is: `id` is its browser's, null for scripts. */
-export const meSchema = z.object({
-  role: roleSchema,
-  id: z.string().nullable(),
-  name: z.string().nullable(),
-});
-export type Me = z.infer<typeof meSchema>;
 
 export const WEBHOOK_EVENTS = ["done", "waiting", "failed"] as const;
 export const webhookEventSchema = z.enum(WEBHOOK_EVENTS);

@@ -15,6 +15,8 @@ export const makeJob = (id: string, more: Partial<Job> = {}): Job => ({
   place: null,
   speedPct: 100,
   plottedS: null,
+  expectedS: null,
+  wait: null,
   createdAt: "2026-01-01T00:00:00.000Z",
   startedAt: null,
   endedAt: null,
@@ -24,6 +26,8 @@ export const makeJob = (id: string, more: Partial<Job> = {}): Job => ({
 export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter => ({
   id,
   name: "Virtual plotter",
+  boardName: null,
+  machine: null,
   kind: "virtual",
   device: null,
   connection: "idle",

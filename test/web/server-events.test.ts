@@ -15,6 +15,9 @@ const snapshot = (...ids: string[]): ServerEvent => ({
   snapshot: {
     version: "0.1.0",
     queue: { runOn: false },
+    queues: {},
+    operator: null,
+    serverNotices: [],
     plotters: [makePlotter("virtual")],
     jobs: ids.map((id) => makeJob(id)),
   },

@@ -1,5 +1,5 @@
 /** What each event of the server changes in the page's state. Pure. */
-import { ENDED_STATES, type ServerEvent } from "../../src/schema/index.js";
+import { ENDED_STATES, type ServerEvent, type Snapshot } from "../../src/schema/index.js";
 import type { PageState } from "./store.js";
 
 type Change = Partial<PageState>;
@@ -7,13 +7,7 @@ type Change = Partial<PageState>;
 export const applyServerEvent = (state: PageState, event: ServerEvent): Change => {
   switch (event.type) {
     case "snapshot":
-      return {
-        ...event.snapshot,
-        ...keepPlotter(
-          state,
-          event.snapshot.plotters.map((plotter) => plotter.id),
-        ),
-      };
+      return applySnapshot(state, event.snapshot);
     case "job":
       return applyJob(state, event.job);
     case "job-removed":
@@ -22,15 +16,42 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return { jobs: ordered(state, event.ids) };
     case "plotter":
       return { plotters: upserted(state.plotters, event.plotter) };
+    case "plotters":
+      return withPlotters(state, event.plotters);
     case "queue":
-      return { queue: event.queue };
+      return {};
+    case "queues":
+      return { queues: event.queues };
+    case "operator":
+      return { operator: event.operator };
+    case "notice":
+      return { serverNotices: upserted(state.serverNotices, event.notice) };
+    case "notice-removed":
+      return { serverNotices: state.serverNotices.filter(({ id }) => id !== event.id) };
     case "progress":
       return applyProgress(state, event);
   }
 };
 
-const keepPlotter = (state: PageState, ids: readonly string[]): Change => ({
-  plotterId: state.plotterId !== null && ids.includes(state.plotterId) ? state.plotterId : (ids[0] ?? null),
+/** Everything at once, when the page has connected: what was live before is not known to go on. */
+const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
+  const { version, plotters, jobs, queues, operator, serverNotices } = snapshot;
+  const isGoing = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
+  return {
+    ...withPlotters(state, plotters),
+    ...(isGoing ? {} : { live: null }),
+    version,
+    jobs,
+    queues,
+    operator,
+    serverNotices,
+  };
+};
+
+/** The plotter that is looked at stays, as long as it is there. */
+const withPlotters = ({ plotterId }: PageState, plotters: PageState["plotters"]): Change => ({
+  plotters,
+  plotterId: plotters.some(({ id }) => id === plotterId) ? plotterId : (plotters[0]?.id ?? null),
 });
 
 const applyJob = (state: PageState, job: PageState["jobs"][number]): Change => {

@@ -103,6 +103,8 @@ export class LedPlotter implements PlotterPort {
     return {
       id: this.id,
       name: "Virtual plotter",
+      boardName: null,
+      machine: null,
       kind: "virtual",
       device: null,
       connection: this.connection,

@@ -27,6 +27,8 @@ export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
     place: null,
     speedPct: 100,
     plottedS: null,
+    expectedS: null,
+    wait: null,
     createdAt: "2026-01-01T00:00:00.000Z",
     startedAt: null,
     endedAt: null,
