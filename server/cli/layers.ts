@@ -24,6 +24,9 @@ export function withOnlyLayers(
       `--only: there is no layer ${JSON.stringify(missing)}. The drawing has ${known}.`,
     );
   }
-  const hiddenLayers = layers.filter((layer) => !isWanted(layer)).map((layer) => layer.id);
-  return { ...settings, prepare: { ...settings.prepare, hiddenLayers } };
+  const idsOf = (isOn: boolean): string[] =>
+    layers.filter((layer) => isWanted(layer) === isOn).map((layer) => layer.id);
+  // Who names a layer wants it, whatever its own name says.
+  const prepareSettings = { ...settings.prepare, hiddenLayers: idsOf(false), shownLayers: idsOf(true) };
+  return { ...settings, prepare: prepareSettings };
 }

@@ -10,6 +10,7 @@ import {
   strokeCount,
   trajectoryStats,
   trajectoryToSvg,
+  withLayerCodes,
   closingCommands,
   commandLine,
   setUpCommands,
@@ -102,12 +103,13 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
-  const trajectory = plan(job.prepared.strokes, settings.motion, settings.pen, { machine, liftFirst: true });
+  const { motion, pen } = withLayerCodes(settings, job.prepared.strokes.layers);
+  const trajectory = plan(job.prepared.strokes, motion, pen, { machine, liftFirst: true });
   const planMs = clock();
   const commands = compile(trajectory, {
     machine,
     firmware: options.firmware,
-    pen: settings.pen,
+    pen,
     start: BOARD_AT_HOME,
   });
   const compileMs = clock();

@@ -9,7 +9,9 @@ import {
   importDrawing,
   plan,
   prepare,
+  prepareSettingsOf,
   strokeCount,
+  withLayerCodes,
   type BoardState,
   type Drawing,
   type MachineProfile,
@@ -45,7 +47,7 @@ export function prepareDrawing(
   machine: MachineProfile,
   work: Work = {},
 ): PreparedJob {
-  const prepared = prepare(drawing, settings.prepare, work);
+  const prepared = prepare(drawing, prepareSettingsOf(settings), work);
   const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
   if (strokeCount(prepared.strokes) === 0) {
     throw new PlotwrightError("bad-file", `There is nothing to draw. ${warnings.join(" ")}`.trim());
@@ -59,7 +61,8 @@ export function planAndCompile(
   request: PlanRequest,
   machine: MachineProfile,
 ): PlannedPlot {
-  const { settings, from } = request;
+  const { from } = request;
+  const settings = withLayerCodes(request.settings, prepared.strokes.layers);
   const trajectory = plan(prepared.strokes, settings.motion, settings.pen, {
     ...(from === null ? {} : { from }),
     startX: request.startXMm,

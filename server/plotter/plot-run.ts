@@ -16,6 +16,8 @@ import {
   penCommand,
   penMoveOf,
   penOfLayer,
+  settingsIdOf,
+  withLayerCodes,
   penSetUpCommands,
   PlotwrightError,
   strokeCount,
@@ -257,15 +259,16 @@ export class CarriageRun implements LivePlotRun {
 
   private plannedSettings(): PlotSettings {
     const share = this.speedPct / 100;
-    if (share === 1) return this.settings;
-    const { draw, travel, layers = {} } = this.settings.motion;
+    const settings = withLayerCodes(this.settings, this.planner.strokes.layers);
+    if (share === 1) return settings;
+    const { draw, travel, layers = {} } = settings.motion;
     const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>
       limits.speedMmPerS === undefined ? limits : { ...limits, speedMmPerS: limits.speedMmPerS * share };
     const scaledLayers = Object.entries(layers).map(([id, limits]) => [id, scaled(limits)] as const);
     return {
-      ...this.settings,
+      ...settings,
       motion: {
-        ...this.settings.motion,
+        ...settings.motion,
         draw: scaled(draw),
         travel: scaled(travel),
         layers: Object.fromEntries(scaledLayers),
@@ -351,9 +354,10 @@ export class CarriageRun implements LivePlotRun {
     limits: { drawAccel: number; travelAccel: number };
     pen: PenSettings;
   } {
-    const { motion, pen } = this.settings;
     const { layer, layers } = this.planner.strokes;
-    const id = place ? layers[layer[place.stroke]!]?.id : undefined;
+    const { motion, pen } = withLayerCodes(this.settings, layers);
+    const drawn = place ? layers[layer[place.stroke]!] : undefined;
+    const id = drawn && settingsIdOf(drawn);
     const own = id === undefined ? undefined : motion.layers?.[id];
     const drawAccel = own?.accelMmPerS2 ?? motion.draw.accelMmPerS2;
     return {

@@ -1,4 +1,4 @@
-import { compile, machineOf, plan, type StrokeSet } from "../../src/index.js";
+import { compile, machineOf, plan, withLayerCodes, type StrokeSet } from "../../src/index.js";
 import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../server/plotter/types.js";
 
 /** A planner without its worker thread: the same stages, in the test's own thread. */
@@ -9,7 +9,8 @@ export class LocalPlanner implements PlotPlanner {
 
   plan(request: PlanRequest): Promise<PlannedPlot> {
     this.requests.push(request);
-    const { settings, from } = request;
+    const { from } = request;
+    const settings = withLayerCodes(request.settings, this.strokes.layers);
     const trajectory = plan(this.strokes, settings.motion, settings.pen, {
       ...(from ? { from } : {}),
       startX: request.startXMm,
