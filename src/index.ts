@@ -178,7 +178,7 @@ export {
 } from "./board/streamer.js";
 
 // export
-export { codedLayerNames } from "./export/coded-names.js";
-export { toSvg, type SvgOptions } from "./export/strokes-to-svg.js";
+export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";
+export { toSvg, type LayerLook, type SvgOptions } from "./export/strokes-to-svg.js";
 export { toJson, type StrokesJson } from "./export/strokes-to-json.js";
 export { trajectoryToSvg, type TrajectorySvgOptions } from "./export/trajectory-to-svg.js";

@@ -3,7 +3,9 @@ import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/strok
 import { codeOfSpeed, withLayerCodes } from "../plan/coded-layers.js";
 import type { MotionSettings, PenSettings } from "../plan/settings.js";
 import { formatLayerName, parseLayerName } from "../prepare/layer-codes.js";
-import { penStopsOf, type PenSetup } from "../prepare/pens.js";
+import type { Prepared } from "../prepare/prepare.js";
+import { penOf, penStopsOf, type PenSetup } from "../prepare/pens.js";
+import type { SvgOptions } from "./strokes-to-svg.js";
 
 type Settings = PenSetup & { readonly motion: MotionSettings; readonly pen: PenSettings };
 
@@ -30,4 +32,17 @@ export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[
     });
   };
   return strokes.layers.map(nameOf);
+}
+
+/** How `toSvg` writes a job's prepared drawing: named with codes, in the widths and colours of its pens. */
+export function svgOptionsOf(
+  { strokes, paperWidthMm, paperHeightMm }: Pick<Prepared, "strokes" | "paperWidthMm" | "paperHeightMm">,
+  settings: Settings,
+): SvgOptions {
+  return {
+    widthMm: paperWidthMm,
+    heightMm: paperHeightMm,
+    layerNames: codedLayerNames(strokes, settings),
+    pens: strokes.layers.map((layer) => penOf(settings, layer)),
+  };
 }

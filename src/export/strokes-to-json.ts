@@ -1,5 +1,6 @@
 /** The prepared drawing as JSON: polylines in mm in drawing order, layer by layer, for other programs. */
 import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import { linesOnPaper } from "./lines-on-paper.js";
 
 export interface StrokesJson {
   readonly format: "plotwright-strokes";
@@ -18,9 +19,15 @@ export interface StrokesJson {
 
 /** Coordinates are rounded to 1 µm. */
 export function toJson(strokes: StrokeSet, paper: { widthMm: number; heightMm: number }): StrokesJson {
-  const layers = strokes.layers.map((layer) => ({ ...layer, strokesMm: [] as number[][] }));
+  const xy = linesOnPaper(strokes);
+  const layers = strokes.layers.map(({ id, name, color }) => ({
+    id,
+    name,
+    color,
+    strokesMm: [] as number[][],
+  }));
   for (let i = 0; i < strokeCount(strokes); i++) {
-    const points = strokes.xy.subarray(2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
+    const points = xy.subarray(2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
     layers[strokes.layer[i]].strokesMm.push(Array.from(points, (v) => Math.round(v * 1000) / 1000));
   }
   return {

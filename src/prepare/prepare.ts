@@ -113,12 +113,14 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   const layers = countLayers(lines, table, isVisible);
   lines = visibleOnly(lines, isVisible);
   if (lineCount(lines) === 0) warnings.push(emptyWarning(drawing, isVisible));
-  const given = lines;
-  const tour = orderLines(lines, settings, within(options, 0.55, 0.98));
-  lines = spreadLines(linesOfTour(lines, tour), settings.spread);
   const passesOf = (layer: number): number => settings.layerRepeats[table.layers[layer].id] ?? 1;
-  const unordered = travelAsDrawn(repeatLines(given, passesOf));
-  lines = repeatLines(lines, passesOf);
+  const asInFile = repeatLines(lines, passesOf);
+  const unordered = travelAsDrawn(asInFile);
+  const tour = orderLines(lines, settings, within(options, 0.55, 0.98));
+  const spread = spreadLines(linesOfTour(lines, tour), settings.spread);
+  lines = repeatLines(spread, passesOf);
+  // A way that is shorter once may end where passes have to begin anew.
+  if (settings.spread === "none" && travelAsDrawn(lines) > unordered) lines = asInFile;
   const strokes = strokeSetOf(lines, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
 
   progress(1, "done");

@@ -3,9 +3,12 @@ import {
   DEFAULT_MOTION,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
+  NO_PENS,
   importSvg,
   plan,
   prepare,
+  prepareSettingsOf,
+  svgOptionsOf,
   toJson,
   toSvg,
   trajectoryToSvg,
@@ -55,6 +58,16 @@ describe("toSvg", () => {
     const svg = toSvg(strokes, { ...PAPER, layerNames: ["!1+h30 red"] });
     expect(svg).toContain('inkscape:label="!1+h30 red"');
     expect(svg).toContain('inkscape:label="curves"');
+  });
+
+  it("writes what lies on paper, in the pens' colours and widths, without their corrections", () => {
+    const pen = { id: "p", name: "Gold", color: "#ccaa00", widthMm: 1.2, offsetXMm: 2, offsetYMm: -1 };
+    const job = { ...NO_PENS, pens: [pen], layerPens: { g0: "p" }, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
+    const askew = prepare(drawing, prepareSettingsOf({ ...job, prepare: SETTINGS }));
+    const back = prepare(importSvg(toSvg(askew.strokes, svgOptionsOf(askew, job))), SETTINGS).strokes;
+    expect(rounded(back)).toEqual(rounded(prepare(drawing, SETTINGS).strokes));
+    expect(back.layers[0]).toMatchObject({ name: '1 <red> & "hot"', color: "#ccaa00" });
+    expect(toJson(askew.strokes, PAPER)).toEqual(toJson(prepare(drawing, SETTINGS).strokes, PAPER));
   });
 
   it("writes an empty page for no strokes", () => {

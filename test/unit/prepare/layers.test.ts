@@ -1,0 +1,98 @@
+import { describe, expect, it } from "vitest";
+import { DEFAULT_PREPARE, prepare, strokeCount, type PrepareSettings } from "../../../src/index.js";
+import { drawingOf } from "../../support/drawings.js";
+
+const TRUE_SIZE: PrepareSettings = {
+  ...DEFAULT_PREPARE,
+  landscape: false,
+  marginMm: 0,
+  fit: false,
+  order: "none",
+};
+const GROUPS = ["a", "b", "c"];
+const drawing = drawingOf(
+  GROUPS.map((_, group) => ({ d: `M0 ${10 * group}L20 ${10 * group}`, group })),
+  { groups: GROUPS },
+);
+const preparedWith = (settings: Partial<PrepareSettings>, of = drawing) =>
+  prepare(of, { ...TRUE_SIZE, ...settings });
+/** The y of each stroke's beginning and whether it goes to the left: the layers lie 10 mm apart. */
+const strokesOf = (settings: Partial<PrepareSettings>, of = drawing): string[] => {
+  const { strokes } = preparedWith(settings, of);
+  return Array.from({ length: strokeCount(strokes) }, (_, i) => {
+    const p = 2 * strokes.offsets[i]!;
+    return `${strokes.xy[p + 1]! / 10}${strokes.xy[p]! > strokes.xy[p + 2]! ? "<" : ">"}`;
+  });
+};
+
+describe("the order of layers", () => {
+  it("is the wanted one, the rest after it as in the file", () => {
+    expect(strokesOf({ layerOrder: ["g2", "g0"] })).toEqual(["2>", "0>", "1>"]);
+    expect(strokesOf({ layerOrder: ["g1"] })).toEqual(["1>", "0>", "2>"]);
+  });
+
+  it("is told with the layers, and passes over those that there are not, or that are named twice", () => {
+    const prepared = preparedWith({ layerOrder: ["g9", "g2", "g0", "g2"] });
+    expect(prepared.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
+    expect(prepared.strokes.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
+  });
+
+  it("keeps each layer's own way short", () => {
+    expect(strokesOf({ layerOrder: ["g2", "g1", "g0"], order: "fast" })).toEqual(["2>", "1<", "0>"]);
+  });
+
+  it("holds for hatches of single layers too", () => {
+    const squares = drawingOf(
+      GROUPS.map((_, group) => {
+        const [top, bottom] = [10 * group, 10 * group + 5];
+        return { d: `M0 ${top}L5 ${top}L5 ${bottom}L0 ${bottom}Z`, group, fill: "#000000" };
+      }),
+      { groups: GROUPS },
+    );
+    const layerHatches = [{ layer: "g1", spacingMm: 1, angleDeg: 0, cross: false }];
+    const { layers } = preparedWith({ layerHatches, layerOrder: ["g1", "g0"] }, squares);
+    expect(layers.map(({ id, strokeCount: count }) => [id, count > 1])).toEqual([
+      ["g1", true],
+      ["g0", false],
+      ["g2", false],
+    ]);
+  });
+});
+
+describe("a layer drawn more than once", () => {
+  it("goes back and forth where that saves the way, and tells the length of the whole", () => {
+    expect(strokesOf({ layerRepeats: { g0: 3 } })).toEqual(["0>", "0<", "0>", "1>", "2>"]);
+    expect(preparedWith({ layerRepeats: { g0: 3, g2: 2 } }).drawMm).toBe(120);
+  });
+
+  it("begins each pass anew where the layer ends at its beginning and that is as short", () => {
+    const ring = drawingOf(["M0 0L10 0L10 10L0 10Z"]);
+    const { strokes, travelMm } = preparedWith({ layerRepeats: { g0: 2 } }, ring);
+    expect([strokeCount(strokes), travelMm]).toEqual([2, 0]);
+  });
+
+  it("travels no further than by drawing every pass the same way", () => {
+    const once = preparedWith({ hiddenLayers: ["g1", "g2"] }).travelMm;
+    const twice = preparedWith({ hiddenLayers: ["g1", "g2"], layerRepeats: { g0: 2 } });
+    // Out and back: it ends where it began, at home.
+    expect([once, twice.travelMm, twice.travelMmUnordered]).toEqual([20, 0, 0]);
+  });
+});
+
+describe("codes in layer names", () => {
+  const GIVEN = ["%off", "on"];
+  const coded = drawingOf(
+    GIVEN.map((_, group) => ({ d: `M0 ${10 * group}L20 ${10 * group}`, group })),
+    { groups: GIVEN },
+  );
+
+  it("leave a layer with % out, listed as such, until it is wanted", () => {
+    expect(strokesOf({}, coded)).toEqual(["1>"]);
+    expect(preparedWith({}, coded).layers.map(({ visible }) => visible)).toEqual([false, true]);
+    expect(strokesOf({ shownLayers: ["g0"] }, coded)).toEqual(["0>", "1>"]);
+  });
+
+  it("do not bring back what was switched off by hand", () => {
+    expect(strokesOf({ shownLayers: ["g0"], hiddenLayers: ["g0"] }, coded)).toEqual(["1>"]);
+  });
+});
