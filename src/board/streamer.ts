@@ -1,8 +1,8 @@
 /**
  * Sends command streams by a window of board time instead of by acknowledgement.
  *
- * Board, USB and system buffers together always hold about `windowS` of motion, so the board goes on while
- * the host is stalled. The price: on firmware with a queue of one, the board's parser stands blocked behind
+ * Board, USB and system buffers together always hold about `windowS` of motion (0.8 of it to, for commands of
+ * 150 ms, 1.3 times as much), so the board goes on while the host is stalled. The price: on firmware with a queue of one, the board's parser stands blocked behind
  * what was written ahead, and an emergency stop waits for it. Hence a window of 0.3 s, not 3 s. Where the
  * board's own queue is deeper, no more is written than it can take, and a stop is read at once.
  *
@@ -17,8 +17,8 @@
 import { commandLine } from "../ebb/compile.js";
 import type { CommandStream } from "../ebb/command-stream.js";
 import { PlotwrightError } from "../errors.js";
-import { BoardPace } from "./board-pace.js";
 import type { BoardSession, Outgoing } from "./session.js";
+import { BoardTimeline } from "./timeline.js";
 import type { Clock } from "./transport.js";
 
 export interface StreamOptions {
@@ -59,25 +59,13 @@ export interface StreamReport {
   readonly complete: boolean;
 }
 
-/** A command that takes board time, written and not yet known to be over. */
-interface InFlight {
-  readonly number: number;
-  readonly startS: number;
-  readonly endS: number;
-  readonly writtenS: number;
-  readonly stream: CommandStream;
-  readonly index: number;
-}
-
-/** An answer later than this after the write means that the board's queue was full. Board seconds. */
-const WAITED_S = 0.02;
 /** Wake-ups closer than this are one. */
 const MIN_WAKE_S = 0.004;
-/** How long an estimate of the board's time may be ahead of what it acknowledges. */
-const ACK_SLACK_S = 0.05;
 /** Dryness too short to tell from the line's own delay. */
 const DRY_S = 0.002;
 const IDLE_POLL_S = 0.02;
+/** Of the window: so much motion is always ahead, also where the next command is longer than the rest of it. */
+const RESERVE_SHARE = 0.8;
 
 export class Streamer {
   /** Times that the board ran dry in the middle of a run. */
@@ -88,7 +76,7 @@ export class Streamer {
   private readonly session: BoardSession;
   private readonly options: Required<Pick<StreamOptions, "clock" | "windowS" | "queueDepth" | "stuckS">> &
     StreamOptions;
-  private readonly pace = new BoardPace();
+  private readonly timeline: BoardTimeline;
 
   private stream: CommandStream | null = null;
   private next = 0;
@@ -96,15 +84,8 @@ export class Streamer {
   private offsetS = 0;
   /** Nothing from `atIndex` on is written; the streams of `then`, when there are any, go on from there. */
   private limit: { readonly atIndex: number; readonly then: readonly CommandStream[] } | null = null;
-  private flight: InFlight[] = [];
-  private writtenCount = 0;
-  private ackedCount = 0;
   private unanswered = 0;
   private lastWritten: StreamPlace | null = null;
-  private lastWrittenEndS = 0;
-  /** The command that polls find executing, and since when. */
-  private executing = -1;
-  private executingSinceS = 0;
   private cancelWake: (() => void) | null = null;
   private cancelPoll: (() => void) | null = null;
   private ending = false;
@@ -114,6 +95,8 @@ export class Streamer {
   constructor(session: BoardSession, options: StreamOptions) {
     this.session = session;
     this.options = { windowS: 0.3, queueDepth: 1, stuckS: 2, ...options };
+    const { clock, queueDepth, stuckS } = this.options;
+    this.timeline = new BoardTimeline(clock, queueDepth, stuckS);
   }
 
   /**
@@ -174,14 +157,14 @@ export class Streamer {
 
   /** Motion that the board still has to play, seconds. */
   inFlightS(): number {
-    return Math.max(0, this.lastWrittenEndS - this.boardS());
+    return Math.max(0, this.timeline.endS - this.timeline.boardS());
   }
 
   /** Where the board is now, by its time line. */
   place(): StreamPlace {
-    const boardS = this.boardS();
-    for (const entry of this.flight) {
-      if (boardS >= entry.endS) continue;
+    const boardS = this.timeline.boardS();
+    const entry = this.timeline.at(boardS);
+    if (entry) {
       const share = Math.max(0, (boardS - entry.startS) / (entry.endS - entry.startS));
       const fromS = entry.stream.planS[entry.index]!;
       const toS = entry.stream.planS[entry.index + 1]!;
@@ -203,7 +186,7 @@ export class Streamer {
   private take(stream: CommandStream, followers: readonly CommandStream[]): void {
     this.stream = stream;
     this.next = 0;
-    this.offsetS = this.lastWrittenEndS - stream.boardS[0]!;
+    this.offsetS = this.timeline.endS - stream.boardS[0]!;
     this.limit = followers.length > 0 ? { atIndex: stream.count, then: followers } : null;
     this.pump();
   }
@@ -212,29 +195,14 @@ export class Streamer {
     this.take(then[0]!, then.slice(1));
   }
 
-  /** Estimated board time, held back where the board has not acknowledged as far. */
-  private boardS(): number {
-    const estimateS = Math.min(this.pace.boardS(this.options.clock.nowS()), this.lastWrittenEndS);
-    // Unacknowledged number n means that the queue before it is full: n − depth has not begun.
-    const unacked = this.entry(this.ackedCount);
-    const blocked = this.entry(this.ackedCount - this.options.queueDepth);
-    if (!unacked || !blocked || this.options.clock.nowS() - unacked.writtenS < WAITED_S) return estimateS;
-    return Math.min(estimateS, blocked.startS + ACK_SLACK_S);
-  }
-
-  private entry(number: number): InFlight | undefined {
-    const first = this.flight[0];
-    return first ? this.flight[number - first.number] : undefined;
-  }
-
   /** Writes what is due, and sleeps until more is. */
   private pump(): void {
     this.cancelWake?.();
     this.cancelWake = null;
     if (this.failure || this.ending) return;
     const stream = this.stream!;
-    const boardS = this.boardS();
-    this.forgetExecuted(boardS);
+    const boardS = this.timeline.boardS();
+    this.timeline.forgetExecuted(boardS);
     const batch: Outgoing[] = [];
     const endIndex = this.limit?.atIndex ?? stream.count;
     while (this.next < endIndex && this.mayWrite(stream, boardS)) {
@@ -249,21 +217,31 @@ export class Streamer {
 
   private mayWrite(stream: CommandStream, boardS: number): boolean {
     if (this.options.pacing === "acks") return this.unanswered === 0;
-    const endS = this.offsetS + stream.boardS[this.next + 1]!;
-    const waiting = this.flight.length;
+    const waiting = this.timeline.count;
     // One whole command always waits behind the executing one, however long they are.
     if (waiting < 2) return true;
     if (this.options.queueDepth > 1 && waiting >= this.options.queueDepth) return false;
-    return endS - boardS <= this.options.windowS;
+    return this.dueS(stream) <= boardS;
+  }
+
+  /**
+   * Board time at which the next command is to be written: when it ends within the window, and a long one
+   * before what is ahead of it has shrunk to the window's reserve.
+   */
+  private dueS(stream: CommandStream): number {
+    const { windowS } = this.options;
+    const startS = this.offsetS + stream.boardS[this.next]!;
+    const endS = this.offsetS + stream.boardS[this.next + 1]!;
+    return Math.min(endS - windowS, startS - RESERVE_SHARE * windowS);
   }
 
   /** Until the next command comes into the window, or the executing one ends. */
   private wakeInS(stream: CommandStream, boardS: number): number {
     if (this.options.pacing === "acks") return this.options.stuckS;
-    const windowS = this.offsetS + stream.boardS[this.next + 1]! - this.options.windowS - boardS;
-    const executing = this.flight[0];
+    const dueInS = this.dueS(stream) - boardS;
+    const executing = this.timeline.first;
     const endsInS = executing ? executing.endS - boardS : 0;
-    return Math.max(MIN_WAKE_S, Math.min(windowS > 0 ? windowS : endsInS, Math.max(endsInS, 0)));
+    return Math.max(MIN_WAKE_S, Math.min(dueInS > 0 ? dueInS : endsInS, Math.max(endsInS, 0)));
   }
 
   private outgoing(stream: CommandStream, index: number): Outgoing {
@@ -274,27 +252,16 @@ export class Streamer {
     const place = { stream, commandIndex: index, planS: stream.planS[index]! };
     if (endS === startS) {
       this.lastWritten = place;
-      return { line, waitS: this.motionAheadS(), onReply: (error) => this.answered(error, false) };
+      return { line, waitS: this.timeline.longestS(), onReply: (error) => this.answered(error, false) };
     }
-    const nowS = this.options.clock.nowS();
-    const dryS = this.pace.written(startS, nowS);
+    const waitS = this.timeline.longestS();
+    const dryS = this.timeline.written(stream, index, startS, endS);
     if (dryS > DRY_S && this.isSameRun(stream, index)) {
       this.underrunCount++;
       this.underrunS += dryS;
     }
-    const waitS = this.motionAheadS();
-    this.flight.push({ number: this.writtenCount, startS, endS, writtenS: nowS, stream, index });
-    this.writtenCount++;
     this.lastWritten = place;
-    this.lastWrittenEndS = endS;
     return { line, waitS, onReply: (error) => this.answered(error, true) };
-  }
-
-  /** The longest that the board can rightly keep silent: its queue frees a place when a command ends. */
-  private motionAheadS(): number {
-    let longestS = 0;
-    for (const entry of this.flight) longestS = Math.max(longestS, entry.endS - entry.startS);
-    return longestS;
   }
 
   private isSameRun(stream: CommandStream, index: number): boolean {
@@ -312,26 +279,8 @@ export class Streamer {
       this.fail(error);
       return;
     }
-    const nowS = this.options.clock.nowS();
-    if (takesTime) {
-      const entry = this.entry(this.ackedCount);
-      const begun = this.entry(this.ackedCount - this.options.queueDepth);
-      this.ackedCount++;
-      if (entry && begun) this.pace.begun(begun.startS, nowS, nowS - entry.writtenS > WAITED_S);
-    }
+    if (takesTime) this.timeline.acknowledged();
     this.pump();
-  }
-
-  private forgetExecuted(boardS: number): void {
-    let over = 0;
-    while (
-      over < this.flight.length &&
-      this.flight[over]!.endS <= boardS &&
-      this.flight[over]!.number < this.ackedCount
-    ) {
-      over++;
-    }
-    if (over > 0) this.flight.splice(0, over);
   }
 
   private sleep(delayS: number): void {
@@ -344,7 +293,7 @@ export class Streamer {
     if (!poll) return;
     this.cancelPoll = this.options.clock.after(poll.everyS, () => {
       if (this.failure || this.ending) return;
-      const waitS = this.motionAheadS();
+      const waitS = this.timeline.longestS();
       const last = poll.lines.length - 1;
       this.session.write(
         poll.lines.map((line, i) => ({
@@ -364,33 +313,14 @@ export class Streamer {
     if (this.failure || this.ending) return;
     this.options.onPoll?.(line, reply);
     const waiting = tellsTime ? waitingCount(line, reply) : null;
-    if (waiting !== null) this.correctPace(waiting);
+    if (waiting !== null && this.timeline.waiting(waiting)) this.fail(stuck());
     if (!this.failure) this.pump();
-  }
-
-  /** What the board says waits in its queue puts our time line right, from both sides. */
-  private correctPace(waiting: number): void {
-    const nowS = this.options.clock.nowS();
-    const executing = this.entry(this.ackedCount - 1 - waiting);
-    if (!executing) return;
-    this.pace.begun(executing.startS, nowS, false);
-    if (waiting === 0) return;
-    this.pace.notEnded(executing.endS, nowS);
-    if (this.isStuck(executing, nowS)) this.fail(stuck());
-  }
-
-  private isStuck(executing: InFlight, nowS: number): boolean {
-    if (executing.number !== this.executing) {
-      this.executing = executing.number;
-      this.executingSinceS = nowS;
-    }
-    return nowS - this.executingSinceS > executing.endS - executing.startS + this.options.stuckS;
   }
 
   /** All that there is has been written: sleeps until the last of it should be over, then asks. */
   private awaitEnd(boardS: number): void {
     if (this.ending) return;
-    const leftS = this.lastWrittenEndS - boardS;
+    const leftS = this.timeline.endS - boardS;
     if (this.unanswered > 0 || leftS > 0) {
       // The last answers wake us; so does time, for a board whose time we have misjudged.
       if (this.unanswered === 0) this.sleep(Math.max(MIN_WAKE_S, leftS));

@@ -117,6 +117,21 @@ describe("a host that stops for 150 ms every second", () => {
     expect(streamer.underrunCount).toBe(0);
   });
 
+  it.each([
+    ["2.8.1", SHALLOW],
+    ["3.0.3", DEEP],
+  ])(
+    "never lets the board run dry between the longest commands on firmware %s",
+    async (firmware, options) => {
+      const rig = await newRig(firmware);
+      const stopStalling = rig.host.stallRegularly(0.97, 0.17);
+      const { report } = await play(rig, makeStream([PEN_DOWN, ...wavyRows(200, 148)]), options);
+      stopStalling();
+      expect(report.exact).toBe(true);
+      expect(rig.board.statistics().underrunCount).toBe(0);
+    },
+  );
+
   it("starves the board when it waits for acknowledgements instead, and knows it", async () => {
     const rig = await newRig();
     const stopStalling = rig.host.stallRegularly(1, 0.15);
