@@ -2,6 +2,8 @@
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
 import { queueSettingsSchema, type Snapshot } from "../../src/schema/index.js";
+import type { MachineFiles } from "../machines/machine-files.js";
+import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
@@ -10,7 +12,9 @@ import { errorResponder, notFound, parseWith } from "./errors.js";
 import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
 import { guardHosts } from "./guard.js";
+import { handMovesRoutes, type HandMoveParts } from "./hand-moves-routes.js";
 import { jobsRoutes } from "./jobs-routes.js";
+import { machinesRoutes } from "./machines-routes.js";
 import { openApiDocument } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
 import { samplesRoutes } from "./samples.js";
@@ -21,6 +25,8 @@ export interface AppParts {
   readonly files: DrawingFiles;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly hub: EventHub;
+  /** Plotters of the user's own. */
+  readonly machines: MachineFiles;
   readonly allowedHosts: readonly string[];
   /** Folders with the built page and with the samples. */
   readonly webDir: string;
@@ -52,10 +58,21 @@ export function apiMounts(parts: AppParts): readonly (readonly [string, Router])
   return [
     ["", stateRoutes(parts)],
     ["/access", accessRoutes(parts.access)],
-    ["/jobs", jobsRoutes(queue, parts.files)],
+    ["/jobs", jobsRoutes(queue, parts.files, parts.machines)],
+    ["/machines", machinesRoutes(parts.machines)],
     ["/plotters", plottersRoutes(parts.plotters, queue)],
+    ["/plotters", handMovesRoutes(handMoveParts(parts))],
     ["/samples", samplesRoutes(parts.samplesDir)],
   ];
+}
+
+function handMoveParts({ plotters, queue, machines }: AppParts): HandMoveParts {
+  return {
+    plotters,
+    queue,
+    jobBoxMm: (id) => drawingBoxMm(queue.drawingPath(id), queue.get(id).settings),
+    withMachine: (settings) => machines.withMachine(settings),
+  };
 }
 
 function apiRoutes(parts: AppParts): Router {
@@ -74,8 +91,8 @@ function stateRoutes(parts: AppParts): Router {
   const snapshot = (): Snapshot => ({
     version: parts.version,
     plotters: [...plotters.values()].map((plotter) => plotter.snapshot()),
-    queue: queue.settings,
-    queues: Object.fromEntries([...plotters.keys()].map((id) => [id, queue.settings])),
+    queue: queue.settings(),
+    queues: queue.allSettings(),
     operator: null,
     serverNotices: [],
     jobs: queue.list(),
@@ -91,12 +108,10 @@ function stateRoutes(parts: AppParts): Router {
     response.json({ role: roleOf(request, parts.access) });
   });
   router.get("/queue", (_request, response) => {
-    response.json(queue.settings);
+    response.json(queue.settings());
   });
   router.patch("/queue", express.json({ limit: "10kb" }), (request, response) => {
-    queue.settings = parseWith(queueSettingsSchema, request.body);
-    parts.hub.announce({ type: "queue", queue: queue.settings });
-    response.json(queue.settings);
+    response.json(queue.saveSettings(parseWith(queueSettingsSchema, request.body)));
   });
   return router;
 }

@@ -2,7 +2,7 @@
 import { machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
-import type { Planning } from "../queue/job-queue.js";
+import type { Planning } from "../queue/queue-parts.js";
 import { WorkerPlanner, measureDrawing } from "./planner.js";
 
 /** Uploads measured at once; the board's own planner never waits behind them. */

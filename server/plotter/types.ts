@@ -11,7 +11,7 @@ import type {
   StrokeSet,
   Trajectory,
 } from "../../src/index.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
 export interface PlannedPlot {
   readonly trajectory: Trajectory;
@@ -55,7 +55,8 @@ export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelle
 export interface PlotRun {
   readonly finished: Promise<PlotOutcome>;
   onProgress(listener: (progress: PlotProgress) => void): void;
-  onHeld(listener: (held: boolean) => void): void;
+  /** `wait`: the stop that it has made by itself; none where somebody asked for the hold. */
+  onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void;
   /** Resolves when the pen is up and the carriage rests. */
   pause(): Promise<void>;
   resume(): Promise<void>;

@@ -48,21 +48,23 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
     case "start":
       return { ...next, startedAt: nowIso };
     case "hold":
-    case "release":
     case "recover":
       return next;
+    case "release":
+      return { ...next, wait: null };
     case "interrupt":
       return { ...next, message: event.message, place: event.place };
     case "finish":
-      return { ...next, progress: 1, place: null, remainingS: 0, endedAt: nowIso };
+      return { ...next, progress: 1, place: null, wait: null, remainingS: 0, endedAt: nowIso };
     case "fail":
-      return { ...next, message: event.message, remainingS: null, endedAt: nowIso };
+      return { ...next, message: event.message, wait: null, remainingS: null, endedAt: nowIso };
     case "cancel":
-      return { ...next, remainingS: null, endedAt: nowIso };
+      return { ...next, wait: null, remainingS: null, endedAt: nowIso };
     case "requeue":
       return {
         ...next,
         place: null,
+        wait: null,
         speedPct: 100,
         plottedS: null,
         progress: 0,

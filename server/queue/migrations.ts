@@ -46,6 +46,8 @@ const MIGRATIONS: readonly string[] = [
      device     TEXT NOT NULL,
      machine    TEXT
    );`,
+  `INSERT OR IGNORE INTO settings (key, value) SELECT 'queue:main', value FROM settings WHERE key = 'queue';
+   DELETE FROM settings WHERE key = 'queue';`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

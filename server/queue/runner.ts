@@ -3,7 +3,7 @@
  * It decides nothing about jobs; the queue does, from these reports.
  */
 import { PlotwrightError, type Place } from "../../src/index.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -21,7 +21,8 @@ export type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Er
 export interface RunReports {
   progress(progress: PlotProgress): void;
   journal(entry: JournalEntry): void;
-  held(held: boolean): void;
+  /** `wait`: what it holds for by itself. */
+  held(held: boolean, wait: PlotWait | null): void;
   /** A request (pause, resume) that could not be carried out; the plot itself goes on. */
   refused(message: string): void;
   ended(end: RunEnd): void;
@@ -85,7 +86,7 @@ export class Runner {
   /** A run that begins in the middle is held before anyone could listen for it. */
   async #hold(run: LivePlotRun): Promise<void> {
     await run.pause();
-    if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true);
+    if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
   async #go(): Promise<void> {
@@ -107,7 +108,7 @@ export class Runner {
       const run = await plotter.plot(planner, settings, { from, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
-      run.onHeld((held) => this.#reports.held(held));
+      run.onHeld((held, wait = null) => this.#reports.held(held, wait));
       // Wishes from the time when there was only a planner.
       if (this.isCancelling) this.#ask(run.cancel());
       else if (this.#pauseWanted) this.#ask(this.#hold(run));

@@ -89,8 +89,8 @@ export class Store {
     return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [drawing]) !== null;
   }
 
-  /** Appends to the queue. */
-  addJob(job: Job, drawing: StoredDrawing): void {
+  /** Last in the queue, or before another job of it. */
+  addJob(job: Job, drawing: StoredDrawing, beforeId: string | null = null): void {
     this.#transaction(() => {
       this.#run("INSERT OR IGNORE INTO drawings (id, bytes) VALUES (?, ?)", [drawing.id, drawing.bytes]);
       this.#run(
@@ -98,6 +98,7 @@ export class Store {
          VALUES ((SELECT COALESCE(MAX(position), 0) + 1 FROM jobs), ?, ${PLACES})`,
         [drawing.id, ...rowFromJob(job)],
       );
+      if (beforeId !== null) this.#place(job.id, beforeId);
     });
   }
 
@@ -107,20 +108,20 @@ export class Store {
 
   /** To stand before another job of the queue, or last with null. */
   moveJob(id: string, beforeId: string | null): void {
+    this.#transaction(() => this.#place(id, beforeId));
+  }
+
+  #place(id: string, beforeId: string | null): void {
     const ids = this.#all(`SELECT id FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`)
       .map((row) => String(row["id"]))
       .filter((other) => other !== id);
     const at = beforeId === null ? ids.length : ids.indexOf(beforeId);
     if (at < 0) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
     ids.splice(at, 0, id);
-    this.#transaction(() => {
-      const first = Number(
-        (this.#db.get("SELECT COALESCE(MAX(position), 0) + 1 AS p FROM jobs") as Row)["p"],
-      );
-      ids.forEach((one, index) =>
-        this.#run("UPDATE jobs SET position = ? WHERE id = ?", [first + index, one]),
-      );
-    });
+    const top = this.#db.get("SELECT COALESCE(MAX(position), 0) + 1 AS p FROM jobs") as Row;
+    ids.forEach((one, index) =>
+      this.#run("UPDATE jobs SET position = ? WHERE id = ?", [Number(top["p"]) + index, one]),
+    );
   }
 
   /** Removes the job; returns its drawing's id when no other job needs it any more. */

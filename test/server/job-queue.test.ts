@@ -5,7 +5,9 @@ import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/data-dir.js";
 import { DrawingFiles } from "../../server/queue/drawing-files.js";
-import { SERVER_STOPPED, JobQueue, type Planning } from "../../server/queue/job-queue.js";
+import { JobQueue } from "../../server/queue/job-queue.js";
+import { SERVER_STOPPED } from "../../server/queue/plot-runs.js";
+import type { Planning } from "../../server/queue/queue-parts.js";
 import { Store } from "../../server/queue/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
@@ -222,7 +224,7 @@ describe("the queue", () => {
     (await plotter.nextRun()).end({ kind: "done" });
     await settled();
     expect(queue.get(b.id).state).toBe("queued");
-    queue.settings = { runOn: true };
+    queue.saveSettings({ runOn: true });
     await add("ivy");
     queue.start(b.id);
     (await plotter.nextRun()).end({ kind: "done" });
@@ -232,7 +234,7 @@ describe("the queue", () => {
     await settled();
     store.close();
     openQueue();
-    expect(queue.settings).toEqual({ runOn: true });
+    expect(queue.settings()).toEqual({ runOn: true });
   });
 
   it("changes settings only while queued, and the name at any time", async () => {

@@ -7,8 +7,10 @@ import { join } from "node:path";
 import { prepareDataDir } from "../../../server/data-dir.js";
 import { apiMounts, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
+import { MachineFiles } from "../../../server/machines/machine-files.js";
 import { DrawingFiles } from "../../../server/queue/drawing-files.js";
-import { JobQueue, type Planning } from "../../../server/queue/job-queue.js";
+import { JobQueue } from "../../../server/queue/job-queue.js";
+import type { Planning } from "../../../server/queue/queue-parts.js";
 import { Store } from "../../../server/queue/store.js";
 import { Access } from "../../../server/security/access.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";
@@ -58,6 +60,7 @@ export async function startApp(
     files,
     plotters,
     hub,
+    machines: new MachineFiles(dir),
     allowedHosts: ["plotter.lan"],
     webDir: join(dir, "web"),
     samplesDir: new URL("../../../samples", import.meta.url).pathname,

@@ -1,0 +1,99 @@
+/**
+ * The jobs as they stand: in memory as on disk. Every change goes store -> memory -> announcement, so a kill
+ * at any instant leaves every browser's last picture true or behind, never ahead.
+ *
+ * Progress is the exception: it is kept in memory and written only with the next change of state.
+ */
+import { PlotwrightError } from "../../src/index.js";
+import { ENDED_STATES, type Job, type ServerEvent } from "../../src/schema/index.js";
+import type { StoredDrawing } from "./drawing-files.js";
+import { applyJobEvent, type JobEvent } from "./job-machine.js";
+import type { Store } from "./store.js";
+
+export interface BookParts {
+  readonly store: Store;
+  readonly announce: (event: ServerEvent) => void;
+  readonly nowIso: () => string;
+}
+
+export class JobBook {
+  readonly #parts: BookParts;
+  readonly #jobs = new Map<string, Job>();
+
+  constructor(parts: BookParts) {
+    this.#parts = parts;
+    for (const job of parts.store.jobs()) this.#jobs.set(job.id, job);
+  }
+
+  /** Queue order first, then history, newest first. */
+  list(): Job[] {
+    return this.order().map((id) => this.get(id));
+  }
+
+  order(): string[] {
+    return this.#parts.store.order();
+  }
+
+  /** Throws `not-found`. */
+  get(id: string): Job {
+    const job = this.#jobs.get(id);
+    if (job === undefined) throw new PlotwrightError("not-found", `There is no job ${id}.`);
+    return job;
+  }
+
+  /** Last in the queue, or before another job of it. */
+  insert(job: Job, drawing: StoredDrawing, beforeId: string | null = null): Job {
+    this.#parts.store.addJob(job, drawing, beforeId);
+    this.#jobs.set(job.id, job);
+    this.#parts.announce({ type: "job", job });
+    this.announceOrder();
+    return job;
+  }
+
+  /** Returns the job's drawing when no other job needs it. */
+  remove(id: string): string | null {
+    const unused = this.#parts.store.removeJob(id);
+    this.#jobs.delete(id);
+    this.#parts.announce({ type: "job-removed", id });
+    return unused;
+  }
+
+  /** `more`: what else changes in the same step. */
+  apply(id: string, event: JobEvent, more: Partial<Job> = {}): Job {
+    const before = this.get(id);
+    const after = this.save({ ...applyJobEvent(before, event, this.#parts.nowIso()), ...more });
+    if (ENDED_STATES.includes(after.state) !== ENDED_STATES.includes(before.state)) this.announceOrder();
+    return after;
+  }
+
+  save(job: Job): Job {
+    this.#parts.store.saveJob(job);
+    this.#jobs.set(job.id, job);
+    this.#parts.announce({ type: "job", job });
+    return job;
+  }
+
+  /** Tells the user of a job that has not ended; of one that has, its end is all there is to tell. */
+  note(id: string, message: string): Job {
+    const job = this.get(id);
+    return ENDED_STATES.includes(job.state) ? job : this.save({ ...job, message });
+  }
+
+  /** In memory only. */
+  progressed(id: string, progress: Pick<Job, "progress" | "elapsedS" | "remainingS">): void {
+    this.#jobs.set(id, { ...this.get(id), ...progress });
+  }
+
+  announceOrder(): void {
+    this.#parts.announce({ type: "order", ids: this.order() });
+  }
+
+  mustBeQueued(id: string, what: string): Job {
+    const job = this.get(id);
+    if (job.state === "queued") return job;
+    throw new PlotwrightError(
+      "conflict",
+      `"${job.name}" is ${job.state}. ${what} can change only while it is queued.`,
+    );
+  }
+}

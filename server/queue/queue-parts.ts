@@ -1,0 +1,32 @@
+/** What the queue is made of, given in so that tests can lead each part. */
+import type { JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { PlotPlanner } from "../plotter/types.js";
+import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
+import type { PlotterPort } from "./plotter-port.js";
+import type { Store } from "./store.js";
+
+export interface Planning {
+  measure(
+    drawing: string,
+    settings: PlotSettings,
+    signal?: AbortSignal,
+  ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
+  open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
+}
+
+export interface QueueParts {
+  readonly store: Store;
+  readonly files: DrawingFiles;
+  readonly planning: Planning;
+  /** By id, the first one first; may gain and lose plotters while the queue runs. */
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly announce: (event: ServerEvent) => void;
+  readonly nowIso: () => string;
+}
+
+export interface NewQueueJob {
+  readonly name: string;
+  readonly settings: PlotSettings;
+  readonly drawing: StoredDrawing;
+  readonly plotterId?: string | undefined;
+}
