@@ -25,6 +25,7 @@ import type { RunPath } from "./run-path.js";
 const CORNER_SHARE = 0.35;
 const STRAIGHT = 1e-24;
 const NO_PIECE = 1e-10;
+const ROUNDING = 1e-12;
 
 export class ThirdOrderPlanner {
   /** sin(φ/2) of each vertex. */
@@ -142,15 +143,18 @@ export class ThirdOrderPlanner {
   ): void {
     const { accel, jerk } = limits;
     const peak = rampPeak(v0, v1, most, length, accel, jerk);
-    this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, (v0 + peak) / 2, limits, out);
-    const cruise = length - rampLength(v0, peak, accel, jerk) - rampLength(peak, v1, accel, jerk);
+    // A ramp too small to be written must not be given way either: √Δ in its time makes way of rounding.
+    const rise = isRounding(peak - v0, peak) ? 0 : rampLength(v0, peak, accel, jerk);
+    const fall = isRounding(peak - v1, peak) ? 0 : rampLength(peak, v1, accel, jerk);
+    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, (v0 + peak) / 2, limits, out);
+    const cruise = length - rise - fall;
     if (cruise > NO_PIECE) {
       out.push(cruise / peak, this.x, this.y, ux * peak, uy * peak, 0, 0, this.along);
       this.x += ux * cruise;
       this.y += uy * cruise;
       this.along += cruise;
     }
-    this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, (v1 + peak) / 2, limits, out);
+    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, (v1 + peak) / 2, limits, out);
   }
 
   /** From one velocity vector to another in two or three blocks; `speed` is that along the drawing. */
@@ -164,7 +168,7 @@ export class ThirdOrderPlanner {
     out: BlockColumns,
   ): void {
     const change = Math.hypot(vx1 - vx0, vy1 - vy0);
-    if (!(change > 1e-12 * (Math.abs(vx0) + Math.abs(vy0) + change))) return;
+    if (change === 0) return;
     const total = rampTime(change, limits.accel, limits.jerk);
     const hold =
       change * limits.jerk <= limits.accel * limits.accel ? 0 : total - 2 * (limits.accel / limits.jerk);
@@ -201,6 +205,9 @@ export class ThirdOrderPlanner {
     this.speed = new Float64Array(size);
   }
 }
+
+/** Whether a change of speed is no more than what rounding leaves. */
+const isRounding = (change: number, speed: number): boolean => !(change > ROUNDING * speed);
 
 function tangentOf(v: number, s: number, limits: RunLimits): number {
   return s > 0 ? (v / 2) * rampTime(2 * v * s, limits.accel, limits.jerk) : 0;

@@ -23,7 +23,13 @@ export interface Worst {
   finite: boolean;
 }
 
+/** Every block is looked at so many times at least, and at least every so many seconds. */
 const SAMPLES = 8;
+const EVERY_S = 0.004;
+/** But not endlessly often: a random block may last for hours. */
+const MOST_SAMPLES = 250;
+/** A distance that rounding alone makes, mm. */
+const NOTHING = 1e-7;
 
 /** @param allowed distance from the drawing that need not be looked at more closely, mm */
 export function worstOf(
@@ -59,11 +65,12 @@ export function worstOf(
     for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) {
       const duration = trajectory.durationS[k]!;
       worst.clock = Math.max(worst.clock, Math.abs(clock - trajectory.startS[k]!));
-      for (let i = 0; i <= SAMPLES; i++) {
-        const s = sample(trajectory, k, (duration * i) / SAMPLES);
+      const samples = Math.max(SAMPLES, Math.min(MOST_SAMPLES, Math.ceil(duration / EVERY_S)));
+      for (let i = 0; i <= samples; i++) {
+        const s = sample(trajectory, k, (duration * i) / samples);
         worst.speed = Math.max(worst.speed, Math.hypot(s.vx, s.vy) / limits.speedMmPerS);
         worst.accel = Math.max(worst.accel, Math.hypot(s.ax, s.ay) / limits.accelMmPerS2);
-        if (near) worst.distance = Math.max(worst.distance, near.distance(s.x, s.y, allowed));
+        if (near) worst.distance = Math.max(worst.distance, near.distance(s.x, s.y, Math.max(allowed, NOTHING)));
         if (i === 0) {
           if (end) worst.gap = Math.max(worst.gap, Math.hypot(s.x - end[0], s.y - end[1]));
           const jump = Math.hypot(s.vx - before.vx, s.vy - before.vy);
@@ -74,7 +81,7 @@ export function worstOf(
           worst.accelJump = Math.max(worst.accelJump, Math.hypot(s.ax - before.ax, s.ay - before.ay));
         }
         before = s;
-        if (i === SAMPLES) end = [s.x, s.y];
+        if (i === samples) end = [s.x, s.y];
       }
       if (trajectory.jx && trajectory.jy) {
         worst.jerk = Math.max(

@@ -162,6 +162,28 @@ describe.each(MOTION_MODES)("a fitted plan of any drawing in mode %s", (mode) =>
   });
 });
 
+describe("an scurve plan", () => {
+  it("leaves no gap where a line bends so little that speeds differ by no more than rounding", () => {
+    const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
+    const steps = fc.array(fc.tuple(real(0.005, 3), real(-9, -4)), { minLength: 2, maxLength: 40 });
+    fc.assert(
+      fc.property(steps, real(0, 6.3), arbitraryLimits, (bends, start, draw) => {
+        const points: Point[] = [[0, 0]];
+        let heading = start;
+        for (const [length, exponent] of bends) {
+          const [x, y] = points[points.length - 1]!;
+          points.push([x + length * Math.cos(heading), y + length * Math.sin(heading)]);
+          heading += 10 ** exponent;
+        }
+        const strokes = strokeSetOf([points]);
+        const trajectory = plan(strokes, { mode: "scurve", draw, travel: draw }, DEFAULT_PEN);
+        expect(worstOf(trajectory, strokes, draw, draw, 1).gap).toBeLessThanOrEqual(1e-9);
+      }),
+      RUNS,
+    );
+  });
+});
+
 describe("a junction plan", () => {
   const arbitraryMotion = motionIn("junction");
 
