@@ -70,7 +70,8 @@ export function worstOf(
         const s = sample(trajectory, k, (duration * i) / samples);
         worst.speed = Math.max(worst.speed, Math.hypot(s.vx, s.vy) / limits.speedMmPerS);
         worst.accel = Math.max(worst.accel, Math.hypot(s.ax, s.ay) / limits.accelMmPerS2);
-        if (near) worst.distance = Math.max(worst.distance, near.distance(s.x, s.y, Math.max(allowed, NOTHING)));
+        if (near)
+          worst.distance = Math.max(worst.distance, near.distance(s.x, s.y, Math.max(allowed, NOTHING)));
         if (i === 0) {
           if (end) worst.gap = Math.max(worst.gap, Math.hypot(s.x - end[0], s.y - end[1]));
           const jump = Math.hypot(s.vx - before.vx, s.vy - before.vy);
