@@ -45,7 +45,7 @@ export {
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";
-export { placeDrawing, type Placement } from "./prepare/place.js";
+export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { checkBounds } from "./prepare/check-bounds.js";
 export type { Work } from "./prepare/work.js";
@@ -145,19 +145,11 @@ export {
   firmwareFromReply,
   type FirmwareFeatures,
 } from "./ebb/firmware.js";
-export {
-  commandName,
-  LineSplitter,
-  ReplyMatcher,
-  replyShape,
-  type BoardErrorReply,
-  type Reply,
-  type ReplyShape,
-  type ReplySyntax,
-} from "./ebb/replies.js";
+export { commandName, LineSplitter, replyShape, type ReplyShape } from "./ebb/replies.js";
 
 // board
 export type { Cancellation, Clock, Transport } from "./board/transport.js";
+export { AnswerQueue, type AwaitedAnswer } from "./board/answer-queue.js";
 export {
   VirtualBoard,
   type BoardStatistics,

@@ -34,13 +34,13 @@ const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
 const NO_VALUE = /^$/;
 
 /** A command under way. `settle` is called exactly once. */
-export interface Awaited {
+export interface AwaitedAnswer {
   readonly line: string;
   settle(error: PlotwrightError | null, value: string): void;
 }
 
 interface Waiting {
-  readonly awaited: Awaited;
+  readonly awaited: AwaitedAnswer;
   readonly name: string;
   readonly shape: ReplyShape;
   readonly pattern: RegExp;
@@ -67,11 +67,11 @@ export class AnswerQueue {
     return this.waiting.length - this.head;
   }
 
-  get first(): Awaited | null {
+  get first(): AwaitedAnswer | null {
     return this.waiting[this.head]?.awaited ?? null;
   }
 
-  add(awaited: Awaited): void {
+  add(awaited: AwaitedAnswer): void {
     const name = commandName(awaited.line);
     const pattern = VALUE_PATTERNS[name] ?? NO_VALUE;
     this.waiting.push({ awaited, name, shape: replyShape(name), pattern, value: null });

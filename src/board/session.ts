@@ -9,7 +9,7 @@
 import { firmwareFeatures, firmwareFromReply } from "../ebb/firmware.js";
 import { commandName, LineSplitter, replyShape } from "../ebb/replies.js";
 import { PlotwrightError } from "../errors.js";
-import { AnswerQueue, type Awaited } from "./answer-queue.js";
+import { AnswerQueue, type AwaitedAnswer } from "./answer-queue.js";
 import { SessionLog } from "./session-log.js";
 import type { Clock, Transport } from "./transport.js";
 
@@ -36,7 +36,7 @@ export interface BoardIdentity {
   readonly text: string;
 }
 
-interface SentCommand extends Awaited {
+interface SentCommand extends AwaitedAnswer {
   readonly waitS: number;
   /** Running out of patience with it is this command's failure alone, not the session's. */
   readonly alone: boolean;
