@@ -1,7 +1,7 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "./panels/drawing.js";
 import { FillPanel } from "./panels/fill.js";
-import { HelpSheet } from "./panels/help.js";
+import { Dialogs } from "./panels/dialogs.js";
 import { LayersPanel } from "./panels/layers.js";
 import { LinesPanel } from "./panels/lines.js";
 import { MachinePanel } from "./panels/machine.js";
@@ -9,11 +9,13 @@ import { MotionPanel } from "./panels/motion.js";
 import { Notices } from "./panels/notices.js";
 import { PaperPanel } from "./panels/paper.js";
 import { PenPanel } from "./panels/pen.js";
+import { PensPanel } from "./panels/pens.js";
 import { PlotBar } from "./panels/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "./panels/queue.js";
 import { PresetsPanel } from "./panels/presets.js";
 import type { Player } from "./preview/player.js";
 import type { Shortcut } from "./state/shortcuts.js";
+import { Strips } from "./panels/strips.js";
 import { TopBar } from "./panels/top-bar.js";
 import { Preview } from "./preview/preview.js";
 import { TimeLine } from "./preview/time-line.js";
@@ -39,6 +41,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
       <div className="app" data-tab={tab}>
         <TopBar />
         <main className="centre">
+          <Strips />
           <Preview />
           <TimeLine player={player} />
           <Notices />
@@ -48,6 +51,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <DrawingPanel />
           <PaperPanel />
           <LayersPanel />
+          <PensPanel />
           <MotionPanel />
           <PenPanel />
           <PresetsPanel />
@@ -67,7 +71,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           </div>
         </aside>
       </div>
-      <HelpSheet shortcuts={shortcuts} />
+      <Dialogs shortcuts={shortcuts} />
     </DropZone>
   );
 };

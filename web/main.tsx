@@ -67,7 +67,10 @@ watchJobs(store, (sentence) => {
 });
 openEvents("/api/v1/events", {
   onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
-  onLink: (isConnected) => store.setState({ link: isConnected ? "connected" : "lost" }),
+  onLink: (isConnected) => {
+    store.setState({ link: isConnected ? "connected" : "lost" });
+    if (isConnected) void actions.meet();
+  },
 });
 void greet(store);
 
@@ -114,7 +117,7 @@ async function greet(pageStore: PageStore): Promise<void> {
       resolve();
     });
   });
-  await actions.loadSamples();
+  await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   const state = pageStore.getState();
   if (state.drawing !== null) return;
   const job = activeJob(state);

@@ -3,11 +3,15 @@ import { z } from "zod";
 import {
   apiErrorSchema,
   jobSchema,
+  machineListSchema,
+  meSchema,
+  operatorSchema,
   plotterSchema,
   queueSettingsSchema,
   type Job,
   type JobChange,
   type JobPatch,
+  type Me,
   type MovePlace,
   type NewJob,
   type PenRequest,
@@ -27,6 +31,7 @@ export class ApiFault extends Error {
 }
 
 const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
+const operatorAnswerSchema = z.object({ operator: operatorSchema.nullable() });
 const okSchema = z.object({ ok: z.literal(true) });
 
 export type JobAction =
@@ -57,6 +62,8 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
   const plotter = (id: string): string => `/plotters/${encodeURIComponent(id)}`;
 
   return {
+    /** For the parts that are loaded later, which bring their own list of routes. */
+    ask,
     addJob: (newJob: NewJob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
     patchJob: (id: string, patch: JobPatch): Promise<Job> => ask(jobSchema, "PATCH", job(id), patch),
     actOnJob: (id: string, action: JobAction): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/${action}`),
@@ -65,14 +72,18 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     movePlace: (id: string, way: MovePlace): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/place`, way),
     moveJob: (id: string, beforeId: string | null) => ask(okSchema, "POST", `${job(id)}/move`, { beforeId }),
     duplicateJob: (id: string): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/duplicate`),
-    setQueue: (settings: QueueSettings): Promise<QueueSettings> =>
-      ask(queueSettingsSchema, "PATCH", "/queue", settings),
+    setQueue: (plotterId: string, settings: QueueSettings): Promise<QueueSettings> =>
+      ask(queueSettingsSchema, "PATCH", `${plotter(plotterId)}/queue`, settings),
+    me: (): Promise<Me> => ask(meSchema, "GET", "/me"),
+    takeOver: () => ask(operatorAnswerSchema, "POST", "/operator/take"),
+    dismissNotice: (id: string) => ask(okSchema, "DELETE", `/notices/${encodeURIComponent(id)}`),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
     jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),
     movePen: (id: string, request: PenRequest): Promise<Plotter> =>
       ask(plotterSchema, "POST", `${plotter(id)}/pen`, request),
     motorsOff: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/motors-off`),
     home: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/home`),
+    machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
     samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
     sample: async (name: string): Promise<string> =>
       (await send("GET", `/samples/${encodeURIComponent(name)}`)).text(),

@@ -1,30 +1,37 @@
-import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
+import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
 import { formatClockIn, formatCount, formatDuration, formatNumber, formatPercent } from "../ui/format.js";
-import { Icon } from "../ui/icon.js";
 import { useNow } from "../ui/use-now.js";
+import { JobButtons } from "./job-buttons.js";
 import { JobHead, Progress } from "./job-head.js";
+import { NudgeJob } from "./pen-nudge.js";
+import { PenWait } from "./pen-wait.js";
 
-const words = text.queue;
+const words = later.job;
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 
 /** The job that has the plotter: how far it is, and what can be done with it in its state. */
-export const ActiveJob = ({ job }: { job: Job }) => (
-  <article className="job job-active" data-state={job.state}>
-    <JobHead job={job} />
-    <Progress job={job} />
-    <TimeLeft job={job} />
-    {job.message && <p className="note">{job.message}</p>}
-    {job.state === "interrupted" && <p className="note">{words.recoverHint}</p>}
-    <MainButtons job={job} />
-    {job.state === "paused" && job.place && <PlaceControls job={job} place={job.place} />}
-    {job.state !== "interrupted" && <LiveChanges job={job} />}
-  </article>
-);
+export const ActiveJob = ({ job }: { job: Job }) => {
+  const isMine = usePageState(mayOperate);
+  const isWaiting = job.state === "paused" && job.wait !== null;
+  return (
+    <article className="job job-active" data-state={job.state}>
+      <JobHead job={job} />
+      <Progress job={job} />
+      <TimeLeft job={job} />
+      {job.message && !isWaiting && <p className="note">{job.message}</p>}
+      {job.state === "interrupted" && <p className="note">{words.recoverHint}</p>}
+      {isWaiting && job.wait ? <PenWait job={job} wait={job.wait} /> : <JobButtons job={job} />}
+      {isMine && job.state !== "interrupted" && <NudgeJob job={job} />}
+      {isMine && job.state === "paused" && job.place && <PlaceControls job={job} place={job.place} />}
+      {isMine && job.state !== "interrupted" && <LiveChanges job={job} />}
+    </article>
+  );
+};
 
 const TimeLeft = ({ job }: { job: Job }) => {
   const nowMs = useNow();
@@ -40,69 +47,6 @@ const TimeLeft = ({ job }: { job: Job }) => {
     </p>
   );
 };
-
-/** Cancel asks once more: hours of ink may be on the paper. */
-const MainButtons = ({ job }: { job: Job }) => {
-  const { actOnJob } = useActions();
-  const busy = usePageState((state) => state.busyAction);
-  const [isAsking, setAsking] = useState(false);
-  if (isAsking) {
-    return (
-      <div className="ask" role="alertdialog" aria-label={words.cancel}>
-        <p>{words.confirmCancel(job.name)}</p>
-        <div className="button-row">
-          <button
-            type="button"
-            className="button button-danger"
-            onClick={() => void actOnJob(job.id, "cancel")}
-          >
-            {words.cancel}
-          </button>
-          <button type="button" className="button" onClick={() => setAsking(false)}>
-            {words.keepPlotting}
-          </button>
-        </div>
-      </div>
-    );
-  }
-  const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
-  return (
-    <div className="button-row">
-      <button
-        type="button"
-        className={job.state === "plotting" ? "button" : "button button-primary"}
-        disabled={busy === `${action} ${job.id}`}
-        onClick={() => void actOnJob(job.id, action)}
-      >
-        <Icon name={action === "pause" ? "pause" : "play"} />
-        {label}
-      </button>
-      <button type="button" className="button" onClick={() => setAsking(true)}>
-        {words.cancel}
-      </button>
-      {job.state === "plotting" && (
-        <button
-          type="button"
-          className="button button-danger"
-          title={words.stopNowHint}
-          onClick={() => void actOnJob(job.id, "emergency-stop")}
-        >
-          {words.stopNow}
-        </button>
-      )}
-    </div>
-  );
-};
-
-const MAIN_ACTION = {
-  plotting: ["pause", words.pause],
-  paused: ["resume", words.resume],
-  interrupted: ["recover", words.recover],
-  queued: null,
-  done: null,
-  failed: null,
-  cancelled: null,
-} as const;
 
 /** Where a held plot goes on: it can be moved back and on, and looked at with the pen up. */
 const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place"]> }) => {

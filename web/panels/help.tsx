@@ -1,4 +1,4 @@
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { usePageStore } from "../state/use-store.js";
 import type { Shortcut } from "../state/shortcuts.js";
 import { text } from "../text/text.js";
 import { Dialog } from "../ui/dialog.js";
@@ -8,10 +8,8 @@ const words = text.shortcuts;
 /** The sheet with all keys. */
 export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const store = usePageStore();
-  const isOpen = usePageState((state) => state.isHelpOpen);
-  if (!isOpen) return null;
   return (
-    <Dialog title={words.title} onClose={() => store.setState({ isHelpOpen: false })}>
+    <Dialog title={words.title} onClose={() => store.setState({ openDialog: null })}>
       <dl className="key-list">
         {shortcuts.map(({ keys, label }) => (
           <div key={keys}>

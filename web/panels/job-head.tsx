@@ -1,6 +1,7 @@
 import type { Job } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 import { text } from "../text/text.js";
+import "../styles/jobs.css";
 
 const words = text.queue;
 

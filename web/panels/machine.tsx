@@ -1,55 +1,54 @@
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
-import { currentPlotter } from "../state/store.js";
+import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
-import { formatFixed } from "../ui/format.js";
 import { Select } from "../ui/choice.js";
+import { formatFixed } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { lampOf, plotterWords } from "./machine-words.js";
+import { SettingsGroup } from "./settings-group.js";
 
 const words = text.machine;
-
-/** The machine's state in one line, with a lamp: always in sight. */
-export const MachineState = () => {
-  const link = usePageState((state) => state.link);
-  const plotter = usePageState(currentPlotter);
-  const lamp =
-    link === "connected" && plotter ? plotter.connection : link === "lost" ? "fault" : "connecting";
-  return (
-    <p className="machine-state" role="status" data-lamp={lamp}>
-      <span className="lamp" aria-hidden="true" />
-      <span>{stateWords(link, plotter)}</span>
-    </p>
-  );
-};
-
-const stateWords = (link: string, plotter: Plotter | null): string => {
-  if (link === "lost") return words.server.lost;
-  if (link === "connecting" || !plotter) return words.server.connecting;
-  if (plotter.kind === "virtual") return words.virtual;
-  return `${plotter.name}: ${words.connection[plotter.connection]}`;
-};
+const HandMoves = lazyPart(async () => (await import("../machine/hand-moves.js")).HandMoves);
 
 export const MachinePanel = () => {
   const plotter = usePageState(currentPlotter);
+  const isMine = usePageState(mayOperate);
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
-      <PlotterSelect />
       {plotter && <PlotterFacts plotter={plotter} />}
-      <ModelSelect />
-      <HandControls plotter={plotter} />
-      {plotter && (
-        <a className="link" href={`/api/v1/plotters/${encodeURIComponent(plotter.id)}/log`} download>
-          {words.log}
-        </a>
-      )}
+      {isMine && <ModelSelect />}
+      {isMine && <HandControls plotter={plotter} />}
+      {isMine && <MoreMoves />}
+      <p className="link-row">
+        {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
+        {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
+        {isMine && <DialogLink name="console">{words.console}</DialogLink>}
+        {plotter && (
+          <a className="link" href={`/api/v1/plotters/${encodeURIComponent(plotter.id)}/log`} download>
+            {words.log}
+          </a>
+        )}
+      </p>
       <p className="note">{words.homeHint}</p>
     </section>
   );
 };
 
+const DialogLink = ({ name, children }: { name: DialogName; children: string }) => {
+  const store = usePageStore();
+  return (
+    <button type="button" className="link" onClick={() => store.setState({ openDialog: name })}>
+      {children}
+    </button>
+  );
+};
+
 const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
-  const { xMm, yMm } = plotter;
+  const job = usePageState(activeJob);
+  const { xMm, yMm, boardName } = plotter;
   const place =
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
   const facts = [
@@ -60,10 +59,11 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   ] as const;
   return (
     <>
-      <p className="plotter-name" data-lamp={plotter.connection}>
+      <p className="plotter-name" data-lamp={lampOf(plotter, job)}>
         <span className="lamp" aria-hidden="true" />
         <strong>{plotter.name}</strong>
-        <span>{words.connection[plotter.connection]}</span>
+        {boardName !== null && boardName !== plotter.name && <span className="note">({boardName})</span>}
+        <span className="plotter-doing">{plotterWords(plotter, job)}</span>
       </p>
       <PlotterMessage plotter={plotter} />
       <dl className="facts">
@@ -81,7 +81,7 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
 const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: Plotter }) => {
   if (message && (connection === "fault" || connection === "absent")) {
     return (
-      <p className="note note-error" role="alert">
+      <p className="note health" role="alert">
         {message}
       </p>
     );
@@ -90,31 +90,20 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
   return message ? <p className="note">{message}</p> : null;
 };
 
-/** Which of the server's plotters the page shows and sends to; absent where there is one. */
-const PlotterSelect = () => {
-  const plotters = usePageState((state) => state.plotters);
-  const current = usePageState(currentPlotter);
-  const store = usePageStore();
-  if (plotters.length < 2 || !current) return null;
-  return (
-    <Select
-      label={words.which}
-      value={current.id}
-      options={plotters.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(plotterId) => store.setState({ plotterId })}
-    />
-  );
-};
-
+/** The machines that plotwright knows, and those that were made here. */
 const ModelSelect = () => {
-  const machine = usePageState((state) => state.settings.machine);
-  const { changeSettings } = useActions();
+  const settings = usePageState((state) => state.settings);
+  const made = usePageState((state) => state.machines);
+  const { chooseMachine } = useActions();
+  const { machine, customMachine } = settings;
+  const known = [...MACHINES, ...made.filter(({ builtIn }) => !builtIn)];
+  const all = known.some(({ id }) => id === machine) || !customMachine ? known : [...known, customMachine];
   return (
     <Select
       label={words.model}
       value={machine}
-      options={MACHINES.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(id) => changeSettings("machine", (settings) => ({ ...settings, machine: id }))}
+      options={all.map(({ id, name }) => ({ value: id, label: name }))}
+      onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
   );
 };
@@ -142,6 +131,18 @@ const HandControls = ({ plotter }: { plotter: Plotter | null }) => {
       <button type="button" className="button" disabled={isOff} onClick={() => void home()}>
         {words.home}
       </button>
+    </div>
+  );
+};
+
+/** Everything else that is done by hand; folded, so that the queue stays in sight. */
+const MoreMoves = () => {
+  const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
+  return (
+    <div className="group-in-card">
+      <SettingsGroup id="moves" title={words.moves}>
+        {isOpen && <HandMoves />}
+      </SettingsGroup>
     </div>
   );
 };

@@ -1,16 +1,21 @@
-import { activeJob } from "../state/store.js";
+import { useState } from "react";
+import { activeJob, mayOperate, otherOperator } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
-import { formatCount, formatDuration, formatLength } from "../ui/format.js";
+import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
 
 const words = text.plot;
+const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
+const MAX_COPIES = 100;
 
-/** What the plot will take, and the two buttons that matter. */
+/** What the plot will take, and the two buttons that matter; on a phone, the running plot's buttons instead. */
 export const PlotBar = () => {
   const planned = usePageState((state) => state.planned);
   const isPlanning = usePageState((state) => state.isPlanning);
+  const hasJob = usePageState((state) => activeJob(state) !== null);
   return (
-    <section className="card plot-bar" aria-label={words.plot}>
+    <section className="card plot-bar" aria-label={words.plot} data-active={hasJob || undefined}>
       <div className="plot-time">
         <span className="plot-time-value" data-stale={isPlanning || undefined}>
           {planned ? formatDuration(planned.stats.durationS) : "–"}
@@ -21,6 +26,7 @@ export const PlotBar = () => {
       </div>
       <Figures />
       <Buttons />
+      <RunningJob />
     </section>
   );
 };
@@ -48,30 +54,94 @@ const Figures = () => {
 };
 
 const Buttons = () => {
+  const [copies, setCopies] = useState(1);
   const canQueue = usePageState(
     (state) => state.drawing !== null && (state.planned?.strokeCount ?? 0) > 0 && state.fault === null,
   );
   const isLinked = usePageState((state) => state.link === "connected" && state.plotters.length > 0);
+  const isMine = usePageState((state) => mayOperate(state) && otherOperator(state) === null);
   const isActive = usePageState((state) => activeJob(state) !== null);
-  const isSending = usePageState((state) => state.busyAction === "add" || state.busyAction === "plot");
-  const link = usePageState((state) => state.link);
+  const busy = usePageState((state) => state.busyAction);
   const { plotDrawing, queueDrawing } = useActions();
-  const isOff = !canQueue || !isLinked || isSending;
+  const isSending = busy === "add" || busy === "plot" || busy === "save";
+  const isOff = !canQueue || !isLinked || !isMine || isSending;
   return (
     <div className="plot-buttons">
       <button
         type="button"
         className="button button-primary"
         disabled={isOff || isActive}
+        aria-busy={isSending}
         onClick={() => void plotDrawing()}
       >
         {words.plot}
       </button>
-      <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing()}>
-        {words.addToQueue}
-      </button>
-      {link === "lost" && <p className="note note-error">{words.needsServer}</p>}
-      {isActive && isLinked && <p className="note">{words.queueBusy}</p>}
+      <span className="queue-buttons">
+        <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing(copies)}>
+          {words.addToQueue}
+        </button>
+        <select
+          aria-label={words.copies}
+          title={words.copies}
+          value={copies}
+          disabled={isOff}
+          onChange={(event) => setCopies(Number(event.target.value))}
+        >
+          {Array.from({ length: MAX_COPIES }, (_, index) => (
+            <option key={index} value={index + 1}>
+              × {index + 1}
+            </option>
+          ))}
+        </select>
+      </span>
+      <SaveToJob isOff={isOff} />
+      <Words isSending={isSending} isBusy={isActive && isLinked} />
+    </div>
+  );
+};
+
+const Words = ({ isSending, isBusy }: { isSending: boolean; isBusy: boolean }) => {
+  const link = usePageState((state) => state.link);
+  if (link === "lost") return <p className="note note-error">{words.needsServer}</p>;
+  if (isSending) {
+    return (
+      <p className="note note-working" role="status">
+        {words.sending}
+      </p>
+    );
+  }
+  return isBusy ? <p className="note">{words.queueBusy}</p> : null;
+};
+
+/** For a queued job that lies on the paper and whose settings were changed here. */
+const SaveToJob = ({ isOff }: { isOff: boolean }) => {
+  const job = usePageState(({ drawing, jobs }) =>
+    drawing?.jobId === null ? (jobs.find(({ id }) => id === drawing.sourceId) ?? null) : null,
+  );
+  const { saveToJob } = useActions();
+  if (job?.state !== "queued") return null;
+  return (
+    <button
+      type="button"
+      className="button save-to-job"
+      disabled={isOff}
+      onClick={() => void saveToJob(job.id)}
+    >
+      {words.saveToJob(job.name)}
+    </button>
+  );
+};
+
+/** Stands in for all that while a job has the plotter, where the screen is too small for both. */
+const RunningJob = () => {
+  const job = usePageState(activeJob);
+  if (!job) return null;
+  return (
+    <div className="plot-bar-job">
+      <p>
+        <strong>{job.name}</strong> {formatPercent(job.progress)}
+      </p>
+      <JobButtons job={job} />
     </div>
   );
 };

@@ -2,7 +2,7 @@ import { THEMES, type Theme } from "../state/persist.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Icon, type IconName } from "../ui/icon.js";
-import { MachineState } from "./machine.js";
+import { MachineState } from "./machine-state.js";
 
 const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
 
@@ -66,7 +66,7 @@ const HelpButton = () => {
       className="tool tool-keys"
       aria-label={text.shortcuts.title}
       title={text.shortcuts.title}
-      onClick={() => store.setState({ isHelpOpen: true })}
+      onClick={() => store.setState({ openDialog: "keys" })}
     >
       <Icon name="help" />
     </button>

@@ -1,6 +1,15 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import type { JobAction, ApiClient } from "../api/client.js";
-import type { Job, JobChange, MovePlace, PlotSettings, QueueSettings } from "../../src/schema/index.js";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
+import {
+  machineProfileSchema,
+  type Job,
+  type JobChange,
+  type JobPatch,
+  type MovePlace,
+  type PlotSettings,
+  type QueueSettings,
+} from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
 import type { ExportFormat } from "../worker/protocol.js";
@@ -62,8 +71,7 @@ export const createActions = (deps: ActionDeps) => {
     const { drawing, settings } = store.getState();
     if (!drawing) return;
     store.setState({ isPlanning: true });
-    const { machine, prepare, motion, pen } = settings;
-    planner.request(drawing, { machine, prepare, motion, pen });
+    planner.request(drawing, settings);
   };
 
   const setSettings = (settings: PlotSettings): void => {
@@ -95,7 +103,7 @@ export const createActions = (deps: ActionDeps) => {
   const openDrawing = (name: string, svg: string, jobId: string | null = null): void => {
     clearErrors();
     store.setState(({ settings }) => ({
-      drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId },
+      drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId, sourceId: jobId },
       settings: jobId === null ? withoutHidden(settings) : settings,
       planned: null,
       fault: null,
@@ -126,7 +134,7 @@ export const createActions = (deps: ActionDeps) => {
     openDrawing(job.name, svg, job.id);
   };
 
-  const addToQueue = async (): Promise<Job | null> => {
+  const addToQueue = async (copies = 1): Promise<Job | null> => {
     const state = store.getState();
     const { drawing, settings } = state;
     if (!drawing) return null;
@@ -136,6 +144,7 @@ export const createActions = (deps: ActionDeps) => {
       drawing: drawing.text,
       settings,
       ...(plotterId ? { plotterId } : {}),
+      ...(copies > 1 ? { copies } : {}),
     };
     const job = await attempt("add", () => api.addJob(newJob));
     if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
@@ -147,6 +156,8 @@ export const createActions = (deps: ActionDeps) => {
   return {
     notify,
     dismiss,
+    attempt,
+    ask: api.ask,
     replan,
     changeSettings,
     undo: () => step("undoStack", "redoStack"),
@@ -158,8 +169,8 @@ export const createActions = (deps: ActionDeps) => {
     openPasted,
     openSample,
     openJob,
-    queueDrawing: async (): Promise<void> => {
-      const job = await addToQueue();
+    queueDrawing: async (copies = 1): Promise<void> => {
+      const job = await addToQueue(copies);
       if (job) notify("info", text.plot.added(job.name));
     },
     plotDrawing: async (): Promise<void> => {
@@ -168,15 +179,32 @@ export const createActions = (deps: ActionDeps) => {
         notify("info", text.plot.started(job.name));
       }
     },
+    saveToJob: async (id: string): Promise<void> => {
+      const { settings } = store.getState();
+      const job = await attempt("save", () => api.patchJob(id, { settings }));
+      if (!job) return;
+      notify("info", text.plot.saved(job.name));
+      store.setState(({ drawing, settings: now }) =>
+        drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
+      );
+    },
     actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => api.actOnJob(id, action)),
     changeJob: (id: string, change: JobChange) => attempt(`change ${id}`, () => api.changeJob(id, change)),
     movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => api.movePlace(id, way)),
     moveJob: (id: string, beforeId: string | null) => attempt(`move ${id}`, () => api.moveJob(id, beforeId)),
     duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => api.duplicateJob(id)),
     setQueue: async (settings: QueueSettings): Promise<void> => {
-      const queue = await attempt("queue", () => api.setQueue(settings));
-      if (queue) store.setState({ queue });
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("queue", () => api.setQueue(id, settings));
     },
+    takeOver: () => attempt("take-over", () => api.takeOver()),
+    /** Who this browser is; asked anew with each connection, since a server that was started anew may have forgotten. */
+    meet: async (): Promise<void> => {
+      const me = await api.me().catch(() => null);
+      if (me) store.setState({ me });
+    },
+    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => api.dismissNotice(id)),
+    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => api.patchJob(id, patch)),
     removeJob: (id: string) => attempt(`remove ${id}`, () => api.removeJob(id)),
     movePen: async (up: boolean, heightPct?: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
@@ -191,6 +219,13 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => api.home(id));
     },
+    chooseMachine: (profile: MachineProfile | null): void => {
+      if (profile) changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));
+    },
+    loadMachines: async (): Promise<void> => {
+      const machines = await attempt("machines", () => api.machines());
+      if (machines) store.setState({ machines });
+    },
     savePreset: (name: string): void =>
       store.setState(({ presets, settings }) => ({ presets: withPreset(presets, name, settings) })),
     takePreset: ({ name, motion, pen }: Preset): void =>
@@ -203,6 +238,12 @@ export const createActions = (deps: ActionDeps) => {
       if (samples) store.setState({ samples });
     },
   };
+};
+
+/** The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. */
+export const machineChoice = (profile: MachineProfile): Pick<PlotSettings, "machine" | "customMachine"> => {
+  const isKnown = MACHINES.some(({ id }) => id === profile.id);
+  return { machine: profile.id, customMachine: isKnown ? null : machineProfileSchema.parse(profile) };
 };
 
 /** Layer switches belong to the drawing that was on the paper. */

@@ -1,20 +1,21 @@
 /** Tells the user, with the system's own notifications, when a plot ends or waits: only after they asked for it. */
 import type { Job } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
+import { waitWords } from "../panels/machine-words.js";
 import type { PageStore } from "./store.js";
 
 const words = text.notify;
 
-/** What to say of a job that has changed from one state to another; null when nobody needs to come. */
-export const noticeOfChange = (
-  before: Job["state"] | null,
-  now: Job["state"],
-  name: string,
-): string | null => {
-  if (before === null || before === now) return null;
-  if (now === "done") return words.done(name);
-  if (now === "failed") return words.failed(name);
-  if (now === "interrupted") return words.interrupted(name);
+/** What to say of a job that has changed; null when nobody needs to come. */
+export const noticeOfChange = (before: Job | null, now: Job): string | null => {
+  if (before === null) return null;
+  if (now.state === "paused" && now.wait !== null && before.wait === null) {
+    return words.waits(now.name, waitWords(now.wait));
+  }
+  if (before.state === now.state) return null;
+  if (now.state === "done") return words.done(now.name);
+  if (now.state === "failed") return words.failed(now.name);
+  if (now.state === "interrupted") return words.interrupted(now.name);
   return null;
 };
 
@@ -22,9 +23,9 @@ export const noticeOfChange = (
 export const watchJobs = (store: PageStore, say: (sentence: string) => void): (() => void) =>
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs || before.jobs.length === 0) return;
-    const states = new Map(before.jobs.map((job) => [job.id, job.state]));
+    const known = new Map(before.jobs.map((job) => [job.id, job]));
     for (const job of state.jobs) {
-      const sentence = noticeOfChange(states.get(job.id) ?? null, job.state, job.name);
+      const sentence = noticeOfChange(known.get(job.id) ?? null, job);
       if (sentence !== null) say(sentence);
     }
   });

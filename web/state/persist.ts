@@ -3,17 +3,12 @@
  * a stored value from an older version that no longer fits is replaced by the default, part by part.
  */
 import { z } from "zod";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  motionSettingsSchema,
-  penSettingsSchema,
-  prepareSettingsSchema,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+import { findMachine } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 
 const KEY = "plotwright.page.v1";
 
-export const COLOR_MODES = ["speed", "order", "layer", "ink"] as const;
+export const COLOR_MODES = ["speed", "order", "layer", "pen", "ink"] as const;
 export type ColorMode = (typeof COLOR_MODES)[number];
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
@@ -57,21 +52,27 @@ export interface TextStore {
 /** Never throws: each part that does not parse is the default. */
 export const parseRemembered = (stored: string | null): Remembered => {
   const root = recordOf(parseJson(stored));
-  const settings = recordOf(root.settings);
-  return {
-    settings: {
-      machine: z.string().min(1).max(100).catch(DEFAULT_PLOT_SETTINGS.machine).parse(settings.machine),
-      prepare: partOr(prepareSettingsSchema, DEFAULT_PLOT_SETTINGS.prepare, settings.prepare),
-      motion: partOr(motionSettingsSchema, DEFAULT_PLOT_SETTINGS.motion, settings.motion),
-      pen: partOr(penSettingsSchema, DEFAULT_PLOT_SETTINGS.pen, settings.pen),
-    },
-    view: partOr(viewSchema, DEFAULT_VIEW, root.view),
-  };
+  return { settings: settingsOr(recordOf(root.settings)), view: partOr(viewSchema, DEFAULT_VIEW, root.view) };
+};
+
+/** Each part (paper and fill, speeds, pen, machine …) by itself: one that does not fit costs no other. */
+const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
+  const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
+  const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
+    name,
+    partOr<unknown>(schema, defaults[name], stored[name]),
+  ]);
+  const result = plotSettingsSchema.safeParse(Object.fromEntries(parts));
+  if (!result.success) return DEFAULT_PLOT_SETTINGS;
+  // A machine whose profile does not parse any more is no machine.
+  const isKnown = findMachine(result.data) !== null;
+  return isKnown ? result.data : { ...result.data, machine: DEFAULT_PLOT_SETTINGS.machine };
 };
 
 /** Fields that a newer version added come from the default; a part that still does not fit is the default. */
-const partOr = <T extends object>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
-  const result = schema.safeParse({ ...whole, ...recordOf(stored) });
+const partOr = <T>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
+  const isRecord = typeof whole === "object" && whole !== null && !Array.isArray(whole);
+  const result = schema.safeParse(isRecord ? { ...whole, ...recordOf(stored) } : stored);
   return result.success ? result.data : whole;
 };
 

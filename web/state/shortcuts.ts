@@ -61,7 +61,7 @@ export const shortcutsFor = ({ store, actions, player }: ShortcutDeps): readonly
     keys: "?",
     label: words.title,
     matches: (event) => event.key === "?",
-    run: () => store.setState(({ isHelpOpen }) => ({ isHelpOpen: !isHelpOpen })),
+    run: () => store.setState(({ openDialog }) => ({ openDialog: openDialog === "keys" ? null : "keys" })),
   },
 ];
 

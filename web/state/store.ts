@@ -1,6 +1,15 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
-import type { Job, PlotSettings, Plotter, QueueSettings } from "../../src/schema/index.js";
+import type {
+  Job,
+  ListedMachine,
+  Me,
+  Notice as ServerNotice,
+  Operator,
+  PlotSettings,
+  Plotter,
+  QueueSettings,
+} from "../../src/schema/index.js";
 import type { Hover } from "../preview/hover.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Preset } from "./presets.js";
@@ -13,6 +22,8 @@ export interface OpenDrawing {
   readonly text: string;
   /** The job that it was opened from or sent as, while the settings are still that job's. */
   readonly jobId: string | null;
+  /** The job that it was opened from, whatever has become of the settings since. */
+  readonly sourceId: string | null;
 }
 
 export type ServerLink = "connecting" | "connected" | "lost";
@@ -32,6 +43,9 @@ export interface Notice {
   readonly kind: "info" | "error";
   readonly text: string;
 }
+
+/** Sheets over the page, one at a time. */
+export type DialogName = "keys" | "machines" | "wizard" | "console" | "studio";
 
 export interface SampleInfo {
   readonly name: string;
@@ -62,13 +76,21 @@ export interface PageState {
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
   readonly jobs: readonly Job[];
-  /** How the queue goes on from job to job; null until the server has said. */
-  readonly queue: QueueSettings | null;
+  /** How each plotter's queue goes on from job to job, by the plotter's id. */
+  readonly queues: Readonly<Record<string, QueueSettings>>;
+  /** Who this browser is to the server; null until it has said. */
+  readonly me: Me | null;
+  /** The browser that may change things now; null while nobody has. */
+  readonly operator: Operator | null;
+  /** What went wrong on the server with nobody asking. */
+  readonly serverNotices: readonly ServerNotice[];
   readonly live: LivePlot | null;
   readonly samples: readonly SampleInfo[];
 
+  /** Those that come with plotwright, and those made by the users of this server. */
+  readonly machines: readonly ListedMachine[];
   readonly presets: readonly Preset[];
-  readonly isHelpOpen: boolean;
+  readonly openDialog: DialogName | null;
   readonly notices: readonly Notice[];
   /** The button whose request is under way, by name: it is disabled meanwhile. */
   readonly busyAction: string | null;
@@ -94,11 +116,15 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     plotters: [],
     plotterId: null,
     jobs: [],
-    queue: null,
+    queues: {},
+    me: null,
+    operator: null,
+    serverNotices: [],
     live: null,
     samples: [],
+    machines: [],
     presets: [],
-    isHelpOpen: false,
+    openDialog: null,
     notices: [],
     busyAction: null,
   }));
@@ -121,3 +147,10 @@ export const activeJob = (state: PageState): Job | null => {
     ) ?? null
   );
 };
+
+/** Watchers see everything and may stop a plot; they change nothing else. */
+export const mayOperate = ({ me }: PageState): boolean => me?.role !== "watch";
+
+/** Another browser that has the plotters in hand, if any. */
+export const otherOperator = ({ operator, me }: PageState): Operator | null =>
+  operator !== null && operator.id !== me?.id ? operator : null;

@@ -1,8 +1,9 @@
 /** React's view of the page: one context with the store and the actions, made in main.tsx. */
 import { createContext, useContext } from "react";
 import { useStore } from "zustand";
+import type { Job } from "../../src/schema/index.js";
 import type { Actions } from "./actions.js";
-import type { PageState, PageStore } from "./store.js";
+import { currentPlotter, type PageState, type PageStore } from "./store.js";
 
 export interface Page {
   readonly store: PageStore;
@@ -21,3 +22,11 @@ const usePage = (): Page => {
 export const usePageState = <T>(select: (state: PageState) => T): T => useStore(usePage().store, select);
 export const useActions = (): Actions => usePage().actions;
 export const usePageStore = (): PageStore => usePage().store;
+
+/** The jobs of the plotter that is looked at: queue order first, then history, newest first. */
+export const usePlotterJobs = (): readonly Job[] => {
+  const jobs = usePageState((state) => state.jobs);
+  const plotterId = usePageState((state) => currentPlotter(state)?.id);
+  const areSeveral = usePageState((state) => state.plotters.length > 1);
+  return areSeveral ? jobs.filter((job) => job.plotterId === plotterId) : jobs;
+};

@@ -57,6 +57,17 @@ export const formatClockIn = (nowMs: number, s: number): string => {
   return `${pad(end.getHours())}:${pad(end.getMinutes())}`;
 };
 
+/** A moment of the past: "14:05" today, "Nov 3, 14:05" before; in the browser's own language. */
+export const formatWhen = (iso: string, nowMs: number = Date.now()): string => {
+  const at = new Date(iso);
+  if (Number.isNaN(at.getTime())) return "–";
+  const isToday = at.toDateString() === new Date(nowMs).toDateString();
+  const time = { hour: "2-digit", minute: "2-digit" } as const;
+  return isToday
+    ? at.toLocaleTimeString([], time)
+    : at.toLocaleString([], { month: "short", day: "numeric", ...time });
+};
+
 /** A number as typed by a person: comma or point, spaces ignored. Null where it is none. */
 export const parseNumber = (typed: string): number | null => {
   const clean = typed.replace(/[\s\u202f]/g, "").replace(",", ".");

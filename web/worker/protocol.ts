@@ -1,25 +1,19 @@
 /** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
 import type {
   DrawingWarning,
-  MotionSettings,
-  PenSettings,
+  PenStop,
   Placement,
   PreparedLayer,
-  PrepareSettings,
   StrokeLayer,
   Trajectory,
   TrajectoryStats,
 } from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Scene } from "../preview/scene.js";
 
-export interface PlanSettings {
-  /** Profile id: its motors' limits bound the plan. */
-  readonly machine: string;
-  readonly prepare: PrepareSettings;
-  readonly motion: MotionSettings;
-  readonly pen: PenSettings;
-}
+/** The machine's motors bound the plan, so it is part of what is planned with. */
+export type PlanSettings = PlotSettings;
 
 /** `drawingKey` names the text; the worker keeps the last drawing, so the text is sent once. */
 export interface PlanRequest {
@@ -53,6 +47,8 @@ export interface Planned {
   readonly frameMm: FrameMm | null;
   /** All of the file's, switched-off ones too. */
   readonly layers: readonly PreparedLayer[];
+  /** Where the plot waits for a pen. */
+  readonly penStops: readonly PenStop[];
   /** Names and colours of the layers that piece and stroke indices mean. */
   readonly drawnLayers: readonly StrokeLayer[];
   /** What of the file can't be drawn, with places on its page. */

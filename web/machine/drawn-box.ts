@@ -1,0 +1,36 @@
+/** The box of what will be drawn, mm from home: what "trace the frame" goes around. */
+import type { Trajectory } from "../../src/index.js";
+import type { BoxMm } from "../../src/schema/index.js";
+import type { PageState } from "../state/store.js";
+
+const boxes = new WeakMap<Trajectory, BoxMm | null>();
+
+/** Null with nothing to draw. The same object for the same plan. */
+export const drawnBoxMm = ({ planned }: PageState): BoxMm | null => {
+  if (!planned) return null;
+  const { trajectory } = planned;
+  if (!boxes.has(trajectory)) boxes.set(trajectory, boxOfDrawn(trajectory));
+  return boxes.get(trajectory) ?? null;
+};
+
+/**
+ * Around the ends of all blocks with the pen down: exact for straight lines, and for curves within the tolerance
+ * that they were flattened to. A run's last place is where the next run begins. Linear in blocks.
+ */
+export const boxOfDrawn = ({ runs, x, y, blockCount, endX, endY }: Trajectory): BoxMm | null => {
+  let [minX, minY, maxX, maxY] = [Infinity, Infinity, -Infinity, -Infinity];
+  const take = (px: number, py: number): void => {
+    minX = Math.min(minX, px);
+    maxX = Math.max(maxX, px);
+    minY = Math.min(minY, py);
+    maxY = Math.max(maxY, py);
+  };
+  for (let r = 0; r < runs.count; r++) {
+    if (runs.stroke[r]! < 0) continue;
+    for (let b = runs.firstBlock[r]!; b <= runs.firstBlock[r + 1]!; b++) {
+      if (b < blockCount) take(x[b]!, y[b]!);
+      else take(endX, endY);
+    }
+  }
+  return minX > maxX ? null : { xMm: minX, yMm: minY, widthMm: maxX - minX, heightMm: maxY - minY };
+};

@@ -1,0 +1,76 @@
+/** Reordering a list by dragging one row's handle, with mouse, pen or finger. */
+import { useEffect, useRef, type PointerEvent, type RefObject } from "react";
+
+/** The place among the other rows, given their middles from the top down, of a row let go at `yPx`. */
+export const placeOfDrop = (middlesPx: readonly number[], yPx: number): number =>
+  middlesPx.filter((middlePx) => middlePx < yPx).length;
+
+/**
+ * The row before which `id` has to go to stand at `place` among all; null for the end.
+ * Undefined where it stands there already, or there is no such place.
+ */
+export const placeAfterMove = (
+  ids: readonly string[],
+  id: string,
+  place: number,
+): string | null | undefined => {
+  if (place < 0 || place >= ids.length || ids[place] === id) return undefined;
+  const others = ids.filter((other) => other !== id);
+  return others[place] ?? null;
+};
+
+interface Drag {
+  readonly fromPx: number;
+  readonly row: HTMLElement;
+  readonly others: readonly HTMLElement[];
+  readonly middlesPx: readonly number[];
+}
+
+/** Handlers for the handle of the row `data-row={id}` of `list`; `onDrop` gets the place among all rows. */
+export const useRowDrag = (
+  list: RefObject<HTMLUListElement | null>,
+  id: string,
+  onDrop: (place: number) => void,
+) => {
+  const drag = useRef<Drag | null>(null);
+  const end = (): void => {
+    if (drag.current) showDrop(drag.current, null);
+    drag.current = null;
+  };
+  useEffect(() => end, []);
+  return {
+    onPointerDown: (event: PointerEvent<HTMLElement>): void => {
+      if (event.button !== 0) return;
+      const rows = [...(list.current?.querySelectorAll<HTMLElement>("[data-row]") ?? [])];
+      const row = rows.find((one) => one.dataset.row === id);
+      if (!row) return;
+      event.currentTarget.setPointerCapture(event.pointerId);
+      const others = rows.filter((one) => one !== row);
+      const middlesPx = others.map((one) => {
+        const { top, height } = one.getBoundingClientRect();
+        return top + height / 2;
+      });
+      drag.current = { fromPx: event.clientY, row, others, middlesPx };
+    },
+    onPointerMove: (event: PointerEvent<HTMLElement>): void => {
+      if (drag.current) showDrop(drag.current, event.clientY);
+    },
+    onPointerUp: (event: PointerEvent<HTMLElement>): void => {
+      const was = drag.current;
+      end();
+      if (was && event.clientY !== was.fromPx) onDrop(placeOfDrop(was.middlesPx, event.clientY));
+    },
+    onPointerCancel: end,
+  };
+};
+
+/** The row follows the pointer, and a line shows where it would go; null: all as it was. */
+const showDrop = ({ fromPx, row, others, middlesPx }: Drag, yPx: number | null): void => {
+  const place = yPx === null ? -1 : placeOfDrop(middlesPx, yPx);
+  row.style.transform = yPx === null ? "" : `translateY(${yPx - fromPx}px)`;
+  row.toggleAttribute("data-dragged", yPx !== null);
+  others.forEach((other, index) => {
+    other.toggleAttribute("data-drop-before", index === place);
+    other.toggleAttribute("data-drop-after", place === others.length && index === place - 1);
+  });
+};
