@@ -8,6 +8,7 @@ import type { ServerEvent } from "../src/schema/index.js";
 import { defaultDataDir, prepareDataDir } from "./data-dir.js";
 import { createApp } from "./http/app.js";
 import { EventHub } from "./http/events.js";
+import { MachineFiles } from "./machines/machine-files.js";
 import { createPlanning } from "./planning/planning.js";
 import { DrawingFiles } from "./queue/drawing-files.js";
 import { JobQueue } from "./queue/job-queue.js";
@@ -92,8 +93,11 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
 
     const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
     access.onRevoke(() => hub.dropAll());
+    const machines = new MachineFiles(dataDir);
+    machines.warnings.forEach(log);
     const app = createApp({
       version: packageVersion(),
+      machines,
       queue,
       files,
       plotters,

@@ -1,9 +1,17 @@
-/** One-off commands to the machine: pen, home, devices, info. */
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+/** One-off commands to the machine: pen, moves by hand, devices, machines, info. */
+import { resolve } from "node:path";
+import { importDrawing } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { defaultDataDir } from "../data-dir.js";
+import { MachineFiles } from "../machines/machine-files.js";
+import { drawingBoxMm } from "../planning/drawing-box.js";
+import type { HandMove } from "../plotter/hand-moves.js";
 import { openPlotter } from "../plotters.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { CliIo } from "./io.js";
+import { withOnlyLayers } from "./layers.js";
+import { readDrawing } from "./plan.js";
 
 export interface DeviceOptions {
   readonly device?: string;
@@ -21,8 +29,38 @@ export async function runPen(where: "up" | "down", options: PenOptions): Promise
   await withPlotter(options, (plotter) => plotter.pen(where === "up", heightPct));
 }
 
-export async function runHome(options: DeviceOptions): Promise<void> {
-  await withPlotter(options, (plotter) => plotter.home());
+/** One move by hand, with the machine, speeds and heights of the settings. */
+export async function runMove(move: HandMove, settings: PlotSettings, options: DeviceOptions): Promise<void> {
+  await withPlotter(options, (plotter) => plotter.move(move, settings));
+}
+
+/** Walks around where a drawing would come to lie. */
+export async function runFrame(
+  file: string,
+  base: PlotSettings,
+  options: DeviceOptions & { readonly only?: readonly string[] },
+): Promise<void> {
+  const text = readDrawing(file);
+  const settings =
+    options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
+  const boxMm = await drawingBoxMm(resolve(file), settings);
+  await runMove({ kind: "frame", boxMm }, settings, options);
+}
+
+/** Motors off, so that the carriage can be put to home by hand. */
+export async function runAlign(options: DeviceOptions): Promise<void> {
+  await withPlotter(options, async (plotter) => {
+    await plotter.pen(true);
+    await plotter.motorsOff();
+  });
+}
+
+export function runMachines(options: { readonly data?: string }, io: CliIo): void {
+  const files = new MachineFiles(options.data ?? defaultDataDir());
+  for (const { id, name, widthMm, heightMm, builtIn } of files.list()) {
+    io.out(`${id}\t${name}\t${widthMm} × ${heightMm} mm${builtIn ? "" : "\tyour own"}\n`);
+  }
+  files.warnings.forEach((warning) => io.err(`${warning}\n`));
 }
 
 export async function runDevices(io: CliIo): Promise<void> {

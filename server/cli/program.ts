@@ -1,9 +1,19 @@
 /** The command line as commander sees it: names, options, help. What the commands do is in the files beside. */
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
 import { ERROR_TABLE, PlotwrightError } from "../../src/index.js";
+import type { HandMove } from "../plotter/hand-moves.js";
 import { runBoard, type BoardCommandOptions } from "./board.js";
 import type { CliIo } from "./io.js";
-import { runDevices, runHome, runInfo, runPen } from "./machine-commands.js";
+import {
+  runAlign,
+  runDevices,
+  runFrame,
+  runInfo,
+  runMachines,
+  runMove,
+  runPen,
+  type DeviceOptions,
+} from "./machine-commands.js";
 import { runPlan, type PlanCommandOptions } from "./plan.js";
 import { runPlot, type PlotCommandOptions } from "./plot.js";
 import { runServe, type ServeCommandOptions } from "./serve.js";
@@ -75,9 +85,7 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--pen-up <percent>", "height when up", percent)
     .option("--pen-down <percent>", "height when down", percent)
     .action((where: "up" | "down", options: OptionValues & { device?: string }) => runPen(where, options));
-  addDevice(sub("home", "lift the pen and walk home")).action((options: { device?: string }) =>
-    runHome(options),
-  );
+  addMoves(sub);
   sub("board", "be a virtual board that other programs can drive")
     .requiredOption("--pty <path>", "where the serial port shall appear")
     .option("--firmware <version>", "firmware to be", "2.8.1")
@@ -85,11 +93,51 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--machine <id>", "plotter model")
     .option("--svg <file>", "where what was drawn goes (drawn.svg)")
     .action((options: BoardCommandOptions) => runBoard(options, io));
+  sub("machines", "list the plotter models, yours too")
+    .option("--data <folder>", "folder for jobs and settings")
+    .action((options: { data?: string }) => runMachines(options, io));
   sub("devices", "list the boards that are plugged in").action(() => runDevices(io));
   addDevice(sub("info", "tell what the board says of itself")).action((options: { device?: string }) =>
     runInfo(options, io),
   );
   return program;
+}
+
+/** Moves by hand; those with a speed or a height take the settings of a plot. */
+function addMoves(sub: (name: string, about: string) => Command): void {
+  const move = (
+    name: string,
+    about: string,
+    moveOf: (...at: number[]) => HandMove,
+    names: string[] = [],
+  ): void => {
+    const command = addDevice(addSettingOptions(sub(name, about)));
+    for (const one of names) command.argument(`<${one}>`, "mm", mm);
+    command.action((...given: unknown[]) => {
+      const options = given[names.length] as DeviceOptions & OptionValues;
+      return runMove(moveOf(...(given as number[])), settingsFromOptions(options), options);
+    });
+  };
+  move("home", "lift the pen and walk home", () => ({ kind: "home" }));
+  move("jog", "move by so many mm, pen up", (dxMm = 0, dyMm = 0) => ({ kind: "jog", dxMm, dyMm }), [
+    "dx",
+    "dy",
+  ]);
+  move("walk", "go to a place in mm from home, pen up", (xMm = 0, yMm = 0) => ({ kind: "walk", xMm, yMm }), [
+    "x",
+    "y",
+  ]);
+  move("set-home", "make home where the carriage stands", () => ({ kind: "set-home" }));
+  move("cycle-pen", "lower the pen and lift it again", () => ({ kind: "cycle-pen" }));
+  move("test-patch", "draw a small pattern where the carriage stands", () => ({ kind: "test-patch" }));
+  addDevice(
+    sub("align", "lift the pen and switch the motors off, to put the carriage to home by hand"),
+  ).action((options: DeviceOptions) => runAlign(options));
+  addDevice(
+    addSettingOptions(sub("frame", "go around a drawing, pen up").argument("<file>", "drawing")),
+  ).action((file: string, options: DeviceOptions & OptionValues & { only?: readonly string[] }) =>
+    runFrame(file, settingsFromOptions(options), options),
+  );
 }
 
 function addServe(command: Command): Command {
@@ -122,6 +170,12 @@ function port(text: string): number {
 function positive(text: string): number {
   const value = Number(text);
   if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
+  return value;
+}
+
+function mm(text: string): number {
+  const value = text.trim() === "" ? NaN : Number(text);
+  if (!Number.isFinite(value)) throw new InvalidArgumentError("It must be a number of mm.");
   return value;
 }
 

@@ -4,8 +4,10 @@
  */
 import { Option, type Command } from "commander";
 import { readFileSync } from "node:fs";
-import { PlotwrightError } from "../../src/index.js";
+import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import { defaultDataDir } from "../data-dir.js";
+import { MachineFiles, readMachineFile } from "../machines/machine-files.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
 /** What commander hands to an action: option names in camel case. */
@@ -19,6 +21,7 @@ export function addSettingOptions(command: Command): Command {
     command.addOption(option);
   }
   return command
+    .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter"))
     .addOption(new Option("--only <layer...>", "draw these layers only, by name or id"))
     .addOption(new Option("--config <file>", "JSON file with settings; flags go before it"));
 }
@@ -37,8 +40,10 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
     const isSaid = value !== undefined && !(value === true && isOnlyNegated(option));
     if (isSaid) setPath(settings, option.path.split("."), value);
   }
+  const machineFile = values["machineFile"];
+  if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
   const result = plotSettingsSchema.safeParse(settings);
-  if (result.success) return result.data;
+  if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data);
   const issue = result.error.issues[0];
   const path = issue?.path.join(".") ?? "";
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
@@ -57,6 +62,25 @@ function setPath(target: Record<string, unknown>, path: readonly string[], value
   if (rest.length === 0) target[first] = value;
   else setPath(target[first] as Record<string, unknown>, rest, value);
 }
+
+function setMachine(settings: Record<string, unknown>, machine: MachineProfile): void {
+  settings["machine"] = machine.id;
+  settings["customMachine"] = machine;
+}
+
+function readMachine(path: string): MachineProfile {
+  try {
+    return readMachineFile(path);
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
+}
+
+/** A machine of the user's own, made in the page of a server with the usual data folder. */
+const withOwnMachine = (settings: PlotSettings): PlotSettings =>
+  new MachineFiles(defaultDataDir()).withMachine(settings);
 
 function readConfig(path: string): Record<string, unknown> {
   try {

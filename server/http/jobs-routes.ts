@@ -12,6 +12,7 @@ import {
   plotSettingsSchema,
   type Job,
 } from "../../src/schema/index.js";
+import type { MachineFiles } from "../machines/machine-files.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import { parseWith } from "./errors.js";
@@ -19,7 +20,7 @@ import { parseWith } from "./errors.js";
 /** Parsed here at once; larger ones go to disk and are taken apart in a thread. */
 const SMALL_BYTES = 1_000_000;
 
-export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
+export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: MachineFiles): Router {
   const router = Router();
   const small = express.json({ limit: SMALL_BYTES });
 
@@ -47,7 +48,9 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
   });
 
   router.patch("/:id", small, async (request, response) => {
-    response.json(await queue.patch(request.params.id, parseWith(jobPatchSchema, request.body)));
+    const { settings, ...patch } = parseWith(jobPatchSchema, request.body);
+    const whole = settings === undefined ? {} : { settings: machines.withMachine(settings) };
+    response.json(await queue.patch(request.params.id, { ...patch, ...whole }));
   });
 
   router.post("/:id/move", small, (request, response) => {
@@ -99,13 +102,16 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
   async function addFromJson(request: Request): Promise<Job> {
     if (isSmall(request)) {
       const { drawing, copies, ...rest } = parseWith(newJobSchema, request.body);
-      const first = await queue.add({ ...rest, drawing: await files.add([Buffer.from(drawing, "utf8")]) });
+      const settings = machines.withMachine(rest.settings);
+      const stored = await files.add([Buffer.from(drawing, "utf8")]);
+      const first = await queue.add({ ...rest, settings, drawing: stored });
       return withCopies(first, copies);
     }
     const { drawing, rest } = await files.addFromJson(bytesOf(request));
     try {
       const { copies, ...wanted } = parseWith(newJobSchema.omit({ drawing: true }), rest);
-      return withCopies(await queue.add({ ...wanted, drawing }), copies);
+      const settings = machines.withMachine(wanted.settings);
+      return withCopies(await queue.add({ ...wanted, settings, drawing }), copies);
     } catch (error) {
       await files.remove(drawing.id);
       throw error;
@@ -124,7 +130,9 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles): Router {
       name:
         typeof name === "string" && name.trim() !== "" ? basename(name.trim()).slice(0, 200) : "drawing.svg",
       settings:
-        settings === undefined ? DEFAULT_PLOT_SETTINGS : parseWith(plotSettingsSchema, asJson(settings)),
+        settings === undefined
+          ? DEFAULT_PLOT_SETTINGS
+          : machines.withMachine(parseWith(plotSettingsSchema, asJson(settings))),
       ...(typeof plotterId === "string" ? { plotterId } : {}),
     };
     const drawing = await files.add(bytesOf(request));

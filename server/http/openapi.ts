@@ -3,9 +3,16 @@ import { z, type ZodType } from "zod";
 import {
   accessEntrySchema,
   apiErrorSchema,
+  commandAnswerSchema,
+  commandRequestSchema,
+  frameRequestSchema,
+  handMoveRequestSchema,
   jobChangeSchema,
   jobPatchSchema,
   jobSchema,
+  jogRequestSchema,
+  machineListSchema,
+  machineProfileSchema,
   moveJobSchema,
   movePlaceSchema,
   newJobSchema,
@@ -15,11 +22,14 @@ import {
   queueSettingsSchema,
   roleSchema,
   serverEventSchema,
+  servoRequestSchema,
   snapshotSchema,
+  squareRequestSchema,
+  walkRequestSchema,
 } from "../../src/schema/index.js";
 
 export interface ApiRoute {
-  readonly method: "get" | "post" | "patch" | "delete";
+  readonly method: "get" | "post" | "put" | "patch" | "delete";
   /** Below /api/v1, with express's :names. */
   readonly path: string;
   readonly about: string;
@@ -36,6 +46,8 @@ const route = (
   answer: ApiRoute["answer"],
   more: Pick<ApiRoute, "body" | "status"> = {},
 ): ApiRoute => ({ method, path, about, answer, ...more });
+const handMove = (name: string, about: string, body: ZodType): ApiRoute =>
+  route("post", `/plotters/:id/${name}`, about, plotterSchema, { body });
 const jobAction = (name: string, about: string, body?: ZodType): ApiRoute =>
   route("post", `/jobs/:id/${name}`, about, jobSchema, body === undefined ? {} : { body });
 
@@ -70,7 +82,27 @@ export const API_ROUTES: readonly ApiRoute[] = [
   route("get", "/plotters/:id/log", "Commands and replies", "text"),
   route("post", "/plotters/:id/pen", "Lifts or drops the pen", plotterSchema, { body: penRequestSchema }),
   route("post", "/plotters/:id/motors-off", "Lets the carriage be moved by hand", plotterSchema),
-  route("post", "/plotters/:id/home", "Lifts the pen and walks home", plotterSchema),
+  handMove(
+    "home",
+    "Lifts the pen and walks home, to the switches where there are some",
+    handMoveRequestSchema,
+  ),
+  handMove("walk", "Pen up, to a place in mm from home", walkRequestSchema),
+  handMove("jog", "Pen up, by so many mm", jogRequestSchema),
+  handMove("set-home", "Where the carriage stands is home", handMoveRequestSchema),
+  handMove("cycle-pen", "Pen down and up again", handMoveRequestSchema),
+  handMove("frame", "Around a job's drawing or a box with the pen up, and back", frameRequestSchema),
+  handMove("test-patch", "Draws a small pattern where the carriage stands", handMoveRequestSchema),
+  handMove("square", "Draws a square to be measured", squareRequestSchema),
+  handMove("servo", "A raw servo position", servoRequestSchema),
+  route("post", "/plotters/:id/command", "One line to the board", commandAnswerSchema, {
+    body: commandRequestSchema,
+  }),
+  route("get", "/machines", "Plotters as data", machineListSchema),
+  route("put", "/machines/:id", "Keeps a machine of your own", machineProfileSchema, {
+    body: machineProfileSchema,
+  }),
+  route("delete", "/machines/:id", "Removes one", okSchema),
   route("get", "/access", "Sessions and keys", z.object({ entries: z.array(accessEntrySchema) })),
   route("post", "/access/keys", "Makes a key", z.object({ entry: accessEntrySchema, secret: z.string() }), {
     body: newKeySchema,

@@ -45,11 +45,5 @@ export function plottersRoutes(plotters: ReadonlyMap<string, PlotterPort>, queue
     response.json(plotter.snapshot());
   });
 
-  router.post("/:id/home", async (request, response) => {
-    const plotter = findFree(request.params.id);
-    await plotter.home();
-    response.json(plotter.snapshot());
-  });
-
   return router;
 }

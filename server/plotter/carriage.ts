@@ -39,6 +39,8 @@ const STILL_S = 2;
 
 /** The board begins a little after the command was written, and ends as much later. */
 const SETTLE_S = 0.02;
+/** A servo's way from end to end, and some rest. */
+const SERVO_MS = 400;
 /** What the board's layer variable holds while its counters count from home. */
 const PLACE_KNOWN = 113;
 
@@ -86,9 +88,9 @@ export class Carriage {
   }
 
   /** Reads back where the motors are, after they did something else than was planned. */
-  async findPlace(): Promise<void> {
+  async findPlace(stillS?: number): Promise<void> {
     const { session, features } = this.connection;
-    await this.untilStill();
+    await this.untilStill(stillS);
     if (!features.hasStepQuery) throw placeUnknown();
     const [counter1, counter2] = parseSteps(await session.query("QS"));
     const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
@@ -102,6 +104,13 @@ export class Carriage {
       this.state = { steps1, steps2, acc1: 0, acc2: 0 };
     }
     this.events.changed();
+  }
+
+  /** The same where the place was known and can be read; false where not. `stillS`: board seconds to wait for rest. */
+  async findPlaceAgain(stillS: number): Promise<boolean> {
+    if (!this.state || !this.connection.features.hasStepQuery) return false;
+    await this.findPlace(stillS);
+    return true;
   }
 
   /**
@@ -122,9 +131,9 @@ export class Carriage {
   }
 
   /** A board that was left in mid-plot still plays what it had; it may stand blocked by a long move. */
-  private async untilStill(): Promise<void> {
+  private async untilStill(limitS: number = STILL_S * this.connection.speed): Promise<void> {
     const { session, boardClock } = this.connection;
-    const untilS = boardClock.nowS() + STILL_S * this.connection.speed;
+    const untilS = boardClock.nowS() + limitS;
     for (;;) {
       const moving = /[1-9]/.test(await session.query("QM", 1));
       if (!moving || boardClock.nowS() > untilS) return;
@@ -230,6 +239,20 @@ export class Carriage {
     await session.send(penCommand(machine, way), way.timeMs / 1000);
     await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
     this.penUp = up;
+    this.events.changed();
+  }
+
+  /** To a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is not known then. */
+  async moveServo(machine: MachineProfile, pos: number): Promise<void> {
+    const { session, boardClock } = this.connection;
+    await session.send(`S2,${pos},${machine.servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
+    await new Promise<void>((resolve) => void boardClock.after(SERVO_MS / 1000 + SETTLE_S, resolve));
+    this.penIsUnknown();
+  }
+
+  /** Somebody else has moved it. */
+  penIsUnknown(): void {
+    this.penUp = null;
     this.events.changed();
   }
 

@@ -15,6 +15,8 @@ import { openSerial } from "../serial/serial-transport.js";
 export interface ConnectOptions {
   /** "auto": the first EiBotBoard on USB, else the virtual board. "virtual", or a serial port's path. */
   readonly device: string;
+  /** "auto" passes over these. */
+  readonly isTaken?: ((path: string) => boolean) | undefined;
   /** "auto" with no board on USB: true for the virtual board, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
   readonly clock: Clock;
@@ -30,6 +32,8 @@ export interface Connection {
   /** Serial path; null for the built-in virtual board. */
   readonly device: string | null;
   readonly features: FirmwareFeatures;
+  /** The board's own name (ST); null where it has none. */
+  readonly boardName: string | null;
   /** Counts board seconds. */
   readonly boardClock: Clock;
   /** Board seconds in one of ours. */
@@ -40,15 +44,15 @@ export interface Connection {
 
 /** Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, in words for the user. */
 export async function connect(options: ConnectOptions): Promise<Connection> {
-  const path = options.device === "auto" ? await firstBoard() : options.device;
+  const path = options.device === "auto" ? await firstBoard(options) : options.device;
   if (path === null && !options.virtualIfNone) throw unplugged();
   if (path === null || path === "virtual") return connectVirtual(options);
   return identified(await openSerial(path), "serial", path, options, null);
 }
 
-async function firstBoard(): Promise<string | null> {
+async function firstBoard({ isTaken = () => false }: ConnectOptions): Promise<string | null> {
   const boards = await findBoards();
-  return boards[0]?.path ?? null;
+  return boards.find(({ path }) => !isTaken(path))?.path ?? null;
 }
 
 function connectVirtual(options: ConnectOptions): Promise<Connection> {
@@ -73,6 +77,7 @@ async function identified(
       kind,
       device,
       features,
+      boardName: features.hasGeneralQuery ? await nameOf(session) : null,
       boardClock: scaledClock(clock, speed),
       speed,
       virtualBoard,
@@ -81,6 +86,11 @@ async function identified(
     await session.close();
     throw device === null ? error : atDevice(error, device);
   }
+}
+
+async function nameOf(session: BoardSession): Promise<string | null> {
+  const name = (await session.query("QT")).trim();
+  return name === "" ? null : name;
 }
 
 /** The same failure, saying where. */

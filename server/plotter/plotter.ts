@@ -7,17 +7,26 @@
  *      └── nothing there ───┴── fault <──┴─────────┘   (tried again every 2 s while a device path is known)
  */
 import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS, type Plotter, type PlotSettings } from "../../src/schema/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type Plotter,
+  type PlotSettings,
+} from "../../src/schema/index.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
-import { isButtonPressed, isPowerLow, powerLow, testPatch } from "./health.js";
+import { isButtonPressed, isPowerLow, powerLow } from "./health.js";
+import { sendLine } from "./console.js";
+import { moveByHand, type HandMove } from "./hand-moves.js";
 import { CarriageRun } from "./plot-run.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
   /** "auto" (an EiBotBoard where one is plugged in, else the virtual board), "virtual", or a serial port's path. */
   readonly device: string;
+  /** Ports that "auto" leaves to others. */
+  readonly isTaken?: ((path: string) => boolean) | undefined;
   /** How many times faster than real time a virtual board runs; the one behind `device` too. Default 1. */
   readonly virtualSpeed?: number | undefined;
   /** Firmware that the built-in virtual board shows. Default 2.8.1. */
@@ -117,73 +126,67 @@ export class PlotterDriver {
     await this.byHand((carriage) => carriage.motorsOff());
   }
 
-  /** Lifts the pen and walks to where the carriage stood when the motors were switched on. */
-  async home(): Promise<void> {
-    await this.byHand((carriage) => carriage.walk(0, 0, this.settings));
+  /**
+   * Any move by hand, with the machine, speeds and heights of `settings`; left out, those of the last job or move.
+   * Rejects with `busy` while it plots, `out-of-bounds` beyond the machine.
+   */
+  async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
+    machineOf(settings);
+    await this.byHand((carriage) => {
+      this.settings = settings;
+      return moveByHand(carriage, move, settings);
+    });
+  }
+
+  /** Lifts the pen and walks to the switches where the machine has some, else to where home was set. */
+  home(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "home" }, settings);
   }
 
   /** Where the carriage stands is home from now on. */
-  async setHome(): Promise<void> {
-    await this.byHand((carriage) => carriage.setHome(machineOf(this.settings), this.settings.pen));
+  setHome(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "set-home" }, settings);
   }
 
-  /** Pen up, to a place in mm from home. Rejects with `out-of-bounds` for one beyond the machine. */
-  async walkTo(xMm: number, yMm: number): Promise<void> {
-    const { name, widthMm, heightMm } = machineOf(this.settings);
-    if (!(xMm >= 0 && xMm <= widthMm && yMm >= 0 && yMm <= heightMm)) {
-      throw new PlotwrightError(
-        "out-of-bounds",
-        `${xMm}, ${yMm} mm is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home.`,
-      );
-    }
-    await this.byHand((carriage) => carriage.walk(xMm, yMm, this.settings));
+  /** Pen up, to a place in mm from home. */
+  walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "walk", xMm, yMm }, settings);
   }
 
   /** Pen up, by so many mm; beyond home too, since that is how home is found. */
-  async jog(byXMm: number, byYMm: number): Promise<void> {
-    const machine = machineOf(this.settings);
-    if (!(Math.abs(byXMm) <= machine.widthMm && Math.abs(byYMm) <= machine.heightMm)) {
-      throw new PlotwrightError(
-        "out-of-bounds",
-        `A step of ${byXMm}, ${byYMm} mm is longer than the machine.`,
-      );
-    }
-    await this.byHand(async (carriage) => {
-      await carriage.ready(machine, this.settings.pen);
-      const { x, y } = carriage.place(machine)!;
-      await carriage.walk(x + byXMm, y + byYMm, this.settings);
-    });
+  jog(dxMm: number, dyMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "jog", dxMm, dyMm }, settings);
   }
 
   /** Down and up again, to look at the heights. */
-  async cyclePen(): Promise<void> {
-    await this.byHand(async (carriage) => {
-      await carriage.movePen(false, this.settings);
-      await carriage.movePen(true, this.settings);
-    });
+  cyclePen(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "cycle-pen" }, settings);
   }
 
   /** Walks around a rectangle with the pen up, and back to where the carriage was. mm from home. */
-  async traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number): Promise<void> {
-    await this.byHand(async (carriage) => {
-      const machine = machineOf(this.settings);
-      await carriage.ready(machine, this.settings.pen);
-      const { x, y } = carriage.place(machine)!;
-      const corners = [
-        [x0Mm, y0Mm],
-        [x1Mm, y0Mm],
-        [x1Mm, y1Mm],
-        [x0Mm, y1Mm],
-        [x0Mm, y0Mm],
-        [x, y],
-      ] as const;
-      for (const [cornerX, cornerY] of corners) await carriage.walk(cornerX, cornerY, this.settings);
-    });
+  traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number, settings?: PlotSettings): Promise<void> {
+    const boxMm = {
+      xMm: Math.min(x0Mm, x1Mm),
+      yMm: Math.min(y0Mm, y1Mm),
+      widthMm: Math.abs(x1Mm - x0Mm),
+      heightMm: Math.abs(y1Mm - y0Mm),
+    };
+    return this.move({ kind: "frame", boxMm }, settings);
   }
 
   /** Draws a small pattern from where the carriage stands, with the given settings, and comes back. */
-  async drawTestPatch(settings: PlotSettings = this.settings): Promise<void> {
-    await this.byHand((carriage) => carriage.drawHere(testPatch(), settings));
+  drawTestPatch(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "test-patch" }, settings);
+  }
+
+  /** Draws a square from where the carriage stands, whose measured size tells the steps for one mm. */
+  drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "square", sizeMm }, settings);
+  }
+
+  /** One line to the board, with all that it answers. Rejects with `bad-setting` for what would end the talk. */
+  async command(line: string): Promise<CommandAnswer> {
+    return this.byHand((carriage) => sendLine(carriage, line));
   }
 
   async close(): Promise<void> {
@@ -206,6 +209,7 @@ export class PlotterDriver {
     try {
       const connection = await connect({
         device: this.options.device,
+        isTaken: this.options.isTaken,
         virtualIfNone: !this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
@@ -249,6 +253,7 @@ export class PlotterDriver {
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
+      boardName: connection.boardName,
       firmware: connection.features.version,
       message: this.welcome(connection),
     });
@@ -312,12 +317,12 @@ export class PlotterDriver {
     this.carriage?.forgetPlace().catch(() => undefined);
   }
 
-  private async byHand(action: (carriage: Carriage) => Promise<void>): Promise<void> {
+  private async byHand<T>(action: (carriage: Carriage) => Promise<T>): Promise<T> {
     const carriage = await this.idleCarriage();
     this.movingByHand = true;
     this.tell({ connection: "busy" });
     try {
-      await action(carriage);
+      return await action(carriage);
     } finally {
       this.movingByHand = false;
       if (this.carriage && !this.powerIsLow) this.tell({ connection: "idle" });

@@ -1,5 +1,6 @@
 /** What the server needs of a plotter's driver; `server/plotter` is what stands behind it. */
-import type { Plotter, PlotSettings } from "../../src/schema/index.js";
+import type { CommandAnswer, Plotter, PlotSettings } from "../../src/schema/index.js";
+import type { HandMove } from "../plotter/hand-moves.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "../plotter/types.js";
 
 export interface PlotterPort {
@@ -10,9 +11,16 @@ export interface PlotterPort {
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
   pen(up: boolean, heightPct?: number): Promise<void>;
   motorsOff(): Promise<void>;
+  /** A move by hand with the machine, speeds and heights of `settings`; left out: of the last job or move. */
+  move(move: HandMove, settings?: PlotSettings): Promise<void>;
+  /** One line to the board, with all that it answers. */
+  command(line: string): Promise<CommandAnswer>;
   /** Commands and replies of the present connection. */
   log(): string;
-  /** Lifts the pen and walks home. */
-  home(): Promise<void>;
   close(): Promise<void>;
+}
+
+/** A plotter that the server keeps under a name of the user's. */
+export interface ManagedPlotter extends PlotterPort {
+  rename(name: string): void;
 }

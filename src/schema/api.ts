@@ -21,7 +21,19 @@
  *   DELETE /api/v1/jobs/:id                   → { ok: true }  (not while plotting or paused)
  *   POST   /api/v1/plotters/:id/pen           { up: boolean, heightPct? } → Plotter
  *   POST   /api/v1/plotters/:id/motors-off    → Plotter
- *   POST   /api/v1/plotters/:id/home          walks to home, pen up → Plotter
+ *   POST   /api/v1/plotters/:id/home          walks to home, pen up; to the switches where there are some → Plotter
+ *   POST   /api/v1/plotters/:id/walk          WalkRequest → Plotter      pen up, to a place in mm from home
+ *   POST   /api/v1/plotters/:id/jog           JogRequest → Plotter       pen up, by so many mm
+ *   POST   /api/v1/plotters/:id/set-home      HandMoveRequest → Plotter  where the carriage stands
+ *   POST   /api/v1/plotters/:id/cycle-pen     HandMoveRequest → Plotter  down and up again
+ *   POST   /api/v1/plotters/:id/frame         FrameRequest → Plotter     around a drawing, pen up, and back
+ *   POST   /api/v1/plotters/:id/test-patch    HandMoveRequest → Plotter  a small pattern where the carriage stands
+ *   POST   /api/v1/plotters/:id/square        SquareRequest → Plotter    a square to be measured
+ *   POST   /api/v1/plotters/:id/servo         ServoRequest → Plotter     a raw servo position
+ *   POST   /api/v1/plotters/:id/command       CommandRequest → CommandAnswer  one line to the board
+ *   GET    /api/v1/machines                   → MachineList
+ *   PUT    /api/v1/machines/:id               MachineProfile → MachineProfile (of the user's own)
+ *   DELETE /api/v1/machines/:id               → { ok: true }
  *   GET    /api/v1/plotters/:id/log           commands and replies of this connection, as text
  *   GET    /api/v1/access                     → { entries: AccessEntry[] }: sessions and keys
  *   POST   /api/v1/access/keys                NewKey → 201 { entry, secret }

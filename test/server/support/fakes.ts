@@ -1,6 +1,7 @@
 /** A plotter and a planner without hardware or threads, led by the test. */
+import type { HandMove } from "../../../server/plotter/hand-moves.js";
 import type { PlotterPort } from "../../../server/queue/plotter-port.js";
-import type { Planning } from "../../../server/queue/job-queue.js";
+import type { Planning } from "../../../server/queue/queue-parts.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -11,7 +12,7 @@ import type {
   PlotStart,
 } from "../../../server/plotter/types.js";
 import type { Place } from "../../../src/index.js";
-import type { Plotter, PlotSettings } from "../../../src/schema/index.js";
+import type { CommandAnswer, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { STATS } from "./jobs.js";
 
 export class LedRun implements LivePlotRun {
@@ -19,7 +20,7 @@ export class LedRun implements LivePlotRun {
   end!: (outcome: PlotOutcome) => void;
   fail!: (error: Error) => void;
   progress: (progress: PlotProgress) => void = () => undefined;
-  held: (held: boolean) => void = () => undefined;
+  held: (held: boolean, wait?: PlotWait | null) => void = () => undefined;
   readonly asked: string[] = [];
   holdPlace: Place | null;
   readonly #start: PlotStart;
@@ -37,7 +38,7 @@ export class LedRun implements LivePlotRun {
     this.progress = listener;
   }
 
-  onHeld(listener: (held: boolean) => void): void {
+  onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void {
     this.held = listener;
   }
 
@@ -147,9 +148,14 @@ export class LedPlotter implements PlotterPort {
     return "V\nEBB";
   }
 
-  home(): Promise<void> {
-    this.asked.push("home");
+  move({ kind }: HandMove): Promise<void> {
+    this.asked.push(kind);
     return Promise.resolve();
+  }
+
+  command(line: string): Promise<CommandAnswer> {
+    this.asked.push(line);
+    return Promise.resolve({ replies: ["OK"], note: null });
   }
 
   close(): Promise<void> {

@@ -1,0 +1,104 @@
+/** /api/v1/plotters/:id/…: moves by hand and the board's console, while no job is plotting. */
+import express, { Router, type Request } from "express";
+import type { ZodType } from "zod";
+import { PlotwrightError } from "../../src/index.js";
+import {
+  commandRequestSchema,
+  frameRequestSchema,
+  handMoveRequestSchema,
+  jogRequestSchema,
+  servoRequestSchema,
+  squareRequestSchema,
+  walkRequestSchema,
+  type BoxMm,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+import type { HandMove } from "../plotter/hand-moves.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { PlotterPort } from "../queue/plotter-port.js";
+import { parseWith } from "./errors.js";
+
+export interface HandMoveParts {
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly queue: JobQueue;
+  /** The box of a job's drawing as its settings place it on the machine. */
+  readonly jobBoxMm: (jobId: string) => Promise<BoxMm>;
+  /** Puts the profile in where settings name a machine of the user's own. */
+  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+}
+
+interface Wanted {
+  readonly move: HandMove;
+  readonly settings: PlotSettings | undefined;
+}
+
+export function handMovesRoutes(parts: HandMoveParts): Router {
+  const router = Router();
+  router.use(express.json({ limit: "1mb" }));
+
+  const findFree = (id: string): PlotterPort => {
+    const plotter = parts.plotters.get(id);
+    if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+    if (parts.queue.isPlotterBusy(id)) {
+      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
+    }
+    return plotter;
+  };
+
+  for (const [name, wantedOf] of Object.entries(MOVES)) {
+    router.post(`/:id/${name}`, async (request, response) => {
+      const { move, settings } = await wantedOf(request, parts);
+      const plotter = findFree(request.params["id"] as string);
+      await plotter.move(move, settings === undefined ? undefined : parts.withMachine(settings));
+      response.json(plotter.snapshot());
+    });
+  }
+
+  router.post("/:id/command", async (request, response) => {
+    const { line } = parseWith(commandRequestSchema, request.body);
+    response.json(await findFree(request.params.id).command(line));
+  });
+
+  return router;
+}
+
+type WantedOf = (request: Request, parts: HandMoveParts) => Wanted | Promise<Wanted>;
+
+const plain =
+  (kind: "home" | "set-home" | "cycle-pen" | "test-patch"): WantedOf =>
+  (request) => ({ move: { kind }, settings: bodyOf(request, handMoveRequestSchema).settings });
+
+const MOVES: Readonly<Record<string, WantedOf>> = {
+  walk: (request) => {
+    const { xMm, yMm, settings } = bodyOf(request, walkRequestSchema);
+    return { move: { kind: "walk", xMm, yMm }, settings };
+  },
+  jog: (request) => {
+    const { dxMm, dyMm, settings } = bodyOf(request, jogRequestSchema);
+    return { move: { kind: "jog", dxMm, dyMm }, settings };
+  },
+  home: plain("home"),
+  "set-home": plain("set-home"),
+  "cycle-pen": plain("cycle-pen"),
+  "test-patch": plain("test-patch"),
+  frame: async (request, parts) => {
+    const body = bodyOf(request, frameRequestSchema);
+    if ("boxMm" in body) return { move: { kind: "frame", boxMm: body.boxMm }, settings: body.settings };
+    const boxMm = await parts.jobBoxMm(body.jobId);
+    return {
+      move: { kind: "frame", boxMm },
+      settings: body.settings ?? parts.queue.get(body.jobId).settings,
+    };
+  },
+  square: (request) => {
+    const { sizeMm, settings } = bodyOf(request, squareRequestSchema);
+    return { move: { kind: "square", sizeMm }, settings };
+  },
+  servo: (request) => {
+    const { pos, settings } = bodyOf(request, servoRequestSchema);
+    return { move: { kind: "servo", pos }, settings };
+  },
+};
+
+/** A move that needs nothing may be asked for without a body. */
+const bodyOf = <T>(request: Request, schema: ZodType<T>): T => parseWith(schema, request.body ?? {});

@@ -1,0 +1,33 @@
+/** /api/v1/machines: plotters as data, those that come with plotwright and the user's own. */
+import express, { Router } from "express";
+import { PlotwrightError } from "../../src/index.js";
+import { machineProfileSchema } from "../../src/schema/index.js";
+import type { MachineFiles } from "../machines/machine-files.js";
+import { parseWith } from "./errors.js";
+
+export function machinesRoutes(machines: MachineFiles): Router {
+  const router = Router();
+  router.use(express.json({ limit: "100kb" }));
+
+  router.get("/", (_request, response) => {
+    response.json({ machines: machines.list() });
+  });
+
+  router.put("/:id", (request, response) => {
+    const machine = parseWith(machineProfileSchema, request.body);
+    if (machine.id !== request.params.id) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `id: it is ${machine.id}, but the path says ${request.params.id}.`,
+      );
+    }
+    response.json(machines.save(machine));
+  });
+
+  router.delete("/:id", (request, response) => {
+    machines.remove(request.params.id);
+    response.json({ ok: true });
+  });
+
+  return router;
+}

@@ -1,0 +1,95 @@
+/**
+ * Plotters of the user's own, one JSON file each in the data folder. A file that does not parse is named and
+ * skipped: it may have been made by hand.
+ */
+import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { MACHINES, PlotwrightError, type MachineProfile } from "../../src/index.js";
+import { machineProfileSchema, type ListedMachine, type PlotSettings } from "../../src/schema/index.js";
+
+export class MachineFiles {
+  readonly #dir: string;
+  readonly #own = new Map<string, MachineProfile>();
+  /** What is wrong with files that were skipped. */
+  readonly warnings: readonly string[];
+
+  /** @param dataDir need not exist: then there are no machines of the user's own yet */
+  constructor(dataDir: string) {
+    this.#dir = join(dataDir, "machines");
+    const warnings: string[] = [];
+    for (const name of fileNames(this.#dir)) {
+      try {
+        const machine = readMachineFile(join(this.#dir, name));
+        if (name !== `${machine.id}.json`) throw new Error(`its id is ${machine.id}, which is not its name`);
+        if (isBuiltIn(machine.id)) throw new Error("a machine that comes with plotwright has its id");
+        this.#own.set(machine.id, machine);
+      } catch (error) {
+        warnings.push(`${join(this.#dir, name)} is skipped: ${(error as Error).message}`);
+      }
+    }
+    this.warnings = warnings;
+  }
+
+  /** Those that come with plotwright first. */
+  list(): ListedMachine[] {
+    const own = [...this.#own.values()].sort((a, b) => a.name.localeCompare(b.name));
+    return [
+      ...MACHINES.map((machine) => ({ ...machine, builtIn: true })),
+      ...own.map((machine) => ({ ...machine, builtIn: false })),
+    ];
+  }
+
+  /** On disk before it is known. Throws `conflict` for the id of one that comes with plotwright. */
+  save(machine: MachineProfile): MachineProfile {
+    mustBeOwn(machine.id);
+    mkdirSync(this.#dir, { recursive: true, mode: 0o700 });
+    const path = join(this.#dir, `${machine.id}.json`);
+    // Renamed into place, so that a file is there whole or not at all.
+    writeFileSync(`${path}.new`, `${JSON.stringify(machine, null, 2)}\n`, { flush: true });
+    renameSync(`${path}.new`, path);
+    this.#own.set(machine.id, machine);
+    return machine;
+  }
+
+  /** Jobs that use it keep their copy. Throws `not-found`. */
+  remove(id: string): void {
+    mustBeOwn(id);
+    if (!this.#own.delete(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
+    rmSync(join(this.#dir, `${id}.json`), { force: true });
+  }
+
+  /** The settings with the profile in them, where they name a machine of the user's own without it. */
+  withMachine(settings: PlotSettings): PlotSettings {
+    const own = this.#own.get(settings.machine);
+    if (own === undefined || settings.customMachine?.id === settings.machine) return settings;
+    return { ...settings, customMachine: own };
+  }
+}
+
+/** Throws an error that says what is wrong with the file. */
+export function readMachineFile(path: string): MachineProfile {
+  const result = machineProfileSchema.safeParse(JSON.parse(readFileSync(path, "utf8")));
+  if (result.success) return result.data;
+  const issue = result.error.issues[0];
+  throw new Error(`${issue?.path.join(".") ?? ""}: ${issue?.message ?? "not a machine's profile"}`);
+}
+
+function fileNames(dir: string): string[] {
+  try {
+    return readdirSync(dir)
+      .filter((name) => name.endsWith(".json"))
+      .sort();
+  } catch {
+    return [];
+  }
+}
+
+const isBuiltIn = (id: string): boolean => MACHINES.some((machine) => machine.id === id);
+
+function mustBeOwn(id: string): void {
+  if (!isBuiltIn(id)) return;
+  throw new PlotwrightError(
+    "conflict",
+    `${id} comes with plotwright and stays as it is: save yours under another id.`,
+  );
+}

@@ -1,0 +1,22 @@
+/** Where a drawing lies on the machine: the box of its strokes, as its settings place them. */
+import { machineOf } from "../../src/index.js";
+import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
+import { WorkerPlanner } from "./planner.js";
+
+/** Throws what import and prepare throw; a drawing without strokes is `bad-file`. */
+export async function drawingBoxMm(path: string, settings: PlotSettings): Promise<BoxMm> {
+  const planner = await WorkerPlanner.open({ path, settings, machine: machineOf(settings) });
+  try {
+    const { xy } = planner.strokes;
+    let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < xy.length; i += 2) {
+      x0 = Math.min(x0, xy[i]!);
+      x1 = Math.max(x1, xy[i]!);
+      y0 = Math.min(y0, xy[i + 1]!);
+      y1 = Math.max(y1, xy[i + 1]!);
+    }
+    return { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 };
+  } finally {
+    await planner.close();
+  }
+}

@@ -1,0 +1,128 @@
+/**
+ * What may be asked of an idle plotter by hand, as data, and how the carriage does it. Every move begins with the
+ * pen up and stays within the machine; where nobody knows where the carriage is, it stands at home.
+ */
+import { machineOf, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
+import type { Carriage } from "./carriage.js";
+import { testPatch } from "./health.js";
+import { seekHome } from "./homing.js";
+
+export type HandMove =
+  /** To a place, mm from home. */
+  | { readonly kind: "walk"; readonly xMm: number; readonly yMm: number }
+  /** By so many mm; beyond home too, since that is how home is found. */
+  | { readonly kind: "jog"; readonly dxMm: number; readonly dyMm: number }
+  /** To the switches where the machine has some, else to where home was set. */
+  | { readonly kind: "home" }
+  /** Where the carriage stands is home from now on. */
+  | { readonly kind: "set-home" }
+  /** Down and up again, to look at the heights. */
+  | { readonly kind: "cycle-pen" }
+  /** Around a box with the pen up, and back. */
+  | { readonly kind: "frame"; readonly boxMm: BoxMm }
+  /** Draws a small pattern from where the carriage stands, and comes back. */
+  | { readonly kind: "test-patch" }
+  /** Draws a square from where the carriage stands, to be measured, and comes back. */
+  | { readonly kind: "square"; readonly sizeMm: number }
+  /** A raw servo position, 1/12 µs. */
+  | { readonly kind: "servo"; readonly pos: number };
+
+/** Rejects with `out-of-bounds` before anything moves, or with what the board fails with. */
+export async function moveByHand(carriage: Carriage, move: HandMove, settings: PlotSettings): Promise<void> {
+  const machine = machineOf(settings);
+  switch (move.kind) {
+    case "walk":
+      mustReach(machine, move.xMm, move.yMm);
+      return carriage.walk(move.xMm, move.yMm, settings);
+    case "jog":
+      return jog(carriage, move.dxMm, move.dyMm, settings);
+    case "home":
+      if (machine.homing) return seekHome(carriage, settings, machine.homing);
+      return carriage.walk(0, 0, settings);
+    case "set-home":
+      return carriage.setHome(machine, settings.pen);
+    case "cycle-pen":
+      await carriage.movePen(false, settings);
+      return carriage.movePen(true, settings);
+    case "frame":
+      return traceFrame(carriage, move.boxMm, settings);
+    case "test-patch":
+      return drawHere(carriage, testPatch(), settings);
+    case "square":
+      return drawHere(carriage, squareOf(move.sizeMm), settings);
+    case "servo":
+      return carriage.moveServo(machine, move.pos);
+  }
+}
+
+async function jog(carriage: Carriage, dxMm: number, dyMm: number, settings: PlotSettings): Promise<void> {
+  const machine = machineOf(settings);
+  const { widthMm, heightMm } = machine;
+  if (!(Math.abs(dxMm) <= widthMm && Math.abs(dyMm) <= heightMm)) {
+    throw new PlotwrightError("out-of-bounds", `A step of ${dxMm}, ${dyMm} mm is longer than the machine.`);
+  }
+  const { x, y } = await standing(carriage, settings);
+  // Home may not be where the machine's corner is, but it can't be further from it than the machine is long.
+  const isWithin =
+    x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
+  if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);
+  await carriage.walk(x + dxMm, y + dyMm, settings);
+}
+
+async function traceFrame(carriage: Carriage, box: BoxMm, settings: PlotSettings): Promise<void> {
+  const machine = machineOf(settings);
+  const [x1, y1] = [box.xMm + box.widthMm, box.yMm + box.heightMm];
+  mustReach(machine, box.xMm, box.yMm);
+  mustReach(machine, x1, y1);
+  const { x, y } = await standing(carriage, settings);
+  const corners = [
+    [box.xMm, box.yMm],
+    [x1, box.yMm],
+    [x1, y1],
+    [box.xMm, y1],
+    [box.xMm, box.yMm],
+    [x, y],
+  ] as const;
+  for (const [cornerX, cornerY] of corners) await carriage.walk(cornerX, cornerY, settings);
+}
+
+async function drawHere(carriage: Carriage, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
+  const machine = machineOf(settings);
+  const { x, y } = await standing(carriage, settings);
+  const { xy } = strokes;
+  for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i]!, y + xy[i + 1]!);
+  await carriage.drawHere(strokes, settings);
+}
+
+async function standing(carriage: Carriage, settings: PlotSettings): Promise<{ x: number; y: number }> {
+  const machine = machineOf(settings);
+  await carriage.ready(machine, settings.pen);
+  return carriage.place(machine)!;
+}
+
+/** Rounding of a place that was read from motor steps, mm. */
+const SAME_MM = 0.05;
+
+function mustReach(machine: MachineProfile, x: number, y: number): void {
+  const { widthMm, heightMm } = machine;
+  const isWithin = x >= -SAME_MM && x <= widthMm + SAME_MM && y >= -SAME_MM && y <= heightMm + SAME_MM;
+  if (!isWithin) throw beyond(machine, x, y);
+}
+
+function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: number): PlotwrightError {
+  const at = `${Number(x.toFixed(2))}, ${Number(y.toFixed(2))} mm`;
+  return new PlotwrightError(
+    "out-of-bounds",
+    `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage stands elsewhere.`,
+  );
+}
+
+function squareOf(sizeMm: number): StrokeSet {
+  return {
+    xy: Float64Array.from([0, 0, sizeMm, 0, sizeMm, sizeMm, 0, sizeMm, 0, 0]),
+    offsets: Uint32Array.from([0, 5]),
+    layer: new Uint16Array(1),
+    layers: [{ id: "square", name: "Square", color: null }],
+  };
+}

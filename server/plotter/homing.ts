@@ -1,0 +1,87 @@
+/**
+ * Home by the machine's own switches: each axis goes towards 0 in short steps until its switch is pressed, then
+ * back in very short ones until it is released. That is home; both axes one after the other.
+ *
+ * Asking between short moves needs nothing but the board's PI, which every firmware has.
+ */
+import {
+  machineOf,
+  PlotwrightError,
+  type HomingSwitches,
+  type MachineProfile,
+  type SwitchInput,
+} from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { Carriage } from "./carriage.js";
+
+/** No longer than what a switch gives way. */
+const SEEK_MM = 1;
+const RELEASE_MM = 0.05;
+/** A switch that is still pressed so far away is no end switch. */
+const MOST_RELEASE_MM = 10;
+/** The machine may be this much longer than its travel. */
+const SLACK = 1.1;
+const SEEK_SPEED_MM_PER_S = 30;
+
+export async function seekHome(
+  carriage: Carriage,
+  settings: PlotSettings,
+  homing: HomingSwitches,
+): Promise<void> {
+  const machine = machineOf(settings);
+  const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
+  await carriage.ready(machine, settings.pen);
+  await seekAxis(carriage, slow, homing.x, "x", machine.widthMm * SLACK);
+  await seekAxis(carriage, slow, homing.y, "y", machine.heightMm * SLACK);
+  await carriage.setHome(machine, settings.pen);
+}
+
+async function seekAxis(
+  carriage: Carriage,
+  settings: PlotSettings,
+  input: SwitchInput,
+  axis: "x" | "y",
+  mostMm: number,
+): Promise<void> {
+  const machine = machineOf(settings);
+  await carriage.connection.session.send(`PD,${input.port},${input.pin},1`);
+  const step = async (byMm: number): Promise<void> => {
+    const { x, y } = carriage.place(machine)!;
+    await carriage.walk(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
+  };
+  for (let wentMm = 0; !(await isPressed(carriage, input)); wentMm += SEEK_MM) {
+    if (wentMm > mostMm) throw unmet(machine, axis, mostMm, input);
+    await step(-SEEK_MM);
+  }
+  for (let wentMm = 0; await isPressed(carriage, input); wentMm += RELEASE_MM) {
+    if (wentMm > MOST_RELEASE_MM) throw stuck(axis, input);
+    await step(RELEASE_MM);
+  }
+}
+
+async function isPressed(carriage: Carriage, { port, pin, pressed }: SwitchInput): Promise<boolean> {
+  return Number(await carriage.connection.session.query(`PI,${port},${pin}`)) === pressed;
+}
+
+const withTravelSpeed = (settings: PlotSettings, speedMmPerS: number): PlotSettings => {
+  const { motion } = settings;
+  const travel = { ...motion.travel, speedMmPerS: Math.min(speedMmPerS, motion.travel.speedMmPerS) };
+  return { ...settings, motion: { ...motion, travel } };
+};
+
+const unmet = (
+  { name }: MachineProfile,
+  axis: string,
+  mostMm: number,
+  { port, pin }: SwitchInput,
+): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The ${name} went ${Math.round(mostMm)} mm along ${axis} and met no switch: look at its cable and at the input (${port}${pin}) in the machine's profile.`,
+  );
+
+const stuck = (axis: string, { port, pin }: SwitchInput): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The switch of ${axis} (${port}${pin}) stays pressed although the carriage went away from it: the profile may have its two states the wrong way round.`,
+  );
