@@ -13,7 +13,7 @@
  *
  * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
  */
-import { EndType, JoinType, Clipper, type Paths64 } from "clipper2-ts";
+import { ClipperOffset, EndType, JoinType, type Paths64 } from "clipper2-ts";
 import { LineBuilder } from "../geometry/polyline.js";
 import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
 import type { HatchSettings } from "./settings.js";
@@ -24,6 +24,8 @@ const FINEST_SPACING = 0.05;
 const LONGEST_LINK = 2;
 /** mm: links along a straight border are looked at so much further in, as on it inside and outside are a matter of rounding. */
 const HAIR = 1e-3;
+/** A sharp corner of the inset is cut off this many widths away. */
+const MITER_LIMIT = 2;
 
 /** Adds the hatch of `area` to `builder` under `tag`. */
 export function hatchArea(area: Region, hatch: HatchSettings, tag: number, builder: LineBuilder): void {
@@ -38,7 +40,12 @@ export function hatchArea(area: Region, hatch: HatchSettings, tag: number, build
 
 /** The area without a border of that width, mm. */
 function inset(rings: Paths64, width: number): Region {
-  return regionOf(Clipper.inflatePaths(rings, -width * SCALE, JoinType.Miter, EndType.Polygon, 2));
+  // Clipper.inflatePaths does the same, but brings all of the library into the page's worker.
+  const offset = new ClipperOffset(MITER_LIMIT);
+  offset.addPaths(rings, JoinType.Miter, EndType.Polygon);
+  const inner: Paths64 = [];
+  offset.execute(-width * SCALE, inner);
+  return regionOf(inner);
 }
 
 function hatchOneWay(area: Region, spacing: number, angle: number, tag: number, builder: LineBuilder): void {
