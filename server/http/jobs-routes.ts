@@ -59,16 +59,26 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   });
 
   const actions: Readonly<Record<string, (id: string) => Job>> = {
-    start: (id) => queue.start(id),
     pause: (id) => queue.pause(id),
     resume: (id) => queue.resume(id),
     cancel: (id) => queue.cancel(id),
     requeue: (id) => queue.requeue(id),
-    recover: (id) => queue.recover(id),
   };
   for (const [name, act] of Object.entries(actions)) {
     router.post(`/:id/${name}`, (request, response) => {
       response.json(act(request.params.id));
+    });
+  }
+
+  // Just after its start the server is still looking for its boards.
+  const onBoard: Readonly<Record<string, (id: string) => Job>> = {
+    start: (id) => queue.start(id),
+    recover: (id) => queue.recover(id),
+  };
+  for (const [name, act] of Object.entries(onBoard)) {
+    router.post(`/:id/${name}`, async (request, response) => {
+      await queue.plotterSettled(request.params["id"] as string);
+      response.json(act(request.params["id"] as string));
     });
   }
 

@@ -61,6 +61,8 @@ export interface CarriageEvents {
 export class Carriage {
   penUp: boolean | null = null;
   motorsOn: boolean | null = null;
+  /** On a board that kept its counters when it was connected, until something moves: how it was left in mid-plot. */
+  left: { readonly penUp: boolean } | null = null;
   /** Underruns of the streams played so far on this connection. */
   underrunCount = 0;
 
@@ -85,11 +87,21 @@ export class Carriage {
     if (!(await this.isMarked())) return;
     await this.findPlace();
     this.motorsOn = true;
+    await this.liftWhereLeft();
+  }
+
+  /** A pen that was left on the paper in mid-plot would bleed there; its up position is still that of the plot. */
+  private async liftWhereLeft(): Promise<void> {
+    const { session } = this.connection;
+    const penUp = Number(await session.query("QP")) === 1;
+    this.left = { penUp };
+    if (!penUp) await session.send(`SP,1,${SERVO_MS}`, SERVO_MS / 1000);
   }
 
   /** Reads back where the motors are, after they did something else than was planned. */
   async findPlace(stillS?: number): Promise<void> {
     const { session, features } = this.connection;
+    this.left = null;
     await this.untilStill(stillS);
     if (!features.hasStepQuery) throw placeUnknown();
     const [counter1, counter2] = parseSteps(await session.query("QS"));
@@ -180,6 +192,7 @@ export class Carriage {
   /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
   async play(streamer: Streamer, plot: PlannedPlot): Promise<StreamReport> {
     const start = this.state!;
+    this.left = null;
     this.motorsOn = true;
     this.penUp = null;
     try {
@@ -261,6 +274,7 @@ export class Carriage {
     await this.mark(0);
     await this.connection.session.send("EM,0,0");
     this.motorsOn = false;
+    this.left = null;
     this.state = null;
     this.events.changed();
   }
@@ -270,6 +284,7 @@ export class Carriage {
     await this.ready(machine, pen);
     const { session, features } = this.connection;
     const { steps1, steps2, acc1, acc2 } = this.state!;
+    this.left = null;
     if (features.hasStepQuery) {
       await session.send("CS");
       this.origin = [0, 0];
@@ -284,6 +299,7 @@ export class Carriage {
   /** The motors were without power: the carriage may stand anywhere. */
   async forgetPlace(): Promise<void> {
     this.state = null;
+    this.left = null;
     this.motorsOn = null;
     await this.mark(0);
     this.events.changed();

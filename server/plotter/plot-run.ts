@@ -42,6 +42,7 @@ import {
   withoutDrop,
 } from "./plan-places.js";
 import { RunProgress, type Part } from "./run-progress.js";
+import { stoppedPlace } from "./stopped-place.js";
 import { Waiters } from "./waiters.js";
 import type {
   LivePlotRun,
@@ -56,6 +57,8 @@ import type {
 /** Between two reports of progress, and two journal entries, seconds of ours. */
 const PROGRESS_S = 0.06;
 const JOURNAL_S = 0.25;
+/** Between the last journal entry and the end of what the board had got, at most, seconds of ours. */
+const LEFT_S = 1.5;
 /** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
@@ -103,7 +106,7 @@ export class CarriageRun implements LivePlotRun {
   ) {
     this.settings = settings;
     this.boardPen = settings.pen;
-    this.holdPlace = start.from ?? null;
+    this.holdPlace = start.from ? this.placeLeft(start.from) : null;
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
     this.finished = this.run().then(
       (outcome) => {
@@ -187,6 +190,16 @@ export class CarriageRun implements LivePlotRun {
     await this.carriage.walk(x, y, this.settings);
   }
 
+  /** Where the plot that goes on was broken off, by the board's own counters where it has kept them. */
+  private placeLeft(from: Place): Place {
+    const { left, connection } = this.carriage;
+    const at = this.carriage.place(machineOf(this.settings));
+    if (!left || !at) return from;
+    const { draw, travel } = this.settings.motion;
+    const aheadMm = LEFT_S * connection.speed * Math.max(draw.speedMmPerS, travel.speedMmPerS);
+    return stoppedPlace(this.planner.strokes, from, { ...at, up: left.penUp }, aheadMm);
+  }
+
   private heldPlace(): Place {
     if (!this.held || !this.holdPlace) {
       throw new PlotwrightError("conflict", "The plot is not held: pause it first.");
@@ -206,6 +219,10 @@ export class CarriageRun implements LivePlotRun {
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
+    }
+    // What was broken off may have left the pen on the paper.
+    if (this.start.from && this.carriage.boardState && this.carriage.penUp !== true) {
+      await this.carriage.movePen(true, this.settings);
     }
     for (;;) {
       if (this.wish === "hold") await this.hold();

@@ -98,6 +98,11 @@ export class PlotterDriver {
     return this.startConnecting();
   }
 
+  /** Resolves when it is known whether the board is there: at once, but while it is connecting. */
+  async settled(): Promise<void> {
+    await this.connecting;
+  }
+
   /** Commands and replies of the present connection, as text to be downloaded. */
   log(): string {
     return this.connection?.session.log.text() ?? "";

@@ -6,6 +6,8 @@ import type { LivePlotRun, PlotPlanner, PlotStart } from "../plotter/types.js";
 export interface PlotterPort {
   readonly id: string;
   snapshot(): Plotter;
+  /** Resolves when it is known whether its board is there: at once, but while it is connecting. */
+  settled(): Promise<void>;
   onChange(listener: (plotter: Plotter) => void): void;
   /** Begins a plot; throws `no-board`, `busy` or `board-error` when it can't. */
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;

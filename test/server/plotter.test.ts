@@ -175,7 +175,7 @@ describe("moves by hand from place to place", () => {
 });
 
 describe("a plot that was broken off", () => {
-  it("goes on from the journal's place, held until the user says so, with the place still known", async () => {
+  it("goes on from where the board had come to, held until the user says so, and draws nothing twice", async () => {
     const { world, driver, board } = await newPlotter();
     const journal: JournalEntry[] = [];
     const planner = new LocalPlanner(TWO_LINES);
@@ -194,7 +194,9 @@ describe("a plot that was broken off", () => {
     const linesBefore = drawn(board).length;
     await world.advance(2);
     expect(drawn(board).length).toBe(linesBefore);
-    expect(run.holdPlace).toEqual(place);
+    // The journal is a little behind: the board played out what it had.
+    expect(run.holdPlace!.stroke).toBe(place.stroke);
+    expect(run.holdPlace!.alongMm).toBeGreaterThan(place.alongMm);
     await world.run(run.resume());
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });

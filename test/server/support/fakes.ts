@@ -118,6 +118,10 @@ export class LedPlotter implements PlotterPort {
     };
   }
 
+  settled(): Promise<void> {
+    return Promise.resolve();
+  }
+
   onChange(): void {}
 
   plot(_planner: PlotPlanner, _settings: PlotSettings, start: PlotStart = {}): LedRun {

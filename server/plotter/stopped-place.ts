@@ -1,0 +1,86 @@
+/**
+ * Where a plot really stopped that was broken off: the journal is up to half a second old, but a board that kept
+ * its counters tells where the pen stands, and whether it is down.
+ *
+ *    journal ──drawn since──┐         pen down: on a stroke, so the plot goes on from that very point
+ *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: on the way to a stroke, which is the next to be drawn
+ *                         (x, y)
+ *
+ * The first place that fits counts, looking on from the journal's: what is drawn twice does less harm than what
+ * is not drawn at all.
+ */
+import type { Place, StrokeSet } from "../../src/index.js";
+import { strokeLengthMm } from "./plan-places.js";
+
+/** Rounded corners, fitted curves and whole steps, mm. */
+const NEAR_MM = 0.08;
+
+/** `aheadMm`: how far the pen can have come since, with all travels. Where nothing fits, the journal's place. */
+export function stoppedPlace(
+  strokes: StrokeSet,
+  journal: Place,
+  pen: { readonly x: number; readonly y: number; readonly up: boolean },
+  aheadMm: number,
+): Place {
+  const { xy, offsets } = strokes;
+  const count = offsets.length - 1;
+  let leftMm = aheadMm + journal.alongMm;
+  for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
+    const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
+    if (!pen.up) {
+      const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y);
+      if (alongMm !== null) return { stroke, alongMm };
+    }
+    leftMm -= strokeLengthMm(strokes, stroke);
+    if (stroke + 1 === count) break;
+    const [end, next] = [2 * offsets[stroke + 1]! - 2, 2 * offsets[stroke + 1]!];
+    const travel = [xy[end]!, xy[end + 1]!, xy[next]!, xy[next + 1]!] as const;
+    if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= NEAR_MM)
+      return { stroke: stroke + 1, alongMm: 0 };
+    leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
+  }
+  return journal;
+}
+
+/** mm along a stroke where it passes a point for the first time after `fromMm`; null where it does not. */
+function alongOf(
+  { xy, offsets }: StrokeSet,
+  stroke: number,
+  fromMm: number,
+  x: number,
+  y: number,
+): number | null {
+  let startMm = 0;
+  let passMm: number | null = null;
+  let gapMm = NEAR_MM;
+  const last = offsets[stroke + 1]! - 1;
+  // A dot is a piece of no length.
+  for (let i = offsets[stroke]!; i < Math.max(last, offsets[stroke]! + 1); i++) {
+    const j = Math.min(i + 1, last);
+    const piece = [xy[2 * i]!, xy[2 * i + 1]!, xy[2 * j]!, xy[2 * j + 1]!] as const;
+    const lengthMm = Math.hypot(piece[2] - piece[0], piece[3] - piece[1]);
+    const { share, awayMm } = nearest(...piece, x, y);
+    const isAfter = startMm + share * lengthMm >= fromMm - NEAR_MM;
+    if (isAfter && awayMm <= gapMm) {
+      passMm = startMm + share * lengthMm;
+      gapMm = awayMm;
+    } else if (passMm !== null) return passMm;
+    startMm += lengthMm;
+  }
+  return passMm;
+}
+
+/** The nearest point of a piece, 0 … 1 along it, and its distance. */
+function nearest(
+  x0: number,
+  y0: number,
+  x1: number,
+  y1: number,
+  x: number,
+  y: number,
+): { share: number; awayMm: number } {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  const length2 = dx * dx + dy * dy;
+  const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
+  return { share, awayMm: Math.hypot(x0 + share * dx - x, y0 + share * dy - y) };
+}

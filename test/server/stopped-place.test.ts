@@ -1,0 +1,68 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { pointOfPlace, strokeLengthMm } from "../../server/plotter/plan-places.js";
+import { stoppedPlace } from "../../server/plotter/stopped-place.js";
+import type { Place } from "../../src/index.js";
+import { strokesOf } from "../support/local-planner.js";
+
+const coordinate = fc.double({ min: 0, max: 200, noNaN: true });
+const line = fc
+  .array(fc.tuple(coordinate, coordinate), { minLength: 2, maxLength: 8 })
+  .map((points) => points.flat());
+const lines = fc.array(line, { minLength: 1, maxLength: 6 });
+const share = fc.double({ min: 0, max: 1, noNaN: true });
+
+/** Everything that is drawn from one place to another, mm. */
+function drawnMm(strokes: ReturnType<typeof strokesOf>, from: Place, to: Place): number {
+  let mm = to.alongMm - from.alongMm;
+  for (let stroke = from.stroke; stroke < to.stroke; stroke++) mm += strokeLengthMm(strokes, stroke);
+  return mm;
+}
+
+describe("where a plot was broken off", () => {
+  it("lies behind the journal's place and never beyond the pen, so that nothing is left out", () => {
+    fc.assert(
+      fc.property(lines, fc.nat(5), share, share, fc.nat(3), (xys, at, journalShare, penShare, ahead) => {
+        const strokes = strokesOf(...xys);
+        const first = at % xys.length;
+        const stroke = Math.min(xys.length - 1, first + ahead);
+        const journal = { stroke: first, alongMm: journalShare * strokeLengthMm(strokes, first) };
+        const alongMm = penShare * strokeLengthMm(strokes, stroke);
+        const pen: Place = {
+          stroke,
+          alongMm: stroke === first ? Math.max(alongMm, journal.alongMm) : alongMm,
+        };
+        const found = stoppedPlace(strokes, journal, { ...pointOfPlace(strokes, pen), up: false }, 1e6);
+        expect(drawnMm(strokes, journal, found)).toBeGreaterThan(-0.1);
+        expect(drawnMm(strokes, found, pen)).toBeGreaterThan(-0.1);
+        const [a, b] = [pointOfPlace(strokes, found), pointOfPlace(strokes, pen)];
+        expect(Math.hypot(a.x - b.x, a.y - b.y)).toBeLessThan(0.17);
+      }),
+      { numRuns: 1_000 },
+    );
+  });
+
+  const two = strokesOf([0, 0, 100, 0], [100, 50, 0, 50], [0, 80, 10, 80]);
+  const journal = { stroke: 0, alongMm: 20 };
+
+  it("is the point of the stroke where the pen is down", () => {
+    expect(stoppedPlace(two, journal, { x: 60, y: 0.03, up: false }, 500)).toEqual({
+      stroke: 0,
+      alongMm: 60,
+    });
+    expect(stoppedPlace(two, journal, { x: 30, y: 50, up: false }, 500)).toEqual({ stroke: 1, alongMm: 70 });
+  });
+
+  it("is the next stroke where the pen is up on the way to it", () => {
+    expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, 500)).toEqual({ stroke: 1, alongMm: 0 });
+  });
+
+  it("stays the journal's where the pen is somewhere else, or further than it can have come", () => {
+    expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, 500)).toEqual(journal);
+    expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, 100)).toEqual(journal);
+    expect(stoppedPlace(two, { stroke: 2, alongMm: 1 }, { x: 0, y: 0, up: true }, 500)).toEqual({
+      stroke: 2,
+      alongMm: 1,
+    });
+  });
+});
