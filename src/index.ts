@@ -130,6 +130,7 @@ export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
 export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
+export { plotLines } from "./ebb/plot-lines.js";
 export {
   closingCommands,
   penCommand,

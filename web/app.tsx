@@ -1,5 +1,6 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "./panels/drawing.js";
+import { ExportPanel } from "./panels/export.js";
 import { FillPanel } from "./panels/fill.js";
 import { Dialogs } from "./panels/dialogs.js";
 import { LayersPanel } from "./panels/layers.js";
@@ -57,6 +58,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <PresetsPanel />
           <FillPanel />
           <LinesPanel />
+          <ExportPanel />
         </aside>
         <aside className="column column-run" aria-label={text.tabs.queue}>
           <PlotBar />

@@ -27,6 +27,12 @@ const storage = ((): TextStore | null => {
   }
 })();
 
+const EXPORTED = {
+  svg: { ending: "svg", type: "image/svg+xml" },
+  json: { ending: "json", type: "application/json" },
+  ebb: { ending: "ebb.txt", type: "text/plain" },
+};
+
 /** A new plan has other moments and other places. */
 const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
 
@@ -44,8 +50,9 @@ const planner = new Planner(
     onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
     onExported: (format, exported) => {
       const name = store.getState().drawing?.name ?? text.appName;
-      saveFile(`${name}.${format}`, exported, format === "svg" ? "image/svg+xml" : "application/json");
+      saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
     },
+    onExportFailed: (message) => actions.notify("error", message),
     onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT }),
   },
 );

@@ -11,10 +11,10 @@ import {
   trajectoryStats,
   trajectoryToSvg,
   withLayerCodes,
-  closingCommands,
-  commandLine,
-  setUpCommands,
-  type CommandStream,
+  plotLines,
+  svgOptionsOf,
+  toJson,
+  toSvg,
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
@@ -28,6 +28,9 @@ export interface PlanCommandOptions {
   readonly ebb?: string;
   readonly firmware: string;
   readonly preview?: string;
+  /** The prepared drawing, as SVG and as JSON of polylines. */
+  readonly svg?: string;
+  readonly strokes?: string;
   readonly only?: readonly string[];
 }
 
@@ -54,6 +57,7 @@ export interface PlanReport {
 
 interface Planned {
   readonly report: PlanReport;
+  readonly settings: PlotSettings;
   readonly job: PreparedJob;
   readonly trajectory: Trajectory;
   /** All that a plot would send, from motors-on to motors-off. */
@@ -73,6 +77,14 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   if (options.preview !== undefined) {
     const { paperWidthMm: widthMm, paperHeightMm: heightMm } = planned.job.prepared;
     writeOut(options.preview, trajectoryToSvg(planned.trajectory, { widthMm, heightMm }));
+  }
+  const { prepared } = planned.job;
+  if (options.svg !== undefined) {
+    writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, planned.settings)));
+  }
+  if (options.strokes !== undefined) {
+    const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
+    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`);
   }
   if (options.json === true) io.out(`${JSON.stringify(planned.report)}\n`);
   else if (options.ebb !== "-") io.out(words(planned.report));
@@ -113,7 +125,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
     start: BOARD_AT_HOME,
   });
   const compileMs = clock();
-  const lines = plotLines(commands, machine, settings, options.firmware);
+  const lines = plotLines(commands, { machine, pen, firmware: options.firmware });
   const stats = trajectoryStats(trajectory);
   const report: PlanReport = {
     strokes: strokeCount(job.prepared.strokes),
@@ -134,19 +146,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
     compileMs: rounded(compileMs),
     warnings: [...job.warnings, ...commands.warnings],
   };
-  return { report, job, trajectory, lines };
-}
-
-function plotLines(
-  commands: CommandStream,
-  machine: MachineProfile,
-  { pen }: PlotSettings,
-  firmware: string,
-): string[] {
-  const lines = setUpCommands(machine, pen, firmware);
-  for (let index = 0; index < commands.count; index++) lines.push(commandLine(commands, index));
-  lines.push(...closingCommands());
-  return lines;
+  return { report, settings, job, trajectory, lines };
 }
 
 function writeOut(path: string, text: string): void {

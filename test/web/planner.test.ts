@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { Planner, type WorkerLike } from "../../web/worker/planner.js";
 import type {
   PlanFault,
@@ -9,12 +9,7 @@ import type {
   WorkerRequest,
 } from "../../web/worker/protocol.js";
 
-const settings = {
-  machine: "axidraw-v3",
-  prepare: DEFAULT_PREPARE,
-  motion: DEFAULT_MOTION,
-  pen: DEFAULT_PEN,
-};
+const settings = DEFAULT_PLOT_SETTINGS;
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {
@@ -58,6 +53,7 @@ const setUp = () => {
     {
       onPlanned: (result) => heard.push(result.drawingKey),
       onExported: (format, text) => heard.push(`${format} ${text}`),
+      onExportFailed: (message) => heard.push(`not saved: ${message}`),
       onFault: (fault: PlanFault) => heard.push(`fault ${fault.message}`),
     },
   );
@@ -115,7 +111,7 @@ describe("the planner", () => {
   it("asks for the prepared drawing as text, and hands it on", () => {
     const { planner, worker, heard } = setUp();
     planner.request({ key: "a", text: "a" }, settings);
-    planner.export("svg");
+    planner.export("svg", "3.0.3");
     expect(worker().exports).toEqual(["svg"]);
     worker().reply({ type: "exported", format: "svg", text: "<svg/>" });
     expect(heard).toEqual(["svg <svg/>"]);

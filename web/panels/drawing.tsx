@@ -3,7 +3,6 @@ import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { EXPORT_FORMATS } from "../worker/protocol.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.drawing;
@@ -25,7 +24,6 @@ export const DrawingPanel = () => {
       <p className="note">{words.chooseHint}</p>
       <Samples />
       <Report />
-      <Exports />
     </SettingsGroup>
   );
 };
@@ -115,28 +113,6 @@ const Report = () => {
           <li key={note}>{note}</li>
         ))}
       </ul>
-    </div>
-  );
-};
-
-const Exports = () => {
-  const canExport = usePageState((state) => (state.planned?.strokeCount ?? 0) > 0);
-  const { exportAs } = useActions();
-  if (!canExport) return null;
-  return (
-    <div className="export-row">
-      <span className="note">{words.save}</span>
-      {EXPORT_FORMATS.map((format) => (
-        <button
-          key={format}
-          type="button"
-          className="button button-small"
-          aria-label={words.saveAs(format.toUpperCase())}
-          onClick={() => exportAs(format)}
-        >
-          {format.toUpperCase()}
-        </button>
-      ))}
     </div>
   );
 };

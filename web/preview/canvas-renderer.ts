@@ -47,7 +47,7 @@ class CanvasRenderer implements SceneRenderer {
     if (!this.#scene) return true;
     context.scale(frame.ratio, frame.ratio);
     context.lineCap = "round";
-    context.lineWidth = lineWidthPx(frame);
+    context.lineWidth = lineWidthPx(frame, frame.lineMm);
     const { draw, travel, totalS } = this.#scene;
     const done = frame.untilS === null ? draw.count : piecesBefore(draw, frame.untilS);
     strokeBuckets(context, frame, draw, done, draw.count, [GHOST_COLOR], () => 0);
@@ -90,6 +90,7 @@ const bucketsFor = (
     case "order":
       return { colors: ramp, bucketOf: (i) => shade(floats[i * PIECE_FLOATS + 4]! / Math.max(1e-6, totalS)) };
     case "layer":
+    case "pen":
       return { colors: frame.layerColors, bucketOf: (i) => shorts[i * PIECE_SHORTS + LAYER_SHORT]! };
     case "ink":
       return { colors: [INK_COLOR], bucketOf: () => 0 };
@@ -98,7 +99,7 @@ const bucketsFor = (
 
 const strokeBuckets = (
   context: CanvasRenderingContext2D,
-  { view }: Frame,
+  frame: Frame,
   { bytes }: Pieces,
   from: number,
   to: number,
@@ -106,6 +107,7 @@ const strokeBuckets = (
   bucketOf: (i: number) => number,
 ): void => {
   if (to <= from) return;
+  const { view } = frame;
   const floats = new Float32Array(bytes);
   const paths = colors.map(() => new Path2D());
   for (let i = from; i < to; i++) {
@@ -114,8 +116,10 @@ const strokeBuckets = (
     path?.moveTo(floats[f]! * view.scale + view.offsetX, floats[f + 1]! * view.scale + view.offsetY);
     path?.lineTo(floats[f + 2]! * view.scale + view.offsetX, floats[f + 3]! * view.scale + view.offsetY);
   }
+  const widthsMm = colors === frame.layerColors ? frame.layerWidthsMm : null;
   paths.forEach((path, k) => {
     context.strokeStyle = colors[k]!;
+    if (widthsMm) context.lineWidth = lineWidthPx(frame, widthsMm[k] ?? frame.lineMm);
     context.stroke(path);
   });
 };

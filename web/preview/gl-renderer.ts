@@ -28,9 +28,12 @@ layout(location = 2) in vec2 speed;  // share of the top speed
 layout(location = 3) in float layer;
 uniform float scale;                 // device px a mm
 uniform vec2 offset, viewport;       // device px
-uniform float radius;                // device px
+uniform float radius;                // device px, of the narrowest line where layers have their own widths
+uniform float widthMm;               // of a full alpha in the palette; 0: all lines are 2 radius wide
+uniform sampler2D palette;
 uniform float totalS;
 out vec2 local;
+flat out float reach;
 flat out float len;
 out vec2 share;                      // of speed, of time
 flat out float layerIndex;
@@ -39,7 +42,11 @@ void main() {
   vec2 b = line.zw * scale + offset;
   len = distance(a, b);
   vec2 u = len > 1e-4 ? (b - a) / len : vec2(1.0, 0.0);
-  float r = radius + 1.0;
+  reach = radius;
+  if (widthMm > 0.0) {
+    reach = max(radius, texelFetch(palette, ivec2(int(layer), 0), 0).a * widthMm * scale / 2.0);
+  }
+  float r = reach + 1.0;
   float along = (gl_VertexID & 2) != 0 ? len + r : -r;
   float side = (gl_VertexID & 1) != 0 ? r : -r;
   vec2 p = a + u * along + vec2(-u.y, u.x) * side;
@@ -56,7 +63,7 @@ in vec2 local;
 flat in float len;
 in vec2 share;
 flat in float layerIndex;
-uniform float radius;
+flat in float reach;
 uniform int colorBy;                 // 0 speed, 1 order, 2 layer, 3 plain
 uniform vec4 plain;
 uniform sampler2D ramp;
@@ -64,12 +71,12 @@ uniform sampler2D palette;
 out vec4 color;
 void main() {
   float d = length(vec2(local.x - clamp(local.x, 0.0, len), local.y));
-  float alpha = clamp(radius + 0.5 - d, 0.0, 1.0);
+  float alpha = clamp(reach + 0.5 - d, 0.0, 1.0);
   if (alpha <= 0.0) discard;
   vec4 c = plain;
   if (colorBy == 0) c = texture(ramp, vec2(clamp(share.x, 0.002, 0.998), 0.5));
   else if (colorBy == 1) c = texture(ramp, vec2(clamp(share.y, 0.002, 0.998), 0.5));
-  else if (colorBy == 2) c = texelFetch(palette, ivec2(int(layerIndex), 0), 0);
+  else if (colorBy == 2) c = vec4(texelFetch(palette, ivec2(int(layerIndex), 0), 0).rgb, 1.0);
   color = vec4(c.rgb, 1.0) * (c.a * alpha);
 }`;
 
@@ -78,6 +85,7 @@ const UNIFORMS = [
   "offset",
   "viewport",
   "radius",
+  "widthMm",
   "totalS",
   "colorBy",
   "plain",
@@ -85,7 +93,9 @@ const UNIFORMS = [
   "palette",
 ] as const;
 type Uniforms = Record<(typeof UNIFORMS)[number], WebGLUniformLocation | null>;
-const COLOR_CODE = { speed: 0, order: 1, layer: 2, ink: 3 } as const;
+const COLOR_CODE = { speed: 0, order: 1, layer: 2, pen: 2, ink: 3 } as const;
+/** The palette's alpha is a pen's width, in 255ths of this. */
+const WIDEST_MM = 12.75;
 /** What is drawn of a large drawing while it is moved; a stride may be 255 bytes at most. */
 const MOVING_PIECES = 200_000;
 const MAX_SKIP = Math.floor(255 / PIECE_BYTES);
@@ -159,7 +169,7 @@ class GlRenderer implements SceneRenderer {
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (!this.#scene || !this.#draw || !this.#travel) return true;
     this.#setView(frame, width, height);
-    this.#setPalette(frame.layerColors);
+    this.#setPalette(frame);
     this.#drawStrokes(frame, this.#draw);
     if (frame.showTravel) this.#drawTravel(frame, this.#travel);
     this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -198,14 +208,17 @@ class GlRenderer implements SceneRenderer {
     gl.uniform1f(this.#uniforms.totalS, Math.max(1e-6, this.#scene?.totalS ?? 1));
   }
 
-  #setPalette(colors: readonly string[]): void {
-    const key = colors.join();
+  #setPalette({ layerColors: colors, layerWidthsMm }: Frame): void {
+    const key = `${colors.join()} ${layerWidthsMm?.join() ?? ""}`;
     if (key === this.#paletteKey) return;
     this.#paletteKey = key;
     const gl = this.#gl;
     const count = Math.min(MAX_LAYERS, Math.max(1, colors.length));
     const bytes = new Uint8Array(count * 4);
-    colors.slice(0, count).forEach((color, i) => bytes.set([...bytesFromHex(color), 255], i * 4));
+    colors.slice(0, count).forEach((color, i) => {
+      const share = Math.min(1, (layerWidthsMm?.[i] ?? 0) / WIDEST_MM);
+      bytes.set([...bytesFromHex(color), Math.round(255 * share)], i * 4);
+    });
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, this.#palette);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, count, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
@@ -213,7 +226,9 @@ class GlRenderer implements SceneRenderer {
 
   #drawStrokes(frame: Frame, { pieces, buffer }: Loaded): void {
     const gl = this.#gl;
-    gl.uniform1f(this.#uniforms.radius, (lineWidthPx(frame) * frame.ratio) / 2);
+    const lineMm = frame.layerWidthsMm ? 0 : frame.lineMm;
+    gl.uniform1f(this.#uniforms.radius, (lineWidthPx(frame, lineMm) * frame.ratio) / 2);
+    gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm ? WIDEST_MM : 0);
     const done = frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
     this.#setPlain(GHOST_COLOR, 1);
     const skip = frame.isMoving ? Math.min(MAX_SKIP, Math.ceil(pieces.count / MOVING_PIECES)) : 1;
@@ -225,6 +240,7 @@ class GlRenderer implements SceneRenderer {
 
   #drawTravel(frame: Frame, { pieces, buffer }: Loaded): void {
     this.#gl.uniform1f(this.#uniforms.radius, 0.45 * frame.ratio);
+    this.#gl.uniform1f(this.#uniforms.widthMm, 0);
     this.#setPlain(TRAVEL_COLOR, 0.6);
     const done = frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
     this.#drawRange(buffer, 0, done);

@@ -12,6 +12,7 @@ const COLOR_WORDS: Record<ColorMode, string> = {
   speed: words.colorBySpeed,
   order: words.colorByOrder,
   layer: words.colorByLayer,
+  pen: words.colorByPen,
   ink: words.colorByInk,
 };
 

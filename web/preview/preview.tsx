@@ -1,5 +1,5 @@
 import { useEffect, useRef, type RefObject } from "react";
-import { findMachine, stateAt, type StrokeLayer } from "../../src/index.js";
+import { findMachine, penOf, stateAt, type StrokeLayer } from "../../src/index.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -95,6 +95,8 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (state.settings !== before?.settings) stage.setDesk(deskOf(state));
     if (
       state.view !== before?.view ||
+      state.settings.pens !== before.settings.pens ||
+      state.settings.layerPens !== before.settings.layerPens ||
       state.planned !== before?.planned ||
       state.live !== before?.live ||
       state.momentS !== before?.momentS ||
@@ -140,7 +142,9 @@ const lookOf = (state: PageState): FrameLook => ({
   colorBy: state.view.colorBy,
   showTravel: state.view.showTravel,
   lineMm: DEFAULT_LINE_MM,
-  layerColors: state.planned ? layerColorsOf(state.planned.drawnLayers) : [],
+  layerColors: state.planned ? colorsOf(state, state.planned.drawnLayers) : [],
+  layerWidthsMm:
+    state.view.colorBy === "pen" && state.planned ? widthsOf(state, state.planned.drawnLayers) : null,
   // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
   untilS: state.momentS ?? livePlanS(state),
 });
@@ -150,6 +154,15 @@ const livePlanS = ({ live, drawing }: PageState): number | null =>
 
 export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
   layers.map(({ color }, index) => color ?? layerColor(index));
+
+const colorsOf = ({ view, settings }: PageState, layers: readonly StrokeLayer[]): string[] => {
+  const own = layerColorsOf(layers);
+  if (view.colorBy !== "pen") return own;
+  return layers.map((layer, index) => penOf(settings, layer)?.color ?? own[index]!);
+};
+
+const widthsOf = ({ settings }: PageState, layers: readonly StrokeLayer[]): number[] =>
+  layers.map((layer) => penOf(settings, layer)?.widthMm ?? DEFAULT_LINE_MM);
 
 const markerOf = (state: PageState): Marker | null => {
   if (state.momentS !== null && state.planned) {

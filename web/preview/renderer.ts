@@ -15,6 +15,8 @@ export interface Frame {
   readonly lineMm: number;
   /** "#rrggbb" by layer index. */
   readonly layerColors: readonly string[];
+  /** mm by layer index: how wide its pen draws; null: all lines are `lineMm` wide. */
+  readonly layerWidthsMm: readonly number[] | null;
   /** What lies later than this many seconds is shown pale; null shows the whole plot as drawn. */
   readonly untilS: number | null;
   /** The view is being moved: a large drawing may be shown coarser until it rests. */
@@ -35,7 +37,8 @@ export const GHOST_COLOR = "#dcdad4";
 export const TRAVEL_COLOR = "#5b8fa8";
 export const INK_COLOR = "#22242c";
 
-export const lineWidthPx = (frame: Frame): number => Math.max(MIN_LINE_PX, frame.lineMm * frame.view.scale);
+export const lineWidthPx = ({ view }: Frame, lineMm: number): number =>
+  Math.max(MIN_LINE_PX, lineMm * view.scale);
 
 export const bytesFromHex = (hex: string): [number, number, number] => {
   const n = Number.parseInt(hex.slice(1), 16);

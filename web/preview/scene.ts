@@ -7,7 +7,7 @@
  *
  * One piece is PIECE_BYTES:  f32 x0 y0 x1 y1 (mm)  f32 t0 t1 (s)  u16 speed0 speed1 (of topMmPerS)  u16 layer 0
  */
-import type { Trajectory } from "../../src/index.js";
+import type { StrokeLayer, Trajectory } from "../../src/index.js";
 import { buildPickGrid, type PickGrid } from "./pick.js";
 
 export const PIECE_BYTES = 32;
@@ -39,8 +39,22 @@ export interface Scene {
   readonly grid: PickGrid;
 }
 
-/** `strokeLayer` is StrokeSet.layer of the strokes that were planned. Linear in blocks. */
-export const buildScene = (trajectory: Trajectory, strokeLayer: Uint16Array): Scene => {
+/** By how much each layer's strokes are moved for its pen; null where all pens sit straight. */
+export const shiftsOf = (layers: readonly StrokeLayer[]): Shifts | null =>
+  layers.some(({ shiftMm }) => shiftMm) ? layers.map(({ shiftMm }) => shiftMm ?? STRAIGHT) : null;
+
+type Shifts = readonly { readonly x: number; readonly y: number }[];
+const STRAIGHT = { x: 0, y: 0 };
+
+/**
+ * `strokeLayer` is StrokeSet.layer of the strokes that were planned. Linear in blocks. What is drawn is shown where
+ * it lands on paper, what the carriage travels where the carriage goes.
+ */
+export const buildScene = (
+  trajectory: Trajectory,
+  strokeLayer: Uint16Array,
+  shifts: Shifts | null = null,
+): Scene => {
   const tops = topSpeeds(trajectory);
   const counts = { draw: 0, travel: 0 };
   const { runs } = trajectory;
@@ -59,6 +73,7 @@ export const buildScene = (trajectory: Trajectory, strokeLayer: Uint16Array): Sc
     const stroke = runs.stroke[r]!;
     const writer = stroke >= 0 ? draw : travel;
     const layer = stroke >= 0 ? strokeLayer[stroke]! : 0;
+    writer.shift = (stroke >= 0 && shifts?.[layer]) || STRAIGHT;
     if (stroke >= 0 && isDot(trajectory, r)) writer.addDot(trajectory, r, layer);
     for (let b = runs.firstBlock[r]!; b < runs.firstBlock[r + 1]!; b++) {
       writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
@@ -132,6 +147,8 @@ const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): numbe
 class PieceWriter {
   readonly bytes: ArrayBuffer;
   readonly topMmPerS: number;
+  /** Taken off the carriage's place, mm. */
+  shift: Shifts[number] = STRAIGHT;
   readonly #floats: Float32Array;
   readonly #shorts: Uint16Array;
   #at = 0;
@@ -146,8 +163,8 @@ class PieceWriter {
   addDot(trajectory: Trajectory, run: number, layer: number): void {
     const next = trajectory.runs.firstBlock[run]!;
     const isLast = next >= trajectory.blockCount;
-    const x = isLast ? trajectory.endX : trajectory.x[next]!;
-    const y = isLast ? trajectory.endY : trajectory.y[next]!;
+    const x = (isLast ? trajectory.endX : trajectory.x[next]!) - this.shift.x;
+    const y = (isLast ? trajectory.endY : trajectory.y[next]!) - this.shift.y;
     const startS = trajectory.runs.startS[run]!;
     this.#floats.set([x, y, x, y, startS, startS], this.#at * PIECE_FLOATS);
     this.#shorts[this.#at * PIECE_SHORTS + LAYER_SHORT] = layer;
@@ -155,8 +172,8 @@ class PieceWriter {
   }
 
   addBlock(trajectory: Trajectory, b: number, pieces: number, layer: number): void {
-    const x = trajectory.x[b]!;
-    const y = trajectory.y[b]!;
+    const x = trajectory.x[b]! - this.shift.x;
+    const y = trajectory.y[b]! - this.shift.y;
     const vx = trajectory.vx[b]!;
     const vy = trajectory.vy[b]!;
     const ax = trajectory.ax[b]!;

@@ -1,6 +1,6 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import type { JobAction, ApiClient } from "../api/client.js";
-import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
 import {
   machineProfileSchema,
   type Job,
@@ -13,9 +13,11 @@ import {
 import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
 import type { ExportFormat } from "../worker/protocol.js";
-import { withPreset, type Preset } from "./presets.js";
+import type { Corner } from "./alignment-mark.js";
+import { forOtherDrawing } from "./layer-settings.js";
+import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
-import { currentPlotter, type Notice, type PageStore } from "./store.js";
+import { activeJob, currentPlotter, type Notice, type PageStore } from "./store.js";
 
 export type Actions = ReturnType<typeof createActions>;
 
@@ -102,9 +104,11 @@ export const createActions = (deps: ActionDeps) => {
 
   const openDrawing = (name: string, svg: string, jobId: string | null = null): void => {
     clearErrors();
+    const before = store.getState().drawing?.name;
     store.setState(({ settings }) => ({
       drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId, sourceId: jobId },
-      settings: jobId === null ? withoutHidden(settings) : settings,
+      // A file that was changed and opened again keeps what was said about its layers.
+      settings: jobId === null && name !== before ? forOtherDrawing(settings) : settings,
       planned: null,
       fault: null,
     }));
@@ -228,11 +232,23 @@ export const createActions = (deps: ActionDeps) => {
     },
     savePreset: (name: string): void =>
       store.setState(({ presets, settings }) => ({ presets: withPreset(presets, name, settings) })),
-    takePreset: ({ name, motion, pen }: Preset): void =>
-      changeSettings(`preset ${name}`, (settings) => ({ ...settings, motion, pen })),
+    takePreset: (preset: Preset): void =>
+      changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
+    /** Plots a small cross with one pen, as a job of its own. */
+    plotMark: async (pen: PlotPen, corner: Corner, name: string): Promise<void> => {
+      const state = store.getState();
+      const { alignmentJob } = await import("./alignment-mark.js");
+      const newJob = alignmentJob(state.settings, pen, corner, name);
+      const plotterId = currentPlotter(state)?.id;
+      const job = await attempt("add", () => api.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }));
+      if (!job) return;
+      const isFree = activeJob(store.getState()) === null;
+      if (isFree) await attempt("plot", () => api.actOnJob(job.id, "start"));
+      notify("info", isFree ? text.plot.started(job.name) : text.plot.added(job.name));
+    },
     removePreset: (name: string): void =>
       store.setState(({ presets }) => ({ presets: presets.filter((preset) => preset.name !== name) })),
-    exportAs: (format: ExportFormat): void => planner.export(format),
+    exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
       const samples = await attempt("samples", () => api.samples());
       if (samples) store.setState({ samples });
@@ -245,9 +261,3 @@ export const machineChoice = (profile: MachineProfile): Pick<PlotSettings, "mach
   const isKnown = MACHINES.some(({ id }) => id === profile.id);
   return { machine: profile.id, customMachine: isKnown ? null : machineProfileSchema.parse(profile) };
 };
-
-/** Layer switches belong to the drawing that was on the paper. */
-const withoutHidden = (settings: PlotSettings): PlotSettings =>
-  settings.prepare.hiddenLayers.length === 0
-    ? settings
-    : { ...settings, prepare: { ...settings.prepare, hiddenLayers: [] } };

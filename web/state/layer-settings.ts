@@ -16,6 +16,12 @@ const withPrepare = (settings: PlotSettings, change: Partial<Prepare>): PlotSett
   prepare: { ...settings.prepare, ...change },
 });
 
+/** The entries of all layers but one. */
+export const withoutLayer = <T>(
+  byLayer: Readonly<Record<string, T>> | undefined,
+  id: string,
+): Record<string, T> => Object.fromEntries(Object.entries(byLayer ?? {}).filter(([other]) => other !== id));
+
 const without = (ids: readonly string[], id: string): string[] => ids.filter((other) => other !== id);
 
 export const isLayerShown = ({ prepare }: PlotSettings, { id, name }: LayerRow): boolean =>
@@ -51,7 +57,7 @@ export const moveLayer = (
 };
 
 export const repeatLayer = (settings: PlotSettings, id: string, times: number | null): PlotSettings => {
-  const { [id]: _, ...others } = settings.prepare.layerRepeats;
+  const others = withoutLayer(settings.prepare.layerRepeats, id);
   const isOnce = times === null || times <= 1;
   return withPrepare(settings, { layerRepeats: isOnce ? others : { ...others, [id]: times } });
 };
@@ -89,18 +95,18 @@ const withOwn = <T extends object>(
   const fields = Object.entries({ ...layers?.[id], ...own }).filter(
     ([, value]) => value !== null && value !== undefined,
   );
-  const { [id]: _, ...others } = layers ?? {};
+  const others = withoutLayer(layers, id);
   return fields.length === 0 ? others : { ...others, [id]: Object.fromEntries(fields) as T };
 };
 
 /** True: a stop before the layer, false: none, null: as its pen and name say. */
 export const stopBefore = (settings: PlotSettings, id: string, stop: boolean | null): PlotSettings => {
-  const { [id]: _, ...others } = settings.layerStops;
+  const others = withoutLayer(settings.layerStops, id);
   return { ...settings, layerStops: stop === null ? others : { ...others, [id]: stop } };
 };
 
 export const setLayerPen = (settings: PlotSettings, id: string, penId: string | null): PlotSettings => {
-  const { [id]: _, ...others } = settings.layerPens;
+  const others = withoutLayer(settings.layerPens, id);
   return { ...settings, layerPens: penId === null ? others : { ...others, [id]: penId } };
 };
 

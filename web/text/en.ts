@@ -21,8 +21,6 @@ export const en = {
     planning: "Planning…",
     nothingToDraw: "Nothing to draw",
     nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",
-    save: "Save what will be plotted:",
-    saveAs: (format: string) => `Save the prepared drawing as ${format}`,
     cannotRead: (name: string) => `${name} can’t be drawn`,
     notText: (name: string) => `${name} is not a text file. Save the drawing as SVG and drop it here again.`,
     pastedName: "Pasted drawing",
@@ -69,6 +67,7 @@ export const en = {
 
   layers: { title: "Layers" },
   pens: { title: "Pens" },
+  export: { title: "Save to a file" },
 
   fill: {
     title: "Fill and shade",

@@ -77,7 +77,9 @@ export const OwnNumber = (props: OwnNumberProps) => {
       </button>
       {isWrong && (
         <p id={`${id}-note`} className="note note-error">
-          {number === null ? text.field.notANumber : text.field.between(formatNumber(min, 3), formatNumber(max, 3), unit)}
+          {number === null
+            ? text.field.notANumber
+            : text.field.between(formatNumber(min, 3), formatNumber(max, 3), unit)}
         </p>
       )}
     </div>

@@ -8,23 +8,25 @@
 import {
   importSvg,
   findMachine,
+  penStopsOf,
   placeDrawing,
   plan,
   pointCount,
   prepare,
+  prepareSettingsOf,
   strokeCount,
-  toJson,
-  toSvg,
   trajectoryStats,
+  withLayerCodes,
   type Drawing,
   type Placement,
   type Prepared,
   type Trajectory,
 } from "../../src/index.js";
-import { buildScene } from "../preview/scene.js";
+import { buildScene, shiftsOf } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
 import type {
-  ExportFormat,
+  ExportRequest,
+  PlanSettings,
   Planned,
   PlanFault,
   PlanRequest,
@@ -43,10 +45,10 @@ let isRunning = false;
 /** The last text that came, until it has been read. */
 let received: { key: string; text: string } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
-let prepared: { key: string; result: Prepared; placement: Placement } | null = null;
+let prepared: { key: string; result: Prepared; placement: Placement; settings: PlanSettings } | null = null;
 
 scope.onmessage = (event) => {
-  if (event.data.type === "export") return exportAs(event.data.format);
+  if (event.data.type === "export") return void exportAs(event.data);
   newest = event.data;
   if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
   if (!isRunning) void run();
@@ -77,12 +79,13 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
-    const trajectory = plan(ready.strokes, settings.motion, settings.pen, {
+    const { motion, pen } = withLayerCodes(settings, ready.strokes.layers);
+    const trajectory = plan(ready.strokes, motion, pen, {
       machine: findMachine(settings) ?? undefined,
     });
     const t3 = performance.now();
     if (await isSuperseded()) return null;
-    const scene = buildScene(trajectory, ready.strokes.layer);
+    const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
     const t4 = performance.now();
     const planned: Planned = {
       drawingKey,
@@ -92,6 +95,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pageToPaper: placement.map,
       frameMm: frameOf(placement),
       layers: ready.layers,
+      penStops: penStopsOf(ready.strokes, settings),
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
       layoutWarnings: ready.warnings,
@@ -130,11 +134,13 @@ function preparedOf(
   drawing: Drawing,
   { settings }: PlanRequest,
 ): NonNullable<typeof prepared> {
-  const key = `${drawingKey} ${JSON.stringify(settings.prepare)}`;
+  const wanted = prepareSettingsOf(settings);
+  const key = `${drawingKey} ${JSON.stringify(wanted)}`;
   if (prepared?.key !== key) {
-    const result = prepare(drawing, settings.prepare);
-    prepared = { key, result, placement: placeDrawing(drawing, settings.prepare) };
+    const result = prepare(drawing, wanted);
+    prepared = { key, result, placement: placeDrawing(drawing, wanted), settings };
   }
+  prepared.settings = settings;
   return prepared;
 }
 
@@ -146,14 +152,16 @@ const frameOf = ({ shapeBoxes }: Placement): FrameMm | null => {
   return x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 } : null;
 };
 
-function exportAs(format: ExportFormat): void {
+async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
   if (!prepared) return;
-  const { strokes, paperWidthMm: widthMm, paperHeightMm: heightMm } = prepared.result;
-  const text =
-    format === "svg"
-      ? toSvg(strokes, { widthMm, heightMm })
-      : JSON.stringify(toJson(strokes, { widthMm, heightMm }));
-  scope.postMessage({ type: "exported", format, text }, []);
+  const { result, settings } = prepared;
+  try {
+    const { exportText } = await import("./exports.js");
+    scope.postMessage({ type: "exported", format, text: exportText(result, settings, format, firmware) }, []);
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    scope.postMessage({ type: "export-failed", message }, []);
+  }
 }
 
 /** Lets waiting messages in, then tells whether one of them is a newer request. */

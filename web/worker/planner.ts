@@ -32,6 +32,7 @@ export interface PlannerListener {
   onPlanned(planned: Planned): void;
   onFault(fault: PlanFault): void;
   onExported(format: ExportFormat, text: string): void;
+  onExportFailed(message: string): void;
 }
 
 export interface PlannerDrawing {
@@ -67,8 +68,8 @@ export class Planner {
   }
 
   /** Asks for the prepared drawing as text; `onExported` brings it. */
-  export(format: ExportFormat): void {
-    this.#worker?.postMessage({ type: "export", format });
+  export(format: ExportFormat, firmware: string): void {
+    this.#worker?.postMessage({ type: "export", format, firmware });
   }
 
   /** Ends the worker. */
@@ -106,6 +107,7 @@ export class Planner {
 
   #take(reply: WorkerReply): void {
     if (reply.type === "exported") return this.#listener.onExported(reply.format, reply.text);
+    if (reply.type === "export-failed") return this.#listener.onExportFailed(reply.message);
     if (reply.id !== this.#newestId) return;
     this.#stopWaiting?.();
     this.#stopWaiting = null;

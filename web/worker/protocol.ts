@@ -28,9 +28,11 @@ export interface PlanRequest {
 export interface ExportRequest {
   readonly type: "export";
   readonly format: ExportFormat;
+  /** Of the board that "ebb" is for. */
+  readonly firmware: string;
 }
 
-export const EXPORT_FORMATS = ["svg", "json"] as const;
+export const EXPORT_FORMATS = ["svg", "json", "ebb"] as const;
 export type ExportFormat = (typeof EXPORT_FORMATS)[number];
 
 export type WorkerRequest = PlanRequest | ExportRequest;
@@ -80,4 +82,5 @@ export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
   | { readonly type: "planned"; readonly id: number; readonly planned: Planned }
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
+  | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };

@@ -1,0 +1,99 @@
+import "../styles/setup.css";
+import { useRef, useState } from "react";
+import type { Planned } from "../worker/protocol.js";
+import { moveLayer, showAll } from "../state/layer-settings.js";
+import { usePageState } from "../state/use-store.js";
+import { setup } from "../text/setup.js";
+import { Segments } from "../ui/choice.js";
+import { Icon } from "../ui/icon.js";
+import { LayerRow } from "./layer-row.js";
+import { useChange } from "./use-change.js";
+
+const words = setup.layers;
+type PenStop = Planned["penStops"][number];
+
+/** The layers in the order of drawing, each with its switch and pen, and the stops between them. */
+export const LayerList = () => {
+  const planned = usePageState((state) => state.planned);
+  const { layers: mode, layerOrder } = usePageState((state) => state.settings.prepare);
+  const change = useChange();
+  const list = useRef<HTMLUListElement>(null);
+  const [openId, setOpenId] = useState<string | null>(null);
+  const rows = planned?.layers ?? [];
+  const hasHidden = rows.some(({ visible }) => !visible);
+  const move = (id: string, place: number): void =>
+    change(`order of ${id}`, (settings) => moveLayer(settings, rows, id, place));
+
+  return (
+    <>
+      <Segments
+        label={words.by}
+        value={mode}
+        options={[
+          { value: "group", label: words.group },
+          { value: "stroke", label: words.stroke },
+          { value: "all", label: words.all },
+        ]}
+        onChange={(layers) =>
+          change("layers from", (settings) => ({ ...settings, prepare: { ...settings.prepare, layers } }))
+        }
+      />
+      {planned && rows.length === 0 && <p className="note">{words.none}</p>}
+      <ul className="layer-list" ref={list}>
+        {rows.map((row, index) => (
+          <li key={row.id} data-row={row.id}>
+            <StopsBefore stops={planned?.penStops ?? []} layerId={row.id} />
+            <LayerRow
+              row={row}
+              index={index}
+              rows={rows}
+              list={list}
+              isOpen={openId === row.id}
+              onToggle={() => setOpenId(openId === row.id ? null : row.id)}
+              onMove={(place) => move(row.id, place)}
+            />
+          </li>
+        ))}
+      </ul>
+      {(hasHidden || layerOrder.length > 0) && (
+        <div className="layer-links">
+          {hasHidden && (
+            <button
+              type="button"
+              className="link"
+              onClick={() => change("all layers", (settings) => showAll(settings, rows))}
+            >
+              {words.everything}
+            </button>
+          )}
+          {layerOrder.length > 0 && (
+            <button
+              type="button"
+              className="link"
+              onClick={() =>
+                change("file order", (settings) => ({
+                  ...settings,
+                  prepare: { ...settings.prepare, layerOrder: [] },
+                }))
+              }
+            >
+              {words.fileOrder}
+            </button>
+          )}
+        </div>
+      )}
+    </>
+  );
+};
+
+/** Where the plot waits before this layer, as it was planned. */
+const StopsBefore = ({ stops, layerId }: { stops: readonly PenStop[]; layerId: string }) => {
+  const stop = stops.find((one) => one.layerId === layerId);
+  if (!stop) return null;
+  return (
+    <p className="layer-stop">
+      <Icon name="pause" />
+      {stop.penName === null ? words.stopNoPen : words.stop(stop.penName)}
+    </p>
+  );
+};
