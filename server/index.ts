@@ -1,23 +1,28 @@
 /** Entry "plotwright/server": the whole server, to be embedded. */
-import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
-import { createServer as createHttpsServer } from "node:https";
+import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
-import { PlotwrightError } from "../src/index.js";
-import type { ServerEvent } from "../src/schema/index.js";
+import type { Pairing, PlotSettings, ServerEvent } from "../src/schema/index.js";
 import { defaultDataDir, prepareDataDir } from "./data-dir.js";
-import { createApp } from "./http/app.js";
+import { createApp, type AppParts } from "./http/app.js";
 import { EventHub } from "./http/events.js";
+import { httpServer, listen, urlOf } from "./http/listen.js";
+import { LogBook, readLog } from "./log-book.js";
 import { MachineFiles } from "./machines/machine-files.js";
 import { createPlanning } from "./planning/planning.js";
 import { DrawingFiles } from "./queue/drawing-files.js";
 import { JobQueue } from "./queue/job-queue.js";
-import type { PlotterPort } from "./queue/plotter-port.js";
+import { Notices } from "./queue/notices.js";
 import { packagePath, packageVersion } from "./package-files.js";
 import { Store } from "./queue/store.js";
 import { Access } from "./security/access.js";
-import { MDNS_NAME, announceOnLan } from "./security/network.js";
-import { openPlotters } from "./plotters.js";
+import { Baton } from "./security/baton.js";
+import { MDNS_NAME, announceOnLan, lanAddresses, pairingLinks } from "./security/network.js";
+import { FIRST_PLOTTER, openDriven } from "./plotters.js";
+import { PlotterRegistry } from "./plotter-registry.js";
+import { findBoards } from "./serial/find-boards.js";
+import { WatchFolder } from "./watch-folder.js";
+import { Webhooks } from "./webhooks/webhooks.js";
 
 export interface ServerOptions {
   /** 9080 unless told; 0 takes any free one. */
@@ -42,6 +47,8 @@ export interface ServerOptions {
   readonly maxUploadBytes?: number;
   /** Host names to answer to, besides localhost and any address. */
   readonly allowedHosts?: readonly string[];
+  /** Folder whose new drawings become queued jobs. */
+  readonly watchDir?: string;
   /** Gets one line for each thing worth knowing; silent unless given. */
   readonly log?: (line: string) => void;
 }
@@ -60,7 +67,6 @@ const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
 
 /** Throws `conflict` (port or data folder taken), `no-board` (a named device that isn't there), `bad-setting`. */
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
-  const log = options.log ?? (() => undefined);
   const dataDir = options.dataDir ?? defaultDataDir();
   const undo: (() => Promise<void> | void)[] = [];
   const close = async (): Promise<void> => {
@@ -70,101 +76,118 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     prepareDataDir(dataDir);
     const store = Store.open(dataDir);
     undo.push(() => store.close());
-    const maxUploadBytes = options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES;
-    const files = new DrawingFiles(dataDir, maxUploadBytes);
-    await files.sweep((drawing) => store.isUsed(drawing));
-
-    const hub = new EventHub();
-    const announce = (event: ServerEvent): void => hub.announce(event);
-    const plotters = openPlotters(options, log);
-    undo.push(() => closeAll(plotters));
-    for (const plotter of plotters.values()) {
-      plotter.onChange((state) => announce({ type: "plotter", plotter: state }));
-    }
-    const queue = new JobQueue({
-      store,
-      files,
-      planning: createPlanning(files),
-      plotters,
-      announce,
-      nowIso: () => new Date().toISOString(),
-    });
-    undo.push(() => queue.close());
-
-    const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
-    access.onRevoke(() => hub.dropAll());
-    const machines = new MachineFiles(dataDir);
-    machines.warnings.forEach(log);
-    const app = createApp({
-      version: packageVersion(),
-      machines,
-      queue,
-      files,
-      plotters,
-      hub,
-      allowedHosts: allowedHosts(options),
-      webDir: packagePath("dist/web"),
-      samplesDir: packagePath("samples"),
-      access,
-      log,
-    });
-    const http = httpServer(options, app);
+    const book = new LogBook(dataDir);
+    const log = (line: string): void => {
+      book.write(line);
+      options.log?.(line);
+    };
+    const parts = await openParts(options, dataDir, store, log, undo);
+    const { access, registry } = parts;
+    const isTls = options.tls !== undefined;
+    const paths = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
+    const pairing = (): Promise<Pairing> => {
+      const own = new URL(urlOf(http, isTls));
+      const address = options.lan === true ? (lanAddresses()[0] ?? own.hostname) : own.hostname;
+      return pairingLinks(`${own.protocol}//${address}:${own.port}`, options.lan === true, paths);
+    };
+    const app = createApp({ ...parts, pairing, log, serverLog: () => readLog(dataDir) });
+    const http = httpServer(options.tls, app, log);
     await listen(
       http,
       options.port ?? DEFAULT_PORT,
       options.host ?? (options.lan === true ? "::" : "127.0.0.1"),
     );
-    undo.push(() => stopListening(http, hub));
+    undo.push(() => stopListening(http, parts.hub));
     const { port } = http.address() as AddressInfo;
-    if (options.mdns ?? options.lan === true) undo.push(announceOnLan(port, options.tls !== undefined));
-    const pairing = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
-    return { url: urlOf(http, options.tls !== undefined), pairing, close };
+    if (options.mdns ?? options.lan === true) undo.push(announceOnLan(port, isTls));
+    log(`plotwright ${parts.version} listens on port ${port}, with ${registry.list().length} plotter(s)`);
+    return { url: urlOf(http, isTls), pairing: paths, close };
   } catch (error) {
     await close();
     throw error;
   }
 }
 
+/** Everything behind the routes, each with its way to be closed. */
+async function openParts(
+  options: ServerOptions,
+  dataDir: string,
+  store: Store,
+  log: (line: string) => void,
+  undo: (() => Promise<void> | void)[],
+): Promise<Omit<AppParts, "pairing" | "log" | "serverLog">> {
+  const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
+  await files.sweep((drawing) => store.isUsed(drawing));
+  const hub = new EventHub();
+  const announce = (event: ServerEvent): void => hub.announce(event);
+  const nowIso = (): string => new Date().toISOString();
+  const machines = new MachineFiles(dataDir);
+  machines.warnings.forEach(log);
+  const withMachine = (settings: PlotSettings): PlotSettings => machines.withMachine(settings);
+
+  const { virtualSpeed, device: firstDevice } = options;
+  const registry = new PlotterRegistry({
+    store,
+    announce,
+    findBoards,
+    firstId: FIRST_PLOTTER,
+    firstDevice,
+    open: (row, isTaken) => openDriven(row, { virtualSpeed, isTaken, withMachine, log }),
+  });
+  undo.push(() => registry.close());
+  const plotters = registry.ports;
+  const plotterName = (id: string): string => plotters.get(id)?.snapshot().name ?? id;
+  const webhooks = new Webhooks({ store: store.webhooks, plotterName, log });
+  undo.push(() => webhooks.close());
+  const queue = new JobQueue({
+    store,
+    files,
+    planning: createPlanning(files),
+    plotters,
+    announce,
+    nowIso,
+    withChange: (before, after) => webhooks.note(before, after),
+    afterChange: () => webhooks.wake(),
+  });
+  undo.push(() => queue.close());
+  webhooks.start();
+  const notices = new Notices({ store, announce, nowIso });
+  if (options.watchDir !== undefined) {
+    const folder = await WatchFolder.open(options.watchDir, {
+      queue,
+      files,
+      store,
+      notices,
+      withMachine,
+      log,
+    });
+    undo.push(() => folder.close());
+  }
+
+  const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
+  access.onRevoke(() => hub.dropAll());
+  const baton = new Baton({ store, log, announce: (operator) => announce({ type: "operator", operator }) });
+  undo.push(() => baton.close());
+  return {
+    version: packageVersion(),
+    machines,
+    queue,
+    files,
+    registry,
+    hub,
+    baton,
+    webhooks,
+    notices,
+    access,
+    allowedHosts: allowedHosts(options),
+    webDir: packagePath("dist/web"),
+    samplesDir: packagePath("samples"),
+  };
+}
+
 function allowedHosts({ allowedHosts = [], host, lan }: ServerOptions): string[] {
   const own = lan === true ? [`${MDNS_NAME}.local`, hostname()] : [];
   return [...allowedHosts, ...own, ...(host === undefined ? [] : [host])];
-}
-
-/** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
-function httpServer({ tls }: ServerOptions, app: RequestListener): Server {
-  const times = { headersTimeout: 20_000, requestTimeout: 10 * 60_000 };
-  if (tls === undefined) return createHttpServer(times, app);
-  try {
-    return createHttpsServer({ ...times, ...tls }, app);
-  } catch (cause) {
-    throw new PlotwrightError(
-      "bad-setting",
-      `The certificate or its key can't be used (${(cause as Error).message}). Give PEM files with --cert and --key.`,
-      { cause },
-    );
-  }
-}
-
-async function closeAll(plotters: ReadonlyMap<string, PlotterPort>): Promise<void> {
-  await Promise.all([...plotters.values()].map((plotter) => plotter.close()));
-}
-
-function listen(http: Server, port: number, host: string): Promise<void> {
-  return new Promise((resolve, reject) => {
-    http.once("error", (cause: NodeJS.ErrnoException) => reject(listenFault(cause, port, host)));
-    http.listen(port, host, resolve);
-  });
-}
-
-function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): PlotwrightError {
-  if (cause.code === "EADDRINUSE") {
-    return new PlotwrightError(
-      "conflict",
-      `Port ${port} is taken by another program. Stop it, or choose another with --port.`,
-      { cause },
-    );
-  }
-  return new PlotwrightError("bad-setting", `Can't listen on ${host}:${port} (${cause.message}).`, { cause });
 }
 
 function stopListening(http: Server, hub: EventHub): Promise<void> {
@@ -173,11 +196,4 @@ function stopListening(http: Server, hub: EventHub): Promise<void> {
     hub.close();
     http.closeAllConnections();
   });
-}
-
-function urlOf(http: Server, isTls: boolean): string {
-  const { address, port, family } = http.address() as AddressInfo;
-  const isAny = address === "::" || address === "0.0.0.0";
-  const host = isAny ? "127.0.0.1" : family === "IPv6" ? `[${address}]` : address;
-  return `${isTls ? "https" : "http"}://${host}:${port}`;
 }

@@ -1,9 +1,16 @@
 /** The plotters of one server, as the queue and the routes see them. */
 import { PlotwrightError } from "../src/index.js";
-import type { Plotter, PlotSettings } from "../src/schema/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type Plotter,
+  type PlotSettings,
+} from "../src/schema/index.js";
+import type { HandMove } from "./plotter/hand-moves.js";
 import { PlotterDriver, type PlotterOptions } from "./plotter/plotter.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./plotter/types.js";
-import type { PlotterPort } from "./queue/plotter-port.js";
+import type { ManagedPlotter, PlotterPort } from "./queue/plotter-port.js";
+import type { PlotterRow } from "./queue/store.js";
 
 export interface DeviceChoice {
   /** Serial path, "virtual", or nothing: the first EiBotBoard, else the virtual board. */
@@ -12,28 +19,41 @@ export interface DeviceChoice {
 }
 
 /** Kept with every job, so it must never change. */
-const FIRST_PLOTTER = "main";
+export const FIRST_PLOTTER = "main";
+
+export interface DrivenOptions {
+  readonly virtualSpeed?: number | undefined;
+  /** Ports that other plotters have been given. */
+  readonly isTaken: (path: string) => boolean;
+  /** Puts in the profile of a machine of the user's own. */
+  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+  readonly log: (line: string) => void;
+}
 
 /** Connects in the background: a server without its board still shows the queue and says what is wrong. */
-export function openPlotters(
-  choice: DeviceChoice,
-  log: (line: string) => void,
-): ReadonlyMap<string, PlotterPort> {
-  const plotter = new DrivenPlotter(FIRST_PLOTTER, choice);
+export function openDriven(row: PlotterRow, options: DrivenOptions): ManagedPlotter {
+  const { virtualSpeed, isTaken, withMachine, log } = options;
+  const { machine } = row;
+  const settings = machine === null ? undefined : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine });
+  const plotter = new DrivenPlotter(row, { device: row.device, virtualSpeed, isTaken, settings });
   let last: string | null = null;
-  plotter.onChange(({ connection, message, device }) => {
-    const line = `${device ?? "plotter"}: ${connection}${message === null ? "" : `. ${message}`}`;
+  plotter.onChange(({ name, connection, message, device }) => {
+    const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
     if (connection === "busy" || connection === "connecting" || line === last) return;
     last = line;
     log(line);
   });
   void plotter.start();
-  return new Map([[plotter.id, plotter]]);
+  return plotter;
 }
 
 /** One plotter, connected, for a command; throws `no-board` when it can't be. */
 export async function openPlotter(choice: DeviceChoice): Promise<PlotterPort> {
-  const plotter = new DrivenPlotter(FIRST_PLOTTER, choice);
+  const { device = "auto", virtualSpeed } = choice;
+  const plotter = new DrivenPlotter(
+    { id: FIRST_PLOTTER, name: null, machine: null },
+    { device, virtualSpeed },
+  );
   await plotter.start();
   const { connection, message } = plotter.snapshot();
   if (connection === "idle") return plotter;
@@ -41,14 +61,19 @@ export async function openPlotter(choice: DeviceChoice): Promise<PlotterPort> {
   throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
 }
 
-class DrivenPlotter implements PlotterPort {
+class DrivenPlotter implements ManagedPlotter {
   readonly id: string;
   readonly #driver: PlotterDriver;
+  readonly #listeners: ((plotter: Plotter) => void)[] = [];
+  #name: string | null;
+  #machine: string | null;
 
-  constructor(id: string, choice: DeviceChoice) {
+  constructor({ id, name, machine }: Omit<PlotterRow, "device">, options: PlotterOptions) {
     this.id = id;
-    const options: PlotterOptions = { device: choice.device ?? "auto", virtualSpeed: choice.virtualSpeed };
+    this.#name = name;
+    this.#machine = machine;
     this.#driver = new PlotterDriver(options);
+    this.#driver.onChange(() => this.#tell());
   }
 
   start(): Promise<void> {
@@ -57,11 +82,21 @@ class DrivenPlotter implements PlotterPort {
 
   snapshot(): Plotter {
     const { state } = this.#driver;
-    return { id: this.id, name: state.kind === "virtual" ? "Virtual plotter" : "Plotter", machine: null, ...state };
+    const name = this.#name ?? (state.kind === "virtual" ? "Virtual plotter" : "Plotter");
+    return { id: this.id, name, machine: this.#machine, ...state };
+  }
+
+  settled(): Promise<void> {
+    return this.#driver.settled();
+  }
+
+  rename(name: string): void {
+    this.#name = name;
+    this.#tell();
   }
 
   onChange(listener: (plotter: Plotter) => void): void {
-    this.#driver.onChange(() => listener(this.snapshot()));
+    this.#listeners.push(listener);
   }
 
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> {
@@ -80,11 +115,20 @@ class DrivenPlotter implements PlotterPort {
     return this.#driver.log();
   }
 
-  home(): Promise<void> {
-    return this.#driver.home();
+  move(move: HandMove, settings?: PlotSettings): Promise<void> {
+    return this.#driver.move(move, settings);
+  }
+
+  command(line: string): Promise<CommandAnswer> {
+    return this.#driver.command(line);
   }
 
   close(): Promise<void> {
     return this.#driver.close();
+  }
+
+  #tell(): void {
+    const state = this.snapshot();
+    for (const listener of this.#listeners) listener(state);
   }
 }

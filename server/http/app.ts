@@ -1,13 +1,17 @@
 /** Express put together: guards first, then the API, then the page. */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
-import { queueSettingsSchema, type Snapshot } from "../../src/schema/index.js";
+import { queueSettingsSchema, type Pairing, type Snapshot } from "../../src/schema/index.js";
 import type { MachineFiles } from "../machines/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
-import type { PlotterPort } from "../queue/plotter-port.js";
 import type { Access } from "../security/access.js";
+import type { Baton } from "../security/baton.js";
+import type { Notices } from "../queue/notices.js";
+import type { PlotterRegistry } from "../plotter-registry.js";
+import type { Webhooks } from "../webhooks/webhooks.js";
+import { Browsers, requireBaton } from "./browser.js";
 import { errorResponder, notFound, parseWith } from "./errors.js";
 import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
@@ -17,14 +21,23 @@ import { jobsRoutes } from "./jobs-routes.js";
 import { machinesRoutes } from "./machines-routes.js";
 import { openApiDocument } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
+import { plotterListRoutes } from "./plotter-list-routes.js";
 import { samplesRoutes } from "./samples.js";
+import { studioRoutes } from "./studio-routes.js";
 
 export interface AppParts {
   readonly version: string;
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
-  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly registry: PlotterRegistry;
   readonly hub: EventHub;
+  readonly baton: Baton;
+  readonly webhooks: Webhooks;
+  readonly notices: Notices;
+  /** Links that pair a device. */
+  readonly pairing: () => Promise<Pairing>;
+  /** What the server has said so far. */
+  readonly serverLog: () => string;
   /** Plotters of the user's own. */
   readonly machines: MachineFiles;
   readonly allowedHosts: readonly string[];
@@ -37,14 +50,19 @@ export interface AppParts {
 }
 
 export function createApp(parts: AppParts): Express {
+  const { access, queue, log } = parts;
+  const browsers = new Browsers(access);
+  const isRunning = (jobId: string): boolean => queue.isRunning(jobId);
   const app = express();
   app.disable("x-powered-by");
   app.use(securityHeaders());
-  app.use(guardHosts(parts.allowedHosts, parts.log));
-  app.use(limitRequests(parts.access));
-  app.use(pairRoutes(parts.access, parts.log));
-  app.use("/api", requireRole(parts.access, parts.log));
-  app.use("/api/v1", apiRoutes(parts));
+  app.use(guardHosts(parts.allowedHosts, log));
+  app.use(limitRequests(access));
+  app.use(pairRoutes(access, log));
+  app.use(browsers.routes());
+  app.use("/api", requireRole(access, isRunning, log));
+  app.use("/api", requireBaton(browsers, parts.baton, isRunning));
+  app.use("/api/v1", apiRoutes(parts, browsers));
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
   app.use(notFound);
@@ -53,48 +71,54 @@ export function createApp(parts: AppParts): Express {
 }
 
 /** The API in its parts: where each stands below /api/v1, and its routes. */
-export function apiMounts(parts: AppParts): readonly (readonly [string, Router])[] {
-  const { queue } = parts;
+export function apiMounts(
+  parts: AppParts,
+  browsers = new Browsers(parts.access),
+): readonly (readonly [string, Router])[] {
+  const { queue, registry } = parts;
+  const plotters = registry.ports;
   return [
-    ["", stateRoutes(parts)],
+    ["", stateRoutes(parts, browsers)],
+    ["", studioRoutes({ ...parts, plotters, browsers })],
+    ["", plotterListRoutes(registry, queue, parts.log)],
     ["/access", accessRoutes(parts.access)],
     ["/jobs", jobsRoutes(queue, parts.files, parts.machines)],
     ["/machines", machinesRoutes(parts.machines)],
-    ["/plotters", plottersRoutes(parts.plotters, queue)],
+    ["/plotters", plottersRoutes(plotters, queue)],
     ["/plotters", handMovesRoutes(handMoveParts(parts))],
     ["/samples", samplesRoutes(parts.samplesDir)],
   ];
 }
 
-function handMoveParts({ plotters, queue, machines }: AppParts): HandMoveParts {
+function handMoveParts({ registry, queue, machines }: AppParts): HandMoveParts {
   return {
-    plotters,
+    plotters: registry.ports,
     queue,
     jobBoxMm: (id) => drawingBoxMm(queue.drawingPath(id), queue.get(id).settings),
     withMachine: (settings) => machines.withMachine(settings),
   };
 }
 
-function apiRoutes(parts: AppParts): Router {
+function apiRoutes(parts: AppParts, browsers: Browsers): Router {
   const router = Router();
   router.use((_request, response, next) => {
     response.set("Cache-Control", "no-store");
     next();
   });
-  for (const [path, routes] of apiMounts(parts)) router.use(path === "" ? "/" : path, routes);
+  for (const [path, routes] of apiMounts(parts, browsers)) router.use(path === "" ? "/" : path, routes);
   return router;
 }
 
-function stateRoutes(parts: AppParts): Router {
-  const { queue, plotters } = parts;
+function stateRoutes(parts: AppParts, browsers: Browsers): Router {
+  const { queue, registry, baton } = parts;
   const router = Router();
   const snapshot = (): Snapshot => ({
     version: parts.version,
-    plotters: [...plotters.values()].map((plotter) => plotter.snapshot()),
+    plotters: registry.list(),
     queue: queue.settings(),
     queues: queue.allSettings(),
-    operator: null,
-    serverNotices: [],
+    operator: baton.operator,
+    serverNotices: parts.notices.list(),
     jobs: queue.list(),
   });
   router.get("/openapi.json", (_request, response) => {
@@ -103,9 +127,14 @@ function stateRoutes(parts: AppParts): Router {
   router.get("/state", (_request, response) => {
     response.json(snapshot());
   });
-  router.get("/events", (request, response) => parts.hub.open(request, response, snapshot));
+  router.get("/events", (request, response) => {
+    const browser = browsers.of(request);
+    if (browser !== null) request.on("close", baton.streamOpened(browser.id));
+    parts.hub.open(request, response, snapshot);
+  });
   router.get("/me", (request, response) => {
-    response.json({ role: roleOf(request, parts.access) });
+    const { id = null, name = null } = browsers.of(request) ?? {};
+    response.json({ role: roleOf(request, parts.access), id, name });
   });
   router.get("/queue", (_request, response) => {
     response.json(queue.settings());

@@ -6,7 +6,7 @@ import { newKeySchema, type Role } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
 import { parseWith } from "./errors.js";
 
-const COOKIE = "plotwright_session";
+export const SESSION_COOKIE = "plotwright_session";
 const SESSION_DAYS = 90;
 const LOOPBACK = /^(::1|(::ffff:)?127(\.\d{1,3}){3})$/;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
@@ -17,15 +17,20 @@ const MOST_PAIRINGS = 10;
 
 export function roleOf(request: Request, access: Access): Role | null {
   if (isTrusted(request, access)) return "operate";
-  const secret = bearerOf(request) ?? cookieOf(request);
+  const secret = bearerOf(request) ?? cookieOf(request, SESSION_COOKIE);
   return secret === null ? null : access.roleOf(secret);
 }
 
 /** For everything under /api: some role, and "operate" for whatever changes something. */
-export function requireRole(access: Access, log: (line: string) => void): RequestHandler {
+export function requireRole(
+  access: Access,
+  isRunning: IsRunning,
+  log: (line: string) => void,
+): RequestHandler {
   return (request, _response, next) => {
     const role = roleOf(request, access);
-    const isAllowed = role === "operate" || (role === "watch" && mayWatch(request));
+    const isAllowed =
+      role === "operate" || (role === "watch" && (isStop(request, isRunning) || maySee(request)));
     if (isAllowed) {
       next();
       return;
@@ -40,11 +45,19 @@ export function requireRole(access: Access, log: (line: string) => void): Reques
   };
 }
 
-/** Seeing, and stopping: whoever stands nearest to a plot that goes wrong must be able to stop it. */
-function mayWatch({ method, path }: Request): boolean {
-  if (SAFE_METHODS.has(method)) return !path.startsWith("/v1/access");
-  return method === "POST" && /^\/v1\/jobs\/[^/]+\/(pause|emergency-stop)$/.test(path);
+/** Whether a job is on a plotter now. */
+export type IsRunning = (jobId: string) => boolean;
+
+/** Whoever stands nearest to a plot that goes wrong must be able to stop it. `path` below /api. */
+export function isStop({ method, path }: Request, isRunning: IsRunning): boolean {
+  const match = /^\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/.exec(path);
+  // To cancel what only waits in the queue is no stop.
+  return method === "POST" && match !== null && (match[2] !== "cancel" || isRunning(match[1] ?? ""));
 }
+
+/** Keys, links with secrets in them and logs are for operators. */
+const maySee = ({ method, path }: Request): boolean =>
+  SAFE_METHODS.has(method) && !/^\/v1\/(access|webhooks|logs)(\/|$)/i.test(path);
 
 /** GET /pair?token=…: a session cookie, then on to the page. */
 export function pairRoutes(access: Access, log: (line: string) => void): Router {
@@ -54,7 +67,7 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
     const name = request.headers["user-agent"] ?? "browser";
     try {
       const secret = access.pair(typeof token === "string" ? token : "", name);
-      response.cookie(COOKIE, secret, {
+      response.cookie(SESSION_COOKIE, secret, {
         httpOnly: true,
         sameSite: "strict",
         secure: request.secure,
@@ -111,14 +124,15 @@ function limitBy(most: number, access: Access): RequestHandler {
   });
 }
 
-const isTrusted = (request: Request, access: Access): boolean =>
+/** On this computer, and this computer's users are not asked who they are. */
+export const isTrusted = (request: Request, access: Access): boolean =>
   access.trustsLoopback && LOOPBACK.test(request.socket.remoteAddress ?? "");
 
-function bearerOf(request: Request): string | null {
+export function bearerOf(request: Request): string | null {
   return /^Bearer ([\w-]{20,200})$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
 }
 
-function cookieOf(request: Request): string | null {
-  const match = new RegExp(`(?:^|;\\s*)${COOKIE}=([\\w-]{20,200})(?:;|$)`).exec(request.headers.cookie ?? "");
+export function cookieOf(request: Request, name: string): string | null {
+  const match = new RegExp(`(?:^|;\\s*)${name}=([\\w-]{20,200})(?:;|$)`).exec(request.headers.cookie ?? "");
   return match?.[1] ?? null;
 }

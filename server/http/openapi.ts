@@ -13,6 +13,7 @@ import {
   jogRequestSchema,
   machineListSchema,
   machineProfileSchema,
+  meSchema,
   moveJobSchema,
   movePlaceSchema,
   newJobSchema,
@@ -20,13 +21,13 @@ import {
   penRequestSchema,
   plotterSchema,
   queueSettingsSchema,
-  roleSchema,
   serverEventSchema,
   servoRequestSchema,
   snapshotSchema,
   squareRequestSchema,
   walkRequestSchema,
 } from "../../src/schema/index.js";
+import { STUDIO_ROUTES } from "./studio-api.js";
 
 export interface ApiRoute {
   readonly method: "get" | "post" | "put" | "patch" | "delete";
@@ -54,7 +55,7 @@ const jobAction = (name: string, about: string, body?: ZodType): ApiRoute =>
 export const API_ROUTES: readonly ApiRoute[] = [
   route("get", "/state", "Everything at once", snapshotSchema),
   route("get", "/events", "What changes, a snapshot first", "events"),
-  route("get", "/me", "What the caller may do", z.object({ role: roleSchema })),
+  route("get", "/me", "What the caller may do", meSchema),
   route("get", "/openapi.json", "This document", z.looseObject({})),
   route("get", "/queue", "How the queue runs", queueSettingsSchema),
   route("patch", "/queue", "Changes how the queue runs", queueSettingsSchema, { body: queueSettingsSchema }),
@@ -116,6 +117,7 @@ export const API_ROUTES: readonly ApiRoute[] = [
     z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) }),
   ),
   route("get", "/samples/:name", "One of them", "text"),
+  ...STUDIO_ROUTES,
 ];
 
 export function openApiDocument(version: string): object {

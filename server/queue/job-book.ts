@@ -5,16 +5,13 @@
  * Progress is the exception: it is kept in memory and written only with the next change of state.
  */
 import { PlotwrightError } from "../../src/index.js";
-import { ENDED_STATES, type Job, type ServerEvent } from "../../src/schema/index.js";
+import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import type { StoredDrawing } from "./drawing-files.js";
 import { applyJobEvent, type JobEvent } from "./job-machine.js";
-import type { Store } from "./store.js";
+import type { QueueParts } from "./queue-parts.js";
+import type { WatchedFile } from "./store.js";
 
-export interface BookParts {
-  readonly store: Store;
-  readonly announce: (event: ServerEvent) => void;
-  readonly nowIso: () => string;
-}
+type BookParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
 export class JobBook {
   readonly #parts: BookParts;
@@ -42,8 +39,19 @@ export class JobBook {
   }
 
   /** Last in the queue, or before another job of it. */
-  insert(job: Job, drawing: StoredDrawing, beforeId: string | null = null): Job {
-    this.#parts.store.addJob(job, drawing, beforeId);
+  insert(
+    job: Job,
+    drawing: StoredDrawing,
+    {
+      beforeId = null,
+      watched,
+    }: { readonly beforeId?: string | null; readonly watched?: WatchedFile | undefined } = {},
+  ): Job {
+    const { store } = this.#parts;
+    store.together(() => {
+      store.addJob(job, drawing, beforeId);
+      if (watched !== undefined) store.saveSeen(watched);
+    });
     this.#jobs.set(job.id, job);
     this.#parts.announce({ type: "job", job });
     this.announceOrder();
@@ -67,9 +75,15 @@ export class JobBook {
   }
 
   save(job: Job): Job {
-    this.#parts.store.saveJob(job);
+    const { store, withChange, afterChange } = this.#parts;
+    const before = this.#jobs.get(job.id) ?? null;
+    store.together(() => {
+      store.saveJob(job);
+      withChange?.(before, job);
+    });
     this.#jobs.set(job.id, job);
     this.#parts.announce({ type: "job", job });
+    afterChange?.();
     return job;
   }
 

@@ -1,6 +1,7 @@
 /** The queue: what may be done with jobs, whichever plotter they are for. Every change is on disk before it is announced. */
 import { PlotwrightError } from "../../src/index.js";
 import {
+  ENDED_STATES,
   queueSettingsSchema,
   type Job,
   type JobChange,
@@ -61,7 +62,7 @@ export class JobQueue {
     const waiting = this.#book.order().filter((one) => this.get(one).state === "queued");
     const behind = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
     const copy = this.#fresh({ ...job, plotterId: this.#presentPlotter(job) });
-    return this.#book.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, behind);
+    return this.#book.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId: behind });
   }
 
   /** Plans the drawing to know it can be plotted, then appends it. Throws what planning throws, and
@@ -76,7 +77,7 @@ export class JobQueue {
   }
 
   async #add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
-    const { name, settings, drawing, plotterId = this.#firstPlotter() } = wanted;
+    const { name, settings, drawing, watched, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, signal);
     // It may have been removed meanwhile.
@@ -84,6 +85,7 @@ export class JobQueue {
     return this.#book.insert(
       this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] }),
       drawing,
+      { watched },
     );
   }
 
@@ -149,6 +151,17 @@ export class JobQueue {
     return this.#parts.files.path(this.#parts.store.drawingOf(id));
   }
 
+  /** Whether it is on a plotter now; false for one that there is not. */
+  isRunning(id: string): boolean {
+    return this.list().some((job) => job.id === id && (job.state === "plotting" || job.state === "paused"));
+  }
+
+  /** Jobs of a plotter that are not history. */
+  liveJobCount(plotterId: string): number {
+    return this.list().filter((job) => job.plotterId === plotterId && !ENDED_STATES.includes(job.state))
+      .length;
+  }
+
   isPlotterBusy(plotterId: string): boolean {
     return this.#runs.isBusy(plotterId);
   }
@@ -159,6 +172,11 @@ export class JobQueue {
 
   recover(id: string): Job {
     return this.#runs.recover(id);
+  }
+
+  /** Resolves when it is known whether the board of a job's plotter is there, which takes a moment after a start. */
+  async plotterSettled(id: string): Promise<void> {
+    await plotterOf(this.#parts, this.get(id).plotterId).settled();
   }
 
   change(id: string, change: JobChange): Promise<Job> {

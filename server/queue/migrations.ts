@@ -47,7 +47,29 @@ const MIGRATIONS: readonly string[] = [
      machine    TEXT
    );`,
   `INSERT OR IGNORE INTO settings (key, value) SELECT 'queue:main', value FROM settings WHERE key = 'queue';
-   DELETE FROM settings WHERE key = 'queue';`,
+   DELETE FROM settings WHERE key = 'queue';
+   CREATE TABLE webhooks (
+     id         TEXT PRIMARY KEY,
+     name       TEXT NOT NULL,
+     url        TEXT NOT NULL,
+     events     TEXT NOT NULL,        -- JSON
+     secret     TEXT NOT NULL,
+     created_at TEXT NOT NULL,
+     last       TEXT                  -- JSON
+   );
+   CREATE TABLE deliveries (
+     id         TEXT PRIMARY KEY,
+     webhook_id TEXT NOT NULL REFERENCES webhooks (id) ON DELETE CASCADE,
+     event      TEXT NOT NULL,
+     body       TEXT NOT NULL,
+     try_count  INTEGER NOT NULL,
+     next_at_ms INTEGER NOT NULL
+   );
+   CREATE TABLE watched (             -- files of the watched folder that have been seen to
+     name       TEXT NOT NULL,
+     sha256     TEXT NOT NULL,
+     PRIMARY KEY (name, sha256)
+   );`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

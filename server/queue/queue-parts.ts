@@ -1,9 +1,9 @@
 /** What the queue is made of, given in so that tests can lead each part. */
-import type { JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { Job, JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../plotter/types.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 import type { PlotterPort } from "./plotter-port.js";
-import type { Store } from "./store.js";
+import type { Store, WatchedFile } from "./store.js";
 
 export interface Planning {
   measure(
@@ -22,6 +22,10 @@ export interface QueueParts {
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
+  /** Writes what follows from a job's change, in the same transaction. */
+  readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
+  /** After the change has been announced. */
+  readonly afterChange?: (() => void) | undefined;
 }
 
 export interface NewQueueJob {
@@ -29,4 +33,6 @@ export interface NewQueueJob {
   readonly settings: PlotSettings;
   readonly drawing: StoredDrawing;
   readonly plotterId?: string | undefined;
+  /** Where it comes from: seen to as soon as the job is there. */
+  readonly watched?: WatchedFile | undefined;
 }

@@ -13,7 +13,22 @@ import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { lockDataDir } from "./data-lock.js";
 import { migrate } from "./migrations.js";
+import { WebhookStore } from "../webhooks/webhook-store.js";
 import type { StoredDrawing } from "./drawing-files.js";
+
+/** A file of the watched folder: the same name with other content is another one. */
+export interface WatchedFile {
+  readonly name: string;
+  readonly sha256: string;
+}
+
+/** A plotter as it is kept; without a name it is called after what it is. */
+export interface PlotterRow {
+  readonly id: string;
+  readonly name: string | null;
+  readonly device: string;
+  readonly machine: string | null;
+}
 
 type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
@@ -89,6 +104,24 @@ export class Store {
     return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [drawing]) !== null;
   }
 
+  get webhooks(): WebhookStore {
+    return new WebhookStore(this.#db);
+  }
+
+  /** All of what `work` writes, or nothing; one within another belongs to the outer one. */
+  together(work: () => void): void {
+    this.#transaction(work);
+  }
+
+  /** Whether a file of the watched folder has been seen to. */
+  isSeen({ name, sha256 }: WatchedFile): boolean {
+    return this.#db.get("SELECT 1 FROM watched WHERE name = ? AND sha256 = ?", [name, sha256]) !== null;
+  }
+
+  saveSeen({ name, sha256 }: WatchedFile): void {
+    this.#run("INSERT OR IGNORE INTO watched (name, sha256) VALUES (?, ?)", [name, sha256]);
+  }
+
   /** Last in the queue, or before another job of it. */
   addJob(job: Job, drawing: StoredDrawing, beforeId: string | null = null): void {
     this.#transaction(() => {
@@ -122,6 +155,30 @@ export class Store {
     ids.forEach((one, index) =>
       this.#run("UPDATE jobs SET position = ? WHERE id = ?", [Number(top["p"]) + index, one]),
     );
+  }
+
+  /** Empty before the first start. */
+  plotters(): PlotterRow[] {
+    return this.#all("SELECT id, name, device, machine FROM plotters ORDER BY position").map((row) => ({
+      id: String(row["id"]),
+      name: textOrNull(row["name"]),
+      device: String(row["device"]),
+      machine: textOrNull(row["machine"]),
+    }));
+  }
+
+  /** A new one comes last. */
+  savePlotter({ id, name, device, machine }: PlotterRow): void {
+    this.#run(
+      `INSERT INTO plotters (id, position, name, device, machine)
+       VALUES (?, (SELECT COALESCE(MAX(position), 0) + 1 FROM plotters), ?, ?, ?)
+       ON CONFLICT (id) DO UPDATE SET name = excluded.name, device = excluded.device, machine = excluded.machine`,
+      [id, name, device, machine],
+    );
+  }
+
+  removePlotter(id: string): void {
+    this.#run("DELETE FROM plotters WHERE id = ?", [id]);
   }
 
   /** Removes the job; returns its drawing's id when no other job needs it any more. */
@@ -187,6 +244,10 @@ export class Store {
   }
 
   #transaction(work: () => void): void {
+    if (this.#db.inTransaction) {
+      work();
+      return;
+    }
     this.#db.exec("BEGIN IMMEDIATE");
     try {
       work();
@@ -197,6 +258,9 @@ export class Store {
     }
   }
 }
+
+const textOrNull = (value: Row[string] | undefined): string | null =>
+  typeof value === "string" ? value : null;
 
 function rowFromJob(job: Job): Value[] {
   return [

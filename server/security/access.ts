@@ -85,6 +85,11 @@ export class Access {
 
   /** The role that a secret stands for; null when it stands for none. */
   roleOf(secret: string): Role | null {
+    return this.entryOf(secret)?.role ?? null;
+  }
+
+  /** The session or key whose secret this is; null when it is none. */
+  entryOf(secret: string): AccessEntry | null {
     const sha256 = hashOf(secret);
     const entry = this.#entries.find((one) => equal(one.secretSha256, sha256));
     if (entry === undefined) return null;
@@ -94,7 +99,7 @@ export class Access {
         this.#entries.map((one) => (one === entry ? { ...one, lastSeenAt: now.toISOString() } : one)),
       );
     }
-    return entry.role;
+    return publicPart(entry);
   }
 
   #add(kind: AccessEntry["kind"], role: Role, name: string): { entry: AccessEntry; secret: string } {

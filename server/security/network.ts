@@ -2,6 +2,7 @@
 import { networkInterfaces } from "node:os";
 import { Bonjour } from "bonjour-service";
 import qrcode from "qrcode";
+import type { Pairing } from "../../src/schema/index.js";
 
 export const MDNS_NAME = "plotwright";
 
@@ -21,6 +22,23 @@ export async function pairingText(baseUrl: string, operatePath: string, watchPat
   to operate  ${baseUrl}${operatePath}
   to watch    ${baseUrl}${watchPath}
 ${code}`;
+}
+
+/** The same links with their codes as pictures, for the page. */
+export async function pairingLinks(
+  baseUrl: string,
+  isOnLan: boolean,
+  paths: { readonly operatePath: string; readonly watchPath: string },
+): Promise<Pairing> {
+  const [operateUrl, watchUrl] = [`${baseUrl}${paths.operatePath}`, `${baseUrl}${paths.watchPath}`];
+  const picture = (url: string): Promise<string> => qrcode.toString(url, { type: "svg", margin: 2 });
+  return {
+    isOnLan,
+    operateUrl,
+    watchUrl,
+    operateQrSvg: await picture(operateUrl),
+    watchQrSvg: await picture(watchUrl),
+  };
 }
 
 /** Announces http://plotwright.local; returns what takes it back. */

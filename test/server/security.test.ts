@@ -80,26 +80,32 @@ describe("a server on the network", () => {
     const watcher = await pair("watch");
     const job = await plotting(operator);
     const run = await app.plotter.nextRun();
+    const added = await call("/api/v1/jobs?name=b", as(operator, { method: "POST", body: SVG }));
+    const waiting = jobSchema.parse(await added.json());
     expect((await call("/api/v1/state", as(watcher))).status).toBe(200);
     const events = await EventStream.open(app.url, { Cookie: watcher });
     await events.find("snapshot");
     events.close();
     for (const [method, path] of [
       ["POST", "/api/v1/jobs?name=b"],
-      ["POST", `/api/v1/jobs/${job.id}/cancel`],
+      ["POST", `/api/v1/jobs/${waiting.id}/cancel`],
       ["POST", `/api/v1/jobs/${job.id}/resume`],
       ["PATCH", `/api/v1/jobs/${job.id}`],
       ["DELETE", `/api/v1/jobs/${job.id}`],
-      ["POST", `/api/v1/jobs/${job.id}/pause/../cancel`],
+      ["POST", `/api/v1/jobs/${job.id}/pause/../resume`],
       ["POST", "/api/v1/plotters/virtual/home"],
       ["GET", "/api/v1/access"],
+      ["GET", "/api/v1/webhooks"],
+      ["GET", "/api/v1/logs"],
+      ["POST", "/api/v1/operator/take"],
       ["POST", "/api/v1/access/keys"],
     ] as const) {
       expect([path, (await call(path, as(watcher, { method }))).status]).toEqual([path, 403]);
     }
     expect(run.asked).toEqual([]);
     expect((await call(`/api/v1/jobs/${job.id}/pause`, as(watcher, { method: "POST" }))).status).toBe(200);
-    expect(run.asked).toEqual(["pause"]);
+    expect((await call(`/api/v1/jobs/${job.id}/cancel`, as(watcher, { method: "POST" }))).status).toBe(200);
+    expect(run.asked).toEqual(["pause", "cancel"]);
   });
 
   it("makes keys for scripts, shows their secret once, and forgets what is revoked at once", async () => {

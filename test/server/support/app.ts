@@ -1,6 +1,6 @@
 /** The HTTP server over a temporary folder, with a led plotter: everything real but threads and board. */
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
-import { createServer, type Server } from "node:http";
+import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -8,6 +8,14 @@ import { prepareDataDir } from "../../../server/data-dir.js";
 import { apiMounts, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
 import { MachineFiles } from "../../../server/machines/machine-files.js";
+import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
+import { PlotterRegistry } from "../../../server/plotter-registry.js";
+import { Notices } from "../../../server/queue/notices.js";
+import { Baton } from "../../../server/security/baton.js";
+import { pairingLinks } from "../../../server/security/network.js";
+import type { FoundBoard } from "../../../server/serial/find-boards.js";
+import { Webhooks } from "../../../server/webhooks/webhooks.js";
+import type { ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/queue/drawing-files.js";
 import { JobQueue } from "../../../server/queue/job-queue.js";
 import type { Planning } from "../../../server/queue/queue-parts.js";
@@ -21,6 +29,10 @@ export interface TestApp {
   readonly queue: JobQueue;
   readonly store: Store;
   readonly access: Access;
+  readonly notices: Notices;
+  readonly webhooks: Webhooks;
+  /** Plotters added while it runs. */
+  readonly more: readonly LedPlotter[];
   readonly logged: string[];
   /** "method path" of every route below /api/v1. */
   routes(): string[];
@@ -33,6 +45,10 @@ export async function startApp(
     readonly planning?: Planning;
     readonly maxUploadBytes?: number;
     readonly trustsLoopback?: boolean;
+    readonly lapseMs?: number;
+    readonly boards?: readonly FoundBoard[];
+    readonly tls?: TlsFiles;
+    readonly times?: { readonly headersTimeout?: number; readonly requestTimeout?: number };
   } = {},
 ): Promise<TestApp> {
   const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
@@ -41,41 +57,76 @@ export async function startApp(
   const maxUploadBytes = options.maxUploadBytes ?? 3_000_000;
   const files = new DrawingFiles(dir, maxUploadBytes);
   const plotter = new LedPlotter();
-  const plotters = new Map([[plotter.id, plotter]]);
   const hub = new EventHub();
+  const logged: string[] = [];
+  const log = (line: string): void => void logged.push(line);
+  const announce = (event: ServerEvent): void => hub.announce(event);
+  const nowIso = (): string => new Date().toISOString();
+  const more: LedPlotter[] = [];
+  const registry = new PlotterRegistry({
+    store,
+    announce,
+    firstId: plotter.id,
+    findBoards: () => Promise.resolve(options.boards ?? []),
+    open: (row) => {
+      if (row.id === plotter.id) return plotter;
+      const other = new LedPlotter(row.id, row.name ?? row.id);
+      more.push(other);
+      return other;
+    },
+  });
+  const plotters = registry.ports;
+  const webhooks = new Webhooks({ store: store.webhooks, plotterName: (id) => id, log, pausesS: [0, 0, 0] });
   const queue = new JobQueue({
     store,
     files,
     planning: options.planning ?? LED_PLANNING,
     plotters,
-    announce: (event) => hub.announce(event),
-    nowIso: () => new Date().toISOString(),
+    announce,
+    nowIso,
+    withChange: (before, after) => webhooks.note(before, after),
+    afterChange: () => webhooks.wake(),
   });
-  const logged: string[] = [];
+  const notices = new Notices({ store, announce, nowIso });
+  const baton = new Baton({
+    store,
+    log,
+    announce: (operator) => announce({ type: "operator", operator }),
+    lapseMs: options.lapseMs ?? 30_000,
+  });
   const access = new Access(store, { trustsLoopback: options.trustsLoopback });
   access.onRevoke(() => hub.dropAll());
   const parts: AppParts = {
     version: "0.0.0",
     queue,
     files,
-    plotters,
+    registry,
     hub,
+    baton,
+    webhooks,
+    notices,
+    pairing: () =>
+      pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
+    serverLog: () => logged.join("\n"),
     machines: new MachineFiles(dir),
     allowedHosts: ["plotter.lan"],
     webDir: join(dir, "web"),
     samplesDir: new URL("../../../samples", import.meta.url).pathname,
     access,
-    log: (line) => logged.push(line),
+    log,
   };
   const app = createApp(parts);
-  const http: Server = createServer(app);
+  const http: Server = httpServer(options.tls, app, log, options.times);
   await new Promise<void>((resolve) => http.listen(0, "127.0.0.1", resolve));
   return {
-    url: `http://127.0.0.1:${(http.address() as AddressInfo).port}`,
+    url: `${options.tls === undefined ? "http" : "https"}://127.0.0.1:${(http.address() as AddressInfo).port}`,
     plotter,
     queue,
     store,
     access,
+    notices,
+    webhooks,
+    more,
     routes: () =>
       apiMounts(parts).flatMap(([mount, router]) =>
         router.stack.flatMap(({ route }) =>
@@ -91,6 +142,8 @@ export async function startApp(
       http.closeAllConnections();
       await new Promise((resolve) => http.close(resolve));
       await queue.close();
+      await webhooks.close();
+      baton.close();
       store.close();
       rmSync(dir, { recursive: true, force: true });
     },

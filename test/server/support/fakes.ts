@@ -1,6 +1,6 @@
 /** A plotter and a planner without hardware or threads, led by the test. */
 import type { HandMove } from "../../../server/plotter/hand-moves.js";
-import type { PlotterPort } from "../../../server/queue/plotter-port.js";
+import type { ManagedPlotter } from "../../../server/queue/plotter-port.js";
 import type { Planning } from "../../../server/queue/queue-parts.js";
 import type {
   JournalEntry,
@@ -89,21 +89,24 @@ export class LedRun implements LivePlotRun {
   }
 }
 
-export class LedPlotter implements PlotterPort {
+export class LedPlotter implements ManagedPlotter {
   readonly id: string;
   readonly runs: LedRun[] = [];
   connection: Plotter["connection"] = "idle";
   readonly asked: string[] = [];
   #onRun: (() => void)[] = [];
 
-  constructor(id = "virtual") {
+  #name: string;
+
+  constructor(id = "virtual", name = "Virtual plotter") {
     this.id = id;
+    this.#name = name;
   }
 
   snapshot(): Plotter {
     return {
       id: this.id,
-      name: "Virtual plotter",
+      name: this.#name,
       boardName: null,
       machine: null,
       kind: "virtual",
@@ -123,6 +126,10 @@ export class LedPlotter implements PlotterPort {
   }
 
   onChange(): void {}
+
+  rename(name: string): void {
+    this.#name = name;
+  }
 
   plot(_planner: PlotPlanner, _settings: PlotSettings, start: PlotStart = {}): LedRun {
     const run = new LedRun(start);

@@ -1,0 +1,77 @@
+/** The port: plain or TLS, and what can keep it from being opened. */
+import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
+import { createServer as createHttpsServer } from "node:https";
+import type { AddressInfo } from "node:net";
+import { PlotwrightError } from "../../src/index.js";
+
+/** PEM texts. */
+export interface TlsFiles {
+  readonly cert: string;
+  readonly key: string;
+}
+
+/** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
+const TIMES = { headersTimeout: 20_000, requestTimeout: 10 * 60_000 };
+
+/** Throws `bad-setting` when the certificate can't be used. */
+export function httpServer(
+  tls: TlsFiles | undefined,
+  app: RequestListener,
+  log: (line: string) => void,
+  times: Partial<typeof TIMES> = {},
+): Server {
+  const server =
+    tls === undefined ? createHttpServer({ ...TIMES, ...times }, app) : secureServer(tls, app, times);
+  // Nothing here speaks another protocol: whoever asks for one (a WebSocket, of another site perhaps) is refused.
+  server.on("upgrade", (request, socket) => {
+    log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);
+    socket.end("HTTP/1.1 403 Forbidden\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
+  });
+  server.on("clientError", (error: NodeJS.ErrnoException, socket) => {
+    const isSlow = error.code === "ERR_HTTP_REQUEST_TIMEOUT";
+    if (isSlow) log("refused a request that came too slowly");
+    if (socket.writable && error.code !== "ECONNRESET") {
+      const status = isSlow ? "408 Request Timeout" : "400 Bad Request";
+      socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n`);
+    } else socket.destroy();
+  });
+  return server;
+}
+
+function secureServer(tls: TlsFiles, app: RequestListener, times: Partial<typeof TIMES>): Server {
+  try {
+    return createHttpsServer({ ...TIMES, ...times, ...tls }, app);
+  } catch (cause) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `The certificate or its key can't be used (${(cause as Error).message}). Give PEM files with --cert and --key.`,
+      { cause },
+    );
+  }
+}
+
+export function listen(http: Server, port: number, host: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    http.once("error", (cause: NodeJS.ErrnoException) => reject(listenFault(cause, port, host)));
+    http.listen(port, host, resolve);
+  });
+}
+
+function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): PlotwrightError {
+  if (cause.code === "EADDRINUSE") {
+    return new PlotwrightError(
+      "conflict",
+      `Port ${port} is taken by another program. Stop it, or choose another with --port.`,
+      { cause },
+    );
+  }
+  return new PlotwrightError("bad-setting", `Can't listen on ${host}:${port} (${cause.message}).`, { cause });
+}
+
+/** Where this computer reaches it. */
+export function urlOf(http: Server, isTls: boolean): string {
+  const { address, port, family } = http.address() as AddressInfo;
+  const isAny = address === "::" || address === "0.0.0.0";
+  const host = isAny ? "127.0.0.1" : family === "IPv6" ? `[${address}]` : address;
+  return `${isTls ? "https" : "http"}://${host}:${port}`;
+}

@@ -1,0 +1,168 @@
+/**
+ * The plotters that a server has, kept in its database: added, renamed, given another device and removed while
+ * it runs. Stored before anybody hears of it.
+ */
+import { PlotwrightError } from "../src/index.js";
+import type { Device, NewPlotter, Plotter, PlotterPatch, ServerEvent } from "../src/schema/index.js";
+import type { ManagedPlotter, PlotterPort } from "./queue/plotter-port.js";
+import type { PlotterRow, Store } from "./queue/store.js";
+import type { FoundBoard } from "./serial/find-boards.js";
+
+export interface RegistryParts {
+  readonly store: Pick<Store, "plotters" | "savePlotter" | "removePlotter">;
+  /** Opens a plotter, which connects in the background. */
+  readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
+  readonly findBoards: () => Promise<readonly FoundBoard[]>;
+  readonly announce: (event: ServerEvent) => void;
+  /** Id of the plotter that a new server has. */
+  readonly firstId: string;
+  /** Device of the first plotter for this run; left out: the stored one, "auto" at the first start. */
+  readonly firstDevice?: string | undefined;
+}
+
+/** Jobs that are not history; they keep their plotter. */
+export interface PlotterUse {
+  readonly isBusy: (plotterId: string) => boolean;
+  readonly liveJobCount: (plotterId: string) => number;
+}
+
+export class PlotterRegistry {
+  readonly #parts: RegistryParts;
+  readonly #rows = new Map<string, PlotterRow>();
+  readonly #ports = new Map<string, ManagedPlotter>();
+
+  constructor(parts: RegistryParts) {
+    this.#parts = parts;
+    const { store, firstId } = parts;
+    if (store.plotters().length === 0) {
+      store.savePlotter({ id: firstId, name: null, device: "auto", machine: null });
+    }
+    store.plotters().forEach((row, index) => {
+      const device = index === 0 ? (parts.firstDevice ?? row.device) : row.device;
+      this.#rows.set(row.id, { ...row, device });
+    });
+    // All are known before the first looks for a board, so that "auto" leaves the others theirs.
+    for (const row of this.#rows.values()) this.#open(row);
+  }
+
+  /** By id, as they are now; stays up to date. */
+  get ports(): ReadonlyMap<string, PlotterPort> {
+    return this.#ports;
+  }
+
+  list(): Plotter[] {
+    return [...this.#ports.values()].map((port) => port.snapshot());
+  }
+
+  async devices(): Promise<Device[]> {
+    const boards = await this.#parts.findBoards();
+    return boards.map(({ path, description, serialNumber }) => ({
+      path,
+      description: serialNumber === null ? description : `${description} ${serialNumber}`,
+      inUseBy: this.list().find((plotter) => plotter.device === path)?.id ?? null,
+    }));
+  }
+
+  /** Throws `conflict` for a name or device that another one has. */
+  add({ name, device, machine = null }: NewPlotter): Plotter {
+    this.#mustBeFree(name, device, null);
+    const row = { id: this.#newId(name), name, device, machine };
+    this.#parts.store.savePlotter(row);
+    this.#rows.set(row.id, row);
+    const port = this.#open(row);
+    this.#announce();
+    return port.snapshot();
+  }
+
+  /** Another device or machine makes it connect anew, for which no job may be on it (`busy`). */
+  async patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+    const { row, port } = this.#find(id);
+    const { name = row.name, device = row.device, machine = row.machine } = patch;
+    this.#mustBeFree(patch.name ?? null, patch.device ?? null, id);
+    const isMoved = device !== row.device || machine !== row.machine;
+    if (isMoved && use.isBusy(id)) {
+      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
+    }
+    const next = { id, name, device, machine };
+    // A device given for this run only is not kept for the next.
+    const kept = patch.device ?? this.#parts.store.plotters().find((one) => one.id === id)?.device ?? device;
+    this.#parts.store.savePlotter({ ...next, device: kept });
+    this.#rows.set(id, next);
+    if (isMoved) {
+      await port.close();
+      this.#open(next);
+    } else if (name !== null) port.rename(name);
+    this.#announce();
+    return this.#find(id).port.snapshot();
+  }
+
+  /** Throws `conflict` while it has jobs that are not history, and for the last one. */
+  async remove(id: string, use: PlotterUse): Promise<void> {
+    const { port } = this.#find(id);
+    const count = use.liveJobCount(id);
+    if (count > 0) {
+      const jobs = count === 1 ? "a job" : `${count} jobs`;
+      throw new PlotwrightError("conflict", `The plotter has ${jobs}: move them to another one first.`);
+    }
+    if (this.#ports.size === 1) throw new PlotwrightError("conflict", "The last plotter can't be removed.");
+    this.#parts.store.removePlotter(id);
+    this.#rows.delete(id);
+    this.#ports.delete(id);
+    this.#announce();
+    await port.close();
+  }
+
+  async close(): Promise<void> {
+    await Promise.all([...this.#ports.values()].map((port) => port.close()));
+  }
+
+  #open(row: PlotterRow): ManagedPlotter {
+    const port = this.#parts.open(row, (path) => this.#ownerOf(path, row.id) !== undefined);
+    port.onChange((plotter) => {
+      if (this.#ports.get(row.id) === port) this.#parts.announce({ type: "plotter", plotter });
+    });
+    this.#ports.set(row.id, port);
+    return port;
+  }
+
+  #announce(): void {
+    this.#parts.announce({ type: "plotters", plotters: this.list() });
+  }
+
+  #find(id: string): { readonly row: PlotterRow; readonly port: ManagedPlotter } {
+    const [row, port] = [this.#rows.get(id), this.#ports.get(id)];
+    if (row === undefined || port === undefined) {
+      throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+    }
+    return { row, port };
+  }
+
+  #mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {
+    const others = [...this.#rows.values()].filter(({ id }) => id !== exceptId);
+    if (name !== null && others.some((row) => row.name?.toLowerCase() === name.toLowerCase())) {
+      throw new PlotwrightError("conflict", `There is a plotter "${name}" already. Choose another name.`);
+    }
+    const owner = device === null ? undefined : this.#ownerOf(device, exceptId);
+    if (owner !== undefined) {
+      throw new PlotwrightError("conflict", `"${owner.name ?? owner.id}" has ${device ?? ""} already.`);
+    }
+  }
+
+  /** Any number may be "virtual" or "auto"; a port has one owner, by choice or because it is at it now. */
+  #ownerOf(device: string, exceptId: string | null): PlotterRow | undefined {
+    if (device === "virtual" || device === "auto") return undefined;
+    return [...this.#rows.values()].find(
+      ({ id, device: chosen }) =>
+        id !== exceptId && (chosen === device || this.#ports.get(id)?.snapshot().device === device),
+    );
+  }
+
+  /** Readable in links and scripts, and never that of a plotter before it: history refers to those. */
+  #newId(name: string): string {
+    const word = name
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, "-")
+      .replace(/^-|-$/g, "");
+    return `${word === "" ? "plotter" : word}-${Date.now().toString(36)}`;
+  }
+}
