@@ -20,9 +20,12 @@ import { Strips } from "./panels/strips.js";
 import { TopBar } from "./panels/top-bar.js";
 import { Preview } from "./preview/preview.js";
 import { TimeLine } from "./preview/time-line.js";
-import { useActions } from "./state/use-store.js";
+import { useActions, usePageState } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { DropZone } from "./ui/drop-zone.js";
+import { lazyPart } from "./ui/lazy-part.js";
+
+const Camera = lazyPart(async () => (await import("./studio/camera.js")).Camera);
 
 const TABS = ["setup", "queue", "machine"] as const;
 type Tab = (typeof TABS)[number];
@@ -36,6 +39,7 @@ interface AppProps {
 export const App = ({ player, shortcuts }: AppProps) => {
   const [tab, setTab] = useState<Tab>("setup");
   const { openFile, openPasted } = useActions();
+  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   return (
     <DropZone hint={text.drawing.dropHere} onFile={onFile} onText={openPasted}>
@@ -66,6 +70,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
             <QueuePanel />
           </div>
           <div className="tab-machine">
+            {hasCamera && <Camera />}
             <MachinePanel />
           </div>
           <div className="tab-queue">

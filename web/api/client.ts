@@ -15,6 +15,7 @@ import {
   type MovePlace,
   type NewJob,
   type PenRequest,
+  type PlotSettings,
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
@@ -82,7 +83,8 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     movePen: (id: string, request: PenRequest): Promise<Plotter> =>
       ask(plotterSchema, "POST", `${plotter(id)}/pen`, request),
     motorsOff: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/motors-off`),
-    home: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/home`),
+    home: (id: string, settings: PlotSettings): Promise<Plotter> =>
+      ask(plotterSchema, "POST", `${plotter(id)}/home`, { settings }),
     machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
     samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
     sample: async (name: string): Promise<string> =>

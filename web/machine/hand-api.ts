@@ -6,7 +6,6 @@ import {
   type BoxMm,
   type CommandAnswer,
   type FrameRequest,
-  type ListedMachine,
   type PlotSettings,
   type Plotter,
 } from "../../src/schema/index.js";
@@ -49,18 +48,9 @@ export const handApi = (store: PageStore, { ask, attempt, loadMachines, notify }
       if (saved) await loadMachines();
       return saved;
     },
-    removeMachine: async ({ id }: ListedMachine): Promise<void> => {
+    removeMachine: async ({ id }: MachineProfile): Promise<void> => {
       await attempt("machine", () => ask(okSchema, "DELETE", `/machines/${encodeURIComponent(id)}`));
       await loadMachines();
     },
   };
-};
-
-/** A profile as it was saved to a file, here or elsewhere. Throws with words for the user. */
-export const parseMachineFile = (content: string): MachineProfile => {
-  const parsed = machineProfileSchema.safeParse(JSON.parse(content));
-  if (parsed.success) return parsed.data;
-  throw new Error(
-    parsed.error.issues.map(({ path: at, message }) => `${at.join(".")}: ${message}`).join("; "),
-  );
 };

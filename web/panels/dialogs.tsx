@@ -3,10 +3,26 @@ import { usePageState } from "../state/use-store.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
+const Wizard = lazyPart(async () => (await import("../machine/wizard.js")).Wizard);
+const MachinesDialog = lazyPart(async () => (await import("../machine/machines-dialog.js")).MachinesDialog);
+const Console = lazyPart(async () => (await import("../machine/console.js")).Console);
+const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
 
 /** The sheet that lies over the page, if any. */
 export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const dialog = usePageState((state) => state.openDialog);
-  if (dialog === "keys") return <HelpSheet shortcuts={shortcuts} />;
-  return null;
+  switch (dialog) {
+    case "keys":
+      return <HelpSheet shortcuts={shortcuts} />;
+    case "wizard":
+      return <Wizard />;
+    case "machines":
+      return <MachinesDialog />;
+    case "console":
+      return <Console />;
+    case "studio":
+      return <StudioDialog />;
+    case null:
+      return null;
+  }
 };

@@ -1,3 +1,4 @@
+import { currentPlotter, mayOperate } from "../state/store.js";
 import { THEMES, type Theme } from "../state/persist.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -12,9 +13,11 @@ export const TopBar = () => (
       <Mark />
       {text.appName}
     </h1>
+    <PlotterSwitch />
     <MachineState />
     <div className="top-tools">
       <UndoButtons />
+      <StudioButton />
       <ThemeButton />
       <HelpButton />
     </div>
@@ -55,6 +58,45 @@ const UndoButtons = () => {
         <Icon name="redo" />
       </button>
     </>
+  );
+};
+
+const StudioButton = () => {
+  const store = usePageStore();
+  const isMine = usePageState(mayOperate);
+  if (!isMine) return null;
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={text.studio}
+      title={text.studio}
+      onClick={() => store.setState({ openDialog: "studio" })}
+    >
+      <Icon name="share" />
+    </button>
+  );
+};
+
+/** Which of the server's plotters the page shows and sends to; absent where there is one. */
+const PlotterSwitch = () => {
+  const plotters = usePageState((state) => state.plotters);
+  const current = usePageState(currentPlotter);
+  const store = usePageStore();
+  if (plotters.length < 2 || !current) return null;
+  return (
+    <select
+      className="plotter-switch"
+      aria-label={text.machine.which}
+      value={current.id}
+      onChange={(event) => store.setState({ plotterId: event.target.value })}
+    >
+      {plotters.map(({ id, name }) => (
+        <option key={id} value={id}>
+          {name}
+        </option>
+      ))}
+    </select>
   );
 };
 

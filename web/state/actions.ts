@@ -221,7 +221,7 @@ export const createActions = (deps: ActionDeps) => {
     },
     home: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("home", () => api.home(id));
+      if (id) await attempt("home", () => api.home(id, store.getState().settings));
     },
     chooseMachine: (profile: MachineProfile | null): void => {
       if (profile) changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));

@@ -20,6 +20,10 @@ export interface ViewSettings {
   readonly theme: Theme;
   /** Ids of the groups of settings that are folded open. */
   readonly openGroups: readonly string[];
+  /** Where the camera's picture comes from; empty: no camera. */
+  readonly cameraUrl: string;
+  /** Seconds between still pictures; 0: it is a stream. */
+  readonly cameraEveryS: number;
 }
 
 export const DEFAULT_VIEW: ViewSettings = {
@@ -28,6 +32,8 @@ export const DEFAULT_VIEW: ViewSettings = {
   showGraph: false,
   theme: "auto",
   openGroups: ["drawing", "paper", "layers", "motion"],
+  cameraUrl: "",
+  cameraEveryS: 0,
 };
 
 const viewSchema = z.object({
@@ -36,6 +42,8 @@ const viewSchema = z.object({
   showGraph: z.boolean(),
   theme: z.enum(THEMES),
   openGroups: z.array(z.string().max(50)).max(50),
+  cameraUrl: z.string().max(2_000),
+  cameraEveryS: z.number().min(0).max(3_600),
 }) satisfies z.ZodType<ViewSettings>;
 
 export interface Remembered {

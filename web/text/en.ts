@@ -6,6 +6,7 @@ export const en = {
   appName: "plotwright",
   history: { undo: "Undo", redo: "Redo" },
   tabs: { label: "Panels", setup: "Set up", queue: "Queue", machine: "Plotter" },
+  studio: "Sharing, plotters, camera",
   theme: { label: "Appearance", auto: "As the system", light: "Light", dark: "Dark" },
 
   drawing: {

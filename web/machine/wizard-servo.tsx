@@ -1,0 +1,94 @@
+import { useId, useRef, useState } from "react";
+import type { MachineProfile } from "../../src/index.js";
+import { later } from "../text/later.js";
+import { ServoPin } from "./profile-form.js";
+import { useHand } from "./use-hand.js";
+import type { StepProps } from "./wizard.js";
+
+const words = later.wizard;
+/** In 1/12 µs; a servo listens between about 0.4 and 2.6 ms. */
+const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
+
+/** The pen follows two sliders; where it has just the right height is the servo's range. */
+export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
+  const [draft, setDraft] = useState(profile);
+  const moveTo = useServo(() => settingsWith(draft));
+  const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {
+    setDraft({ ...draft, [which]: pos });
+    moveTo(pos);
+  };
+  const hasRange = draft.servoPosAt0Pct !== draft.servoPosAt100Pct;
+  return (
+    <>
+      <p>{words.servoHint}</p>
+      <ServoPin profile={draft} onChange={setDraft} />
+      <ServoSlider
+        label={words.highest}
+        value={draft.servoPosAt100Pct}
+        onChange={(pos) => take("servoPosAt100Pct", pos)}
+      />
+      <ServoSlider
+        label={words.lowest}
+        value={draft.servoPosAt0Pct}
+        onChange={(pos) => take("servoPosAt0Pct", pos)}
+      />
+      <div className="button-row">
+        <button
+          type="button"
+          className="button button-primary"
+          disabled={!hasRange}
+          onClick={() => onNext(draft satisfies MachineProfile)}
+        >
+          {words.next}
+        </button>
+        <button type="button" className="button" onClick={() => onNext(profile)}>
+          {words.skip}
+        </button>
+      </div>
+    </>
+  );
+};
+
+interface ServoSliderProps {
+  readonly label: string;
+  readonly value: number;
+  onChange(pos: number): void;
+}
+
+const ServoSlider = ({ label, value, onChange }: ServoSliderProps) => {
+  const id = useId();
+  return (
+    <div className="servo-slider">
+      <label htmlFor={id}>{label}</label>
+      <input
+        id={id}
+        type="range"
+        {...RANGE}
+        value={value}
+        onChange={(event) => onChange(Number(event.target.value))}
+      />
+      <output htmlFor={id}>{value}</output>
+    </div>
+  );
+};
+
+/** Sends a position at a time: while one is on its way only the latest of the others is kept. */
+const useServo = (settings: () => ReturnType<StepProps["settingsWith"]>) => {
+  const hand = useHand();
+  const state = useRef<{ isSending: boolean; next: number | null }>({ isSending: false, next: null });
+  const send = async (): Promise<void> => {
+    const now = state.current;
+    if (now.isSending) return;
+    now.isSending = true;
+    while (now.next !== null) {
+      const pos = now.next;
+      now.next = null;
+      await hand.servo(pos, settings());
+    }
+    now.isSending = false;
+  };
+  return (pos: number): void => {
+    state.current.next = pos;
+    void send();
+  };
+};

@@ -1,0 +1,103 @@
+import { useState } from "react";
+import type { AccessEntry, Role } from "../../src/schema/index.js";
+import { later } from "../text/later.js";
+import { Select } from "../ui/choice.js";
+import { formatWhen } from "../ui/format.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+
+/** Who has been let in: browsers that were paired and keys for scripts, each to be sent away again. */
+export const AccessSection = () => {
+  const studio = useStudio();
+  const [answer, askAgain] = useAsked(studio.access);
+  const [secret, setSecret] = useState<string | null>(null);
+  const revoke = async (id: string): Promise<void> => {
+    if (await studio.revoke(id)) askAgain();
+  };
+  const add = async (name: string, role: Role): Promise<void> => {
+    const made = await studio.addKey({ name, role });
+    if (!made) return;
+    setSecret(made.secret);
+    askAgain();
+  };
+  return (
+    <>
+      <p className="note">{words.accessHint}</p>
+      <ul className="studio-list">
+        {(answer?.entries ?? []).map((entry) => (
+          <EntryRow key={entry.id} entry={entry} onRevoke={() => void revoke(entry.id)} />
+        ))}
+        {answer?.entries.length === 0 && <li className="note">{words.nobody}</li>}
+      </ul>
+      {secret !== null && <Secret label={words.keyOnce} value={secret} />}
+      <NewKeyForm onAdd={add} />
+    </>
+  );
+};
+
+const EntryRow = ({ entry, onRevoke }: { entry: AccessEntry; onRevoke(): void }) => (
+  <li>
+    <span>
+      <strong>{entry.name}</strong>
+      <span className="note">
+        {words.kinds[entry.kind]}, {words.roles[entry.role]}, {words.seen(formatWhen(entry.lastSeenAt))}
+      </span>
+    </span>
+    <button
+      type="button"
+      className="button button-small"
+      aria-label={words.revokeNamed(entry.name)}
+      onClick={onRevoke}
+    >
+      {words.revoke}
+    </button>
+  </li>
+);
+
+/** Shown this once; the server keeps only what it needs to know it again. */
+export const Secret = ({ label, value }: { label: string; value: string }) => (
+  <p className="secret" role="status">
+    <span>{label}</span>
+    <code>{value}</code>
+  </p>
+);
+
+const NewKeyForm = ({ onAdd }: { onAdd(name: string, role: Role): Promise<void> }) => {
+  const [name, setName] = useState("");
+  const [role, setRole] = useState<Role>("operate");
+  return (
+    <form
+      className="studio-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() === "") return;
+        void onAdd(name.trim(), role);
+        setName("");
+      }}
+    >
+      <h3>{words.newKey}</h3>
+      <input
+        className="text-field"
+        type="text"
+        maxLength={100}
+        aria-label={words.keyName}
+        placeholder={words.keyName}
+        value={name}
+        onChange={(event) => setName(event.target.value)}
+      />
+      <Select<Role>
+        label={words.may}
+        value={role}
+        options={[
+          { value: "operate", label: words.roles.operate },
+          { value: "watch", label: words.roles.watch },
+        ]}
+        onChange={setRole}
+      />
+      <button type="submit" className="button" disabled={name.trim() === ""}>
+        {words.makeKey}
+      </button>
+    </form>
+  );
+};

@@ -1,0 +1,48 @@
+import { useState } from "react";
+import { useActions, usePageState } from "../state/use-store.js";
+import { later } from "../text/later.js";
+import { Select } from "../ui/choice.js";
+import { isCameraUrl } from "./camera-url.js";
+
+const words = later.studio;
+const EVERY_S = [0, 1, 2, 5, 10, 30, 60] as const;
+
+/** Where the picture of the camera comes from; kept in this browser. */
+export const CameraSection = () => {
+  const { cameraUrl, cameraEveryS } = usePageState((state) => state.view);
+  const { changeView } = useActions();
+  const [url, setUrl] = useState(cameraUrl);
+  const wanted = url.trim();
+  const isGood = wanted === "" || isCameraUrl(wanted);
+  return (
+    <form
+      className="studio-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (isGood) changeView({ cameraUrl: wanted });
+      }}
+    >
+      <p className="note">{words.cameraHint}</p>
+      <input
+        className="text-field"
+        type="url"
+        maxLength={2_000}
+        aria-label={words.cameraUrl}
+        aria-invalid={!isGood}
+        placeholder="http://camera.local:8080/?action=stream"
+        value={url}
+        onChange={(event) => setUrl(event.target.value)}
+      />
+      {!isGood && <p className="note note-error">{words.cameraBadUrl}</p>}
+      <Select
+        label={words.cameraEvery}
+        value={String(cameraEveryS)}
+        options={EVERY_S.map((s) => ({ value: String(s), label: s === 0 ? words.cameraStream : `${s} s` }))}
+        onChange={(s) => changeView({ cameraEveryS: Number(s) })}
+      />
+      <button type="submit" className="button" disabled={!isGood || wanted === cameraUrl}>
+        {wanted === "" ? words.cameraOff : words.cameraShow}
+      </button>
+    </form>
+  );
+};

@@ -1,0 +1,33 @@
+import { useEffect, useState } from "react";
+import { usePageState } from "../state/use-store.js";
+import { later } from "../text/later.js";
+import { freshUrl, isCameraUrl } from "./camera-url.js";
+import "../styles/studio.css";
+
+const words = later.studio;
+
+/** What a camera sees of the plotter: a stream of pictures, or one that is fetched again and again. */
+export const Camera = () => {
+  const { cameraUrl, cameraEveryS } = usePageState((state) => state.view);
+  const [turn, setTurn] = useState(0);
+  const [hasFailed, setFailed] = useState(false);
+  useEffect(() => {
+    if (cameraEveryS === 0) return;
+    const timer = setInterval(() => setTurn((now) => now + 1), cameraEveryS * 1_000);
+    return () => clearInterval(timer);
+  }, [cameraEveryS]);
+  if (!isCameraUrl(cameraUrl)) return null;
+  return (
+    <section className="card camera" aria-label={words.camera}>
+      <h2 className="card-title">{words.camera}</h2>
+      <img
+        src={cameraEveryS === 0 ? cameraUrl : freshUrl(cameraUrl, turn)}
+        alt={words.cameraAlt}
+        referrerPolicy="no-referrer"
+        onLoad={() => setFailed(false)}
+        onError={() => setFailed(true)}
+      />
+      {hasFailed && <p className="note note-error">{words.cameraFailed}</p>}
+    </section>
+  );
+};

@@ -1,0 +1,123 @@
+import { useState } from "react";
+import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
+import { later } from "../text/later.js";
+import { formatWhen } from "../ui/format.js";
+import { Secret } from "./access-section.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+
+/** Addresses that are told when a plot is done, waits, or has failed. */
+export const HooksSection = () => {
+  const studio = useStudio();
+  const [answer, askAgain] = useAsked(studio.webhooks);
+  const [secret, setSecret] = useState<string | null>(null);
+  const remove = async (id: string): Promise<void> => {
+    if (await studio.removeWebhook(id)) askAgain();
+  };
+  return (
+    <>
+      <p className="note">{words.hooksHint}</p>
+      <ul className="studio-list">
+        {(answer?.webhooks ?? []).map((hook) => (
+          <HookRow key={hook.id} hook={hook} onRemove={() => void remove(hook.id)} />
+        ))}
+        {answer?.webhooks.length === 0 && <li className="note">{words.noHooks}</li>}
+      </ul>
+      {secret !== null && <Secret label={words.hookSecretOnce} value={secret} />}
+      <NewHookForm
+        onAdded={(made) => {
+          setSecret(made);
+          askAgain();
+        }}
+      />
+    </>
+  );
+};
+
+const HookRow = ({ hook, onRemove }: { hook: Webhook; onRemove(): void }) => (
+  <li>
+    <span>
+      <strong>{hook.name}</strong>
+      <span className="note">
+        {hook.url}: {hook.events.map((event) => words.events[event]).join(", ")}
+      </span>
+      {hook.last && (
+        <span className={hook.last.isDelivered ? "note" : "note note-error"}>
+          {formatWhen(hook.last.at)}: {hook.last.message}
+        </span>
+      )}
+      {hook.pendingCount > 0 && <span className="note">{words.pending(hook.pendingCount)}</span>}
+    </span>
+    <button
+      type="button"
+      className="button button-small"
+      aria-label={words.removeHookNamed(hook.name)}
+      onClick={onRemove}
+    >
+      {words.removePlotter}
+    </button>
+  </li>
+);
+
+const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
+  const studio = useStudio();
+  const [name, setName] = useState("");
+  const [url, setUrl] = useState("");
+  const [events, setEvents] = useState<readonly WebhookEvent[]>(WEBHOOK_EVENTS);
+  const isWhole = name.trim() !== "" && /^https?:\/\/./.test(url.trim()) && events.length > 0;
+  const add = async (): Promise<void> => {
+    const made = await studio.addWebhook({ name: name.trim(), url: url.trim(), events: [...events] });
+    if (!made) return;
+    setName("");
+    setUrl("");
+    onAdded(made.secret);
+  };
+  return (
+    <form
+      className="studio-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (isWhole) void add();
+      }}
+    >
+      <h3>{words.newHook}</h3>
+      <input
+        className="text-field"
+        type="text"
+        maxLength={100}
+        aria-label={words.hookName}
+        placeholder={words.hookName}
+        value={name}
+        onChange={(event) => setName(event.target.value)}
+      />
+      <input
+        className="text-field"
+        type="url"
+        maxLength={2_000}
+        aria-label={words.hookUrl}
+        placeholder="https://"
+        value={url}
+        onChange={(event) => setUrl(event.target.value)}
+      />
+      <fieldset className="check-row">
+        <legend className="visually-hidden">{words.when}</legend>
+        {WEBHOOK_EVENTS.map((name) => (
+          <label key={name}>
+            <input
+              type="checkbox"
+              checked={events.includes(name)}
+              onChange={({ target }) =>
+                setEvents(target.checked ? [...events, name] : events.filter((other) => other !== name))
+              }
+            />
+            {words.events[name]}
+          </label>
+        ))}
+      </fieldset>
+      <button type="submit" className="button" disabled={!isWhole}>
+        {words.addHook}
+      </button>
+    </form>
+  );
+};

@@ -1,0 +1,107 @@
+import { useState } from "react";
+import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
+import { usePageState } from "../state/use-store.js";
+import { later } from "../text/later.js";
+import { Select } from "../ui/choice.js";
+import { PortSelect, portChoices } from "./port-select.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+
+/** The plotters of this server: their names and ports; new ones, and ones to be forgotten. */
+export const PlottersSection = () => {
+  const plotters = usePageState((state) => state.plotters);
+  return (
+    <>
+      <ul className="studio-list">
+        {plotters.map((plotter) => (
+          <PlotterRow key={plotter.id} plotter={plotter} isLast={plotters.length === 1} />
+        ))}
+      </ul>
+      <NewPlotterForm />
+    </>
+  );
+};
+
+const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) => {
+  const studio = useStudio();
+  const [name, setName] = useState(plotter.name);
+  const jobs = usePageState((state) => state.jobs);
+  const isInUse = jobs.some((job) => job.plotterId === plotter.id && !ENDED_STATES.includes(job.state));
+  const rename = (): void => {
+    const wanted = name.trim();
+    if (wanted === "") setName(plotter.name);
+    else if (wanted !== plotter.name) void studio.patchPlotter(plotter.id, { name: wanted });
+  };
+  return (
+    <li className="plotter-row">
+      <input
+        className="text-field"
+        type="text"
+        maxLength={100}
+        aria-label={words.plotterName(plotter.name)}
+        value={name}
+        onChange={(event) => setName(event.target.value)}
+        onBlur={rename}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") rename();
+        }}
+      />
+      <PortSelect plotter={plotter} />
+      {plotter.boardName !== null && <span className="note">{words.boardName(plotter.boardName)}</span>}
+      <button
+        type="button"
+        className="button button-small"
+        aria-label={words.removePlotterNamed(plotter.name)}
+        title={isInUse ? words.inUse : undefined}
+        disabled={isLast || isInUse}
+        onClick={() => void studio.removePlotter(plotter.id)}
+      >
+        {words.removePlotter}
+      </button>
+    </li>
+  );
+};
+
+const NewPlotterForm = () => {
+  const studio = useStudio();
+  const machine = usePageState((state) => state.settings.machine);
+  const [answer, askAgain] = useAsked(studio.devices);
+  const [name, setName] = useState("");
+  const [device, setDevice] = useState("auto");
+  const add = async (): Promise<void> => {
+    if (!(await studio.addPlotter({ name: name.trim(), device, machine }))) return;
+    setName("");
+    setDevice("auto");
+    askAgain();
+  };
+  return (
+    <form
+      className="studio-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() !== "") void add();
+      }}
+    >
+      <h3>{words.newPlotter}</h3>
+      <input
+        className="text-field"
+        type="text"
+        maxLength={100}
+        aria-label={words.newPlotterName}
+        placeholder={words.newPlotterName}
+        value={name}
+        onChange={(event) => setName(event.target.value)}
+      />
+      <Select
+        label={words.port}
+        value={device}
+        options={portChoices(answer?.devices ?? [], null)}
+        onChange={setDevice}
+      />
+      <button type="submit" className="button" disabled={name.trim() === ""}>
+        {words.addPlotter}
+      </button>
+    </form>
+  );
+};

@@ -1,0 +1,38 @@
+import type { Device, Plotter } from "../../src/schema/index.js";
+import { later } from "../text/later.js";
+import { Select } from "../ui/choice.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+
+/** Where a plotter is plugged in: found by itself, one of the boards that are there, or the virtual one. */
+export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
+  const studio = useStudio();
+  const [answer] = useAsked(studio.devices);
+  const choices = portChoices(answer?.devices ?? [], plotter);
+  const now = plotter.kind === "virtual" ? "virtual" : (plotter.device ?? "auto");
+  return (
+    <Select
+      label={words.port}
+      value={now}
+      options={choices}
+      onChange={(device) => void studio.patchPlotter(plotter.id, { device })}
+    />
+  );
+};
+
+/** Those of other plotters are left out; the plotter's own is there even while it is unplugged. */
+export const portChoices = (
+  devices: readonly Device[],
+  plotter: Plotter | null,
+): readonly { value: string; label: string }[] => {
+  const free = devices.filter(({ inUseBy }) => inUseBy === null || inUseBy === plotter?.id);
+  const own = plotter?.device ?? null;
+  const isGone = own !== null && !free.some(({ path }) => path === own);
+  return [
+    { value: "auto", label: words.portAuto },
+    ...free.map(({ path, description }) => ({ value: path, label: `${path} ${description}`.trim() })),
+    ...(isGone ? [{ value: own, label: own }] : []),
+    { value: "virtual", label: words.portVirtual },
+  ];
+};

@@ -1,0 +1,61 @@
+import type { Pairing } from "../../src/schema/index.js";
+import { useActions } from "../state/use-store.js";
+import { later } from "../text/later.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+
+/** Links and QR codes that let another device in, to operate or to watch. */
+export const ShareSection = () => {
+  const studio = useStudio();
+  const [pairing] = useAsked(studio.pairing);
+  if (!pairing) return <p className="note">{words.pairingWhere}</p>;
+  return (
+    <>
+      {!pairing.isOnLan && <p className="note note-error">{words.notOnLan}</p>}
+      <div className="pairings">
+        <PairingCard title={words.operate} hint={words.operateHint} {...linkOf(pairing, "operate")} />
+        <PairingCard title={words.watch} hint={words.watchHint} {...linkOf(pairing, "watch")} />
+      </div>
+    </>
+  );
+};
+
+const linkOf = (pairing: Pairing, role: "operate" | "watch") =>
+  role === "operate"
+    ? { url: pairing.operateUrl, qrSvg: pairing.operateQrSvg }
+    : { url: pairing.watchUrl, qrSvg: pairing.watchQrSvg };
+
+interface PairingCardProps {
+  readonly title: string;
+  readonly hint: string;
+  readonly url: string;
+  readonly qrSvg: string;
+}
+
+const PairingCard = ({ title, hint, url, qrSvg }: PairingCardProps) => {
+  const { notify } = useActions();
+  const copy = async (): Promise<void> => {
+    try {
+      await navigator.clipboard.writeText(url);
+      notify("info", words.copied);
+    } catch {
+      notify("error", words.cannotCopy);
+    }
+  };
+  return (
+    <section className="pairing" aria-label={title}>
+      <h3>{title}</h3>
+      <img
+        className="qr"
+        src={`data:image/svg+xml;charset=utf-8,${encodeURIComponent(qrSvg)}`}
+        alt={words.qr(title)}
+      />
+      <p className="note">{hint}</p>
+      <input className="text-field" type="text" readOnly value={url} aria-label={words.linkTo(title)} />
+      <button type="button" className="button button-small" onClick={() => void copy()}>
+        {words.copy}
+      </button>
+    </section>
+  );
+};

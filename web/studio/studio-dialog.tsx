@@ -1,0 +1,39 @@
+import { useState } from "react";
+import { Sheet } from "../panels/sheet.js";
+import { later } from "../text/later.js";
+import { Segments } from "../ui/choice.js";
+import { AccessSection } from "./access-section.js";
+import { CameraSection } from "./camera-section.js";
+import { HooksSection } from "./hooks-section.js";
+import { PlottersSection } from "./plotters-section.js";
+import { ShareSection } from "./share-section.js";
+import "../styles/studio.css";
+
+const words = later.studio;
+const SECTIONS = {
+  share: ShareSection,
+  access: AccessSection,
+  plotters: PlottersSection,
+  hooks: HooksSection,
+  camera: CameraSection,
+} as const;
+type SectionName = keyof typeof SECTIONS;
+const NAMES = Object.keys(SECTIONS) as readonly SectionName[];
+
+/** Everything around the plots: who else may use this server, its plotters, whom it tells, the camera. */
+export const StudioDialog = () => {
+  const [name, setName] = useState<SectionName>("share");
+  const Section = SECTIONS[name];
+  return (
+    <Sheet title={words.title}>
+      <Segments<SectionName>
+        label={words.title}
+        isLabelHidden
+        value={name}
+        options={NAMES.map((one) => ({ value: one, label: words.sections[one] }))}
+        onChange={setName}
+      />
+      <Section />
+    </Sheet>
+  );
+};

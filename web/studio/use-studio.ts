@@ -1,0 +1,24 @@
+import { useCallback, useEffect, useMemo, useState } from "react";
+import { useActions } from "../state/use-store.js";
+import { studioApi, type StudioApi } from "./studio-api.js";
+
+export const useStudio = (): StudioApi => {
+  const actions = useActions();
+  return useMemo(() => studioApi(actions), [actions]);
+};
+
+/** A list of the server's, and how to ask for it anew; null until it has come. */
+export const useAsked = <T>(ask: () => Promise<T | null>): readonly [T | null, () => void] => {
+  const [answer, setAnswer] = useState<T | null>(null);
+  const [turn, setTurn] = useState(0);
+  useEffect(() => {
+    let isCurrent = true;
+    void ask().then((got) => {
+      if (isCurrent && got !== null) setAnswer(got);
+    });
+    return () => {
+      isCurrent = false;
+    };
+  }, [ask, turn]);
+  return [answer, useCallback(() => setTurn((now) => now + 1), [])];
+};
