@@ -112,6 +112,7 @@ export {
 } from "./plan/trajectory.js";
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
+export { drawLimitsOf } from "./plan/limits.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { codeOfSpeed, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 

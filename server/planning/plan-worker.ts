@@ -51,6 +51,7 @@ function measure(
     prepared,
     {
       from: null,
+      until: null,
       startXMm: 0,
       startYMm: 0,
       settings: input.settings,

@@ -16,6 +16,7 @@ import {
   type Drawing,
   type MachineProfile,
   type Prepared,
+  type StrokeSet,
   type Work,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
@@ -57,13 +58,14 @@ export function prepareDrawing(
 }
 
 export function planAndCompile(
-  prepared: Prepared,
+  prepared: Pick<Prepared, "strokes">,
   request: PlanRequest,
   machine: MachineProfile,
 ): PlannedPlot {
-  const { from } = request;
+  const { from, until } = request;
   const settings = withLayerCodes(request.settings, prepared.strokes.layers);
-  const trajectory = plan(prepared.strokes, settings.motion, settings.pen, {
+  const strokes = until === null ? prepared.strokes : firstStrokes(prepared.strokes, until);
+  const trajectory = plan(strokes, settings.motion, settings.pen, {
     ...(from === null ? {} : { from }),
     startX: request.startXMm,
     startY: request.startYMm,
@@ -77,3 +79,11 @@ export function planAndCompile(
   });
   return { trajectory, commands };
 }
+
+/** A drawing without its last strokes; the others keep their numbers. */
+const firstStrokes = ({ xy, offsets, layer, layers }: StrokeSet, count: number): StrokeSet => ({
+  xy: xy.subarray(0, 2 * offsets[count]!),
+  offsets: offsets.subarray(0, count + 1),
+  layer: layer.subarray(0, count),
+  layers,
+});

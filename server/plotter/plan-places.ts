@@ -264,6 +264,12 @@ export class PlaceTimes {
     }
   }
 
+  /** Seconds from a place to the end; 0 for a stroke that this trajectory does not draw. */
+  leftFrom(place: Place): number {
+    const atS = this.timeOf(place);
+    return atS === null ? 0 : this.trajectory.totalS - atS;
+  }
+
   /** Seconds at which the pen is at a place; null for a stroke that this trajectory does not draw. */
   timeOf(place: Place): number | null {
     const run = this.runOfStroke.get(place.stroke);

@@ -3,47 +3,29 @@
  *
  *              ┌──────── resume: plan what is left, from the very place ────────┐
  *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
- *               │   │  └──emergency──> ES, counters read back, lifts ──> held
- *               │   └──cancel──> slows down, lifts, walks home ──> cancelled
- *               └──> done
+ *    ^          │ │ │  └──emergency──> ES, counters read back, lifts ──> held
+ *    │          │ │ └──cancel──> slows down, lifts, walks home ──> cancelled
+ *    │          │ └──a pen is due──> lifts, walks home ──> held
+ *    └──────────┘                                          done when nothing is left
  *
- * What has been written to the board plays out, at most the streamer's window; everything after it is new.
+ * A drawing with pen changes is planned and streamed in parts, each from one change to the next.
  */
 import {
-  comeToRest,
-  compile,
   machineOf,
-  penCommand,
-  penMoveOf,
-  penOfLayer,
-  settingsIdOf,
-  withLayerCodes,
-  penSetUpCommands,
   PlotwrightError,
   strokeCount,
   type BoardState,
-  type CommandStream,
-  type PenSettings,
   type Place,
-  type Streamer,
+  type StrokeSet,
 } from "../../src/index.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
-import {
-  boardStateBefore,
-  commandAfter,
-  isPenUpBefore,
-  movedPlace,
-  nearestTime,
-  placeAt,
-  restingStream,
-  pointOfPlace,
-  snappedPlace,
-  withoutDrop,
-} from "./plan-places.js";
-import { RunProgress, type Part } from "./run-progress.js";
+import { PenStops } from "./pen-stops.js";
+import { movedPlace, PlaceTimes, pointOfPlace } from "./plan-places.js";
+import { RunProgress } from "./run-progress.js";
+import { RunSettings } from "./run-settings.js";
+import { RunStream } from "./run-stream.js";
 import { stoppedPlace } from "./stopped-place.js";
-import { Waiters } from "./waiters.js";
 import type {
   LivePlotRun,
   PlannedPlot,
@@ -53,6 +35,7 @@ import type {
   PlotProgress,
   PlotStart,
 } from "./types.js";
+import { Waiters } from "./waiters.js";
 
 /** Between two reports of progress, and two journal entries, seconds of ours. */
 const PROGRESS_S = 0.06;
@@ -62,15 +45,13 @@ const LEFT_S = 1.5;
 /** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
-/** How far mm along the plan and mm along the drawing may be apart. */
-const SNAP_MM = 2;
 /** The pen is at a point of the drawing: half a tenth of rounding and a microstep. */
 const SAME_POINT_MM = 0.08;
 
-/** A pen that is down already changes its height in this time. */
-const RESEAT_MS = 60;
+const AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
 
 type Wish = "run" | "hold" | "cancel";
+type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 
 export class CarriageRun implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
@@ -79,22 +60,25 @@ export class CarriageRun implements LivePlotRun {
 
   private wish: Wish = "run";
   private held = false;
-  private streamer: Streamer | null = null;
+  /** What it is held for by itself. */
+  private wait: PlotWait | null = null;
+  private readonly stream: RunStream;
   private readonly progress = new RunProgress();
-  /** Set when the stream was stopped on purpose: what is still to be drawn then. */
-  private stopped: { readonly place: Place | null } | null = null;
-  private emergency = false;
+  private readonly settings: RunSettings;
+  private readonly stops: PenStops;
+  private readonly strokes: StrokeSet;
   private failure: PlotwrightError | null = null;
-  private settings: PlotSettings;
-  private speedPct = 100;
-  /** The heights that the board moves the pen to. */
-  private boardPen: PenSettings;
+  /** What of the plot follows the part that is being drawn. */
+  private afterPartS = 0;
+  /** Times of the whole plot, where it is not drawn in one go. */
+  private whole: Promise<PlaceTimes> | null = null;
   private planningS = 0;
   private changing: Promise<void> | null = null;
   private journalDueS = -Infinity;
+  private stopTicking: () => void = () => undefined;
   private wakeWisher: (() => void) | null = null;
   private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
-  private readonly heldListeners: ((held: boolean) => void)[] = [];
+  private readonly heldListeners: HeldListener[] = [];
   private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
   private readonly waiters = new Waiters();
 
@@ -104,8 +88,13 @@ export class CarriageRun implements LivePlotRun {
     settings: PlotSettings,
     private readonly start: PlotStart = {},
   ) {
-    this.settings = settings;
-    this.boardPen = settings.pen;
+    this.strokes = planner.strokes;
+    this.settings = new RunSettings(settings, this.strokes);
+    this.stops = new PenStops(this.strokes, settings, start.from ?? null);
+    this.stream = new RunStream(carriage, this.strokes, this.settings, this.progress, {
+      tell: (progress) => this.tell(progress),
+      ended: () => this.streamEnded(),
+    });
     this.holdPlace = start.from ? this.placeLeft(start.from) : null;
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
     this.finished = this.run().then(
@@ -131,8 +120,10 @@ export class CarriageRun implements LivePlotRun {
     if (this.progress.latest) listener(this.progress.latest);
   }
 
-  onHeld(listener: (held: boolean) => void): void {
+  /** A stop before the first stroke may have come before anybody could listen. */
+  onHeld(listener: HeldListener): void {
     this.heldListeners.push(listener);
+    if (this.held && this.wait) listener(true, this.wait);
   }
 
   pause(): Promise<void> {
@@ -153,51 +144,45 @@ export class CarriageRun implements LivePlotRun {
 
   emergencyStop(): Promise<void> {
     if (this.wish === "run") this.wish = "hold";
-    const { streamer } = this;
-    if (streamer?.playing) {
-      this.emergency = true;
-      this.carriage.connection.session.write([{ line: "ES" }]);
-      streamer.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
-    }
+    this.stream.stopAtOnce();
     return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
   /** The board can no longer do what it is told: nothing more is written, `finished` rejects. */
   fail(error: PlotwrightError): void {
     this.failure ??= error;
-    this.carriage.connection.session.write([{ line: "ES" }]);
-    this.streamer?.abandon(error);
+    this.stream.abandon(error);
     this.wakeWisher?.();
   }
 
   async change(change: PlotChange): Promise<void> {
-    const { pen = this.settings.pen, motion = this.settings.motion } = change;
-    this.settings = { ...this.settings, pen, motion };
-    this.speedPct = change.speedPct ?? this.speedPct;
+    this.settings.change(change);
     // One after the other; the last one plans with everything that was asked for.
     this.changing = (this.changing ?? Promise.resolve()).then(() => this.changeInMotion());
     await this.changing;
   }
 
   moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
-    const place = this.heldPlace();
-    this.holdPlace = movedPlace(this.planner.strokes, place, by);
+    this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
+    this.stops.moved(this.holdPlace);
+    const wait = this.stops.due(this.holdPlace);
+    if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
     return this.holdPlace;
   }
 
   async checkHoldPlace(): Promise<void> {
-    const { x, y } = pointOfPlace(this.planner.strokes, this.heldPlace());
-    await this.carriage.walk(x, y, this.settings);
+    const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
+    await this.carriage.walk(x, y, this.settings.current);
   }
 
   /** Where the plot that goes on was broken off, by the board's own counters where it has kept them. */
   private placeLeft(from: Place): Place {
     const { left, connection } = this.carriage;
-    const at = this.carriage.place(machineOf(this.settings));
+    const at = this.carriage.place(machineOf(this.settings.current));
     if (!left || !at) return from;
-    const { draw, travel } = this.settings.motion;
+    const { draw, travel } = this.settings.current.motion;
     const aheadMm = LEFT_S * connection.speed * Math.max(draw.speedMmPerS, travel.speedMmPerS);
-    return stoppedPlace(this.planner.strokes, from, { ...at, up: left.penUp }, aheadMm);
+    return stoppedPlace(this.strokes, from, { ...at, up: left.penUp }, aheadMm);
   }
 
   private heldPlace(): Place {
@@ -209,42 +194,50 @@ export class CarriageRun implements LivePlotRun {
 
   private ask(wish: Wish): void {
     this.wish = wish;
-    this.slowToRest();
+    if (wish !== "run") this.stream.slowToRest();
     this.wakeWisher?.();
   }
 
   private async run(): Promise<PlotOutcome> {
-    if (strokeCount(this.planner.strokes) === 0) {
+    if (strokeCount(this.strokes) === 0) {
       throw new PlotwrightError(
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
-    // What was broken off may have left the pen on the paper.
-    if (this.start.from && this.carriage.boardState && this.carriage.penUp !== true) {
-      await this.carriage.movePen(true, this.settings);
-    }
+    await this.liftWhatWasLeft();
     for (;;) {
+      if (this.wish === "run" && this.stops.due(this.holdPlace)) this.wish = "hold";
       if (this.wish === "hold") await this.hold();
       if (this.wish === "cancel") return this.goHome();
+      const until = this.stops.nextAfter(this.holdPlace);
       const plot = await this.planFromRest().catch((error: unknown) => {
         if (this.wish === "cancel") return null;
         throw error;
       });
       if (!plot) return this.goHome();
       if (this.wish !== "run") continue;
-      this.stopped = null;
-      await this.play(plot);
-      const stopped = this.stopped as { readonly place: Place | null } | null;
-      if (!stopped) return { kind: "done" };
-      if (!stopped.place) return this.goHome();
-      this.holdPlace = stopped.place;
+      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
+      const next = this.stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
+      if (next) this.holdPlace = next;
+      else if (this.stream.stopped) return this.endedOnItsWayHome();
+      else return { kind: "done" };
+    }
+  }
+
+  /** What was broken off may have left the pen on the paper. */
+  private async liftWhatWasLeft(): Promise<void> {
+    if (!this.start.from) return;
+    // While the user looks at pen and paper there is time to plan.
+    this.timesOfWhole().catch(() => undefined);
+    if (this.carriage.boardState && this.carriage.penUp !== true) {
+      await this.carriage.movePen(true, this.settings.current);
     }
   }
 
   private async planFromRest(): Promise<PlannedPlot> {
-    const machine = machineOf(this.settings);
-    const board = await this.carriage.ready(machine, this.settings.pen);
+    const machine = machineOf(this.settings.current);
+    const board = await this.carriage.ready(machine, this.settings.current.pen);
     const { x, y } = this.carriage.place(machine)!;
     const planning = this.plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
@@ -258,15 +251,22 @@ export class CarriageRun implements LivePlotRun {
     }
   }
 
+  /** Plans on from a place, to the next change of pens. */
   private async plan(from: Place | null, x: number, y: number, board: BoardState): Promise<PlannedPlot> {
+    const until = this.stops.nextAfter(from);
+    if (until !== null || this.start.from) {
+      const times = await this.timesOfWhole();
+      this.afterPartS = until === null ? 0 : times.leftFrom({ stroke: until, alongMm: 0 });
+    } else this.afterPartS = 0;
     const clock = this.carriage.connection.boardClock;
     const startS = clock.nowS();
     const start = this.planStart(from, x, y);
     const plot = await this.planner.plan({
       from,
+      until,
       startXMm: start.x,
       startYMm: start.y,
-      settings: this.plannedSettings(),
+      settings: this.settings.planned,
       firmware: this.carriage.connection.features.version,
       board,
     });
@@ -274,119 +274,23 @@ export class CarriageRun implements LivePlotRun {
     return plot;
   }
 
-  private plannedSettings(): PlotSettings {
-    const share = this.speedPct / 100;
-    const settings = withLayerCodes(this.settings, this.planner.strokes.layers);
-    if (share === 1) return settings;
-    const { draw, travel, layers = {} } = settings.motion;
-    const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>
-      limits.speedMmPerS === undefined ? limits : { ...limits, speedMmPerS: limits.speedMmPerS * share };
-    const scaledLayers = Object.entries(layers).map(([id, limits]) => [id, scaled(limits)] as const);
-    return {
-      ...settings,
-      motion: {
-        ...settings.motion,
-        draw: scaled(draw),
-        travel: scaled(travel),
-        layers: Object.fromEntries(scaledLayers),
-      },
-    };
-  }
-
-  private async play(plot: PlannedPlot): Promise<void> {
-    if (this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
-    this.boardPen = this.settings.pen;
-    this.progress.add({ ...plot, start: this.carriage.boardState!, afterS: 0 });
-    const streamer = this.carriage.streamer();
-    const played = this.carriage.play(streamer, plot);
-    this.streamer = streamer;
-    // A wish from the time before there was a stream.
-    this.slowToRest();
-    const stopTicking = this.tick();
-    try {
-      const report = await played;
-      const { trajectory } = this.progress.partOf(report.end.stream);
-      const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
-      // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
-      const isWhole = report.complete && !this.stopped;
-      const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
-      this.carriage.penUp = penUp;
-      // The board has come to rest, so a lift that had begun is over, whatever rounding says of its last instant.
-      this.tell({
-        ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
-        penUp,
-      });
-    } catch (error) {
-      if (!this.emergency) throw error;
-      await this.afterEmergency(streamer);
-    } finally {
-      stopTicking();
-      this.streamer = null;
-      this.writeJournal();
-    }
-    if (this.stopped && this.carriage.penUp !== true) await this.carriage.movePen(true, this.settings);
-  }
-
-  /** Cuts the stream where the board has not got it yet, and puts the way to rest in its place. */
-  private slowToRest(): void {
-    const { streamer } = this;
-    if (this.wish === "run" || !streamer?.playing || this.stopped) return;
-    const cut = streamer.cut();
-    const part = this.progress.partOf(cut.stream);
-    const rest = this.restAt(part, cut.commandIndex, true);
-    this.stopped = { place: rest.place };
-    this.progress.add(rest.part);
-    streamer.replace(rest.part.commands);
-  }
-
-  /** The way to rest from before a command that is still to be written. */
-  private restAt(
-    part: Part,
-    index: number,
-    lifts: boolean,
-  ): { part: Part; place: Place | null; state: BoardState } {
-    const { commands, trajectory } = part;
-    const fromS = commands.planS[index]!;
-    const { limits, pen } = this.layerSettings(placeAt(trajectory, fromS));
-    const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
-    const { trajectory: restTrajectory, planS } = rest;
-    const leftS = Math.max(0, trajectory.totalS - planS) + part.afterS;
-    const start = boardStateBefore(commands, index, part.start);
-    const restCommands = compile(restTrajectory, {
-      machine: machineOf(this.settings),
+  /** Progress is of the whole plot, though only a part of it is drawn at a time. */
+  private timesOfWhole(): Promise<PlaceTimes> {
+    const request = {
+      from: null,
+      until: null,
+      startXMm: 0,
+      startYMm: 0,
+      settings: this.settings.planned,
       firmware: this.carriage.connection.features.version,
-      pen,
-      start,
+      board: AT_HOME,
+    };
+    this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
+      const times = new PlaceTimes(trajectory);
+      this.progress.isPartOf(trajectory, times, this.start.from ?? null);
+      return times;
     });
-    const state = boardStateBefore(restCommands, restCommands.count, start);
-    return {
-      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS },
-      place: this.snapped(placeAt(trajectory, planS), restTrajectory.endX, restTrajectory.endY),
-      state,
-    };
-  }
-
-  /** What the layer that is being drawn does differently. */
-  private layerSettings(place: Place | null): {
-    limits: { drawAccel: number; travelAccel: number };
-    pen: PenSettings;
-  } {
-    const { layer, layers } = this.planner.strokes;
-    const { motion, pen } = withLayerCodes(this.settings, layers);
-    const drawn = place ? layers[layer[place.stroke]!] : undefined;
-    const id = drawn && settingsIdOf(drawn);
-    const own = id === undefined ? undefined : motion.layers?.[id];
-    const drawAccel = own?.accelMmPerS2 ?? motion.draw.accelMmPerS2;
-    return {
-      limits: { drawAccel, travelAccel: motion.travel.accelMmPerS2 },
-      pen: id === undefined ? pen : penOfLayer(pen, id),
-    };
-  }
-
-  /** The place of the drawing where the pen stands, when it stands in the middle of a stroke. */
-  private snapped(place: Place | null, x: number, y: number): Place | null {
-    if (!place || place.alongMm === 0) return place;
-    return snappedPlace(this.planner.strokes, place, x, y, SNAP_MM);
+    return this.whole;
   }
 
   /**
@@ -395,68 +299,27 @@ export class CarriageRun implements LivePlotRun {
    */
   private planStart(from: Place | null, x: number, y: number): { x: number; y: number } {
     if (!from || from.alongMm === 0) return { x, y };
-    const point = pointOfPlace(this.planner.strokes, from);
+    const point = pointOfPlace(this.strokes, from);
     return Math.hypot(point.x - x, point.y - y) < SAME_POINT_MM ? point : { x, y };
   }
 
   /** Plans what is left with the new settings, and goes over to it at a place that the board has not got yet. */
   private async changeInMotion(): Promise<void> {
     for (let attempt = 0; attempt < CHANGE_TRIES; attempt++) {
-      const { streamer } = this;
-      if (!streamer?.playing || this.wish !== "run") return;
+      if (this.wish !== "run") return;
       const { speed } = this.carriage.connection;
-      const part = this.progress.partOf(streamer.nextStream);
-      const leadS = CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** attempt;
-      const index = commandAfter(part.commands, streamer.nextIndex, leadS);
-      if (index >= part.commands.count) return;
-      const rest = this.restAt(part, index, false);
-      if (!rest.place) return;
-      const { trajectory } = rest.part;
-      const plot = await this.plan(rest.place, trajectory.endX, trajectory.endY, rest.state);
-      const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
-      const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
-      if (this.wish !== "run" || this.streamer !== streamer) return;
-      if (streamer.nextStream !== part.commands) continue;
-      const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
-      if (!streamer.cutAt(index, rest.part.commands, heights, commands)) continue;
-      this.boardPen = this.settings.pen;
-      const afterS = plot.trajectory.totalS;
-      this.progress.add({ ...rest.part, afterS });
-      this.progress.add({ commands: heights, trajectory, start: rest.state, afterS });
-      this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state, afterS: 0 });
-      return;
+      const { streamer } = this.stream;
+      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** attempt);
+      if (!over) return;
+      const plot = await this.plan(over.from, over.x, over.y, over.rest.state);
+      if (this.wish !== "run" || this.stream.streamer !== streamer) return;
+      if (this.stream.goOver(over, plot, this.afterPartS)) return;
     }
-  }
-
-  /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
-  private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
-    const { pen } = this.settings;
-    const machine = machineOf(this.settings);
-    const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
-    const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
-    if (isDown && byPct > 0) {
-      const { heightPct, ratePctPerS } = penMoveOf(pen, false);
-      const timeMs = ratePctPerS ? RESEAT_MS + (1_000 * byPct) / ratePctPerS : RESEAT_MS;
-      const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
-      lines.push([penCommand(machine, reseat), timeMs / 1000]);
-    }
-    return restingStream(lines, state, planS);
-  }
-
-  /** The board has dropped its queue: what it has drawn is what its counters say. */
-  private async afterEmergency(streamer: Streamer): Promise<void> {
-    this.emergency = false;
-    const at = streamer.place();
-    await this.carriage.findPlace();
-    const { trajectory } = this.progress.partOf(at.stream);
-    const { x, y } = this.carriage.place(machineOf(this.settings))!;
-    const planS = nearestTime(trajectory, at.planS, 1, x, y);
-    this.stopped = { place: this.snapped(placeAt(trajectory, planS) ?? this.progress.place, x, y) };
-    this.carriage.penUp = null;
   }
 
   private async hold(): Promise<void> {
-    this.setHeld(true);
+    this.setHeld(true, this.stops.due(this.holdPlace));
+    if (this.wait) this.writeJournal(this.holdPlace);
     while (this.wish === "hold" && !this.failure) {
       await new Promise<void>((resolve) => {
         this.wakeWisher = resolve;
@@ -464,27 +327,46 @@ export class CarriageRun implements LivePlotRun {
     }
     this.wakeWisher = null;
     if (this.failure) throw this.failure;
-    this.setHeld(false);
+    if (this.wish === "run") this.stops.answer(this.holdPlace);
+    this.setHeld(false, null);
+  }
+
+  /** All was drawn when somebody stopped it. */
+  private async endedOnItsWayHome(): Promise<PlotOutcome> {
+    const { kind } = await this.goHome();
+    return { kind: this.wish === "cancel" ? kind : "done" };
   }
 
   private async goHome(): Promise<PlotOutcome> {
-    await this.carriage.walk(0, 0, this.settings);
+    await this.carriage.walk(0, 0, this.settings.current);
     return { kind: "cancelled" };
   }
 
-  private setHeld(held: boolean): void {
+  private setHeld(held: boolean, wait: PlotWait | null): void {
     this.held = held;
-    for (const listener of this.heldListeners) listener(held);
+    this.wait = wait;
+    for (const listener of this.heldListeners) listener(held, wait);
     this.waiters.check();
+  }
+
+  private streamBegun(): void {
+    // A wish from the time before there was a stream.
+    if (this.wish !== "run") this.stream.slowToRest();
+    this.stopTicking = this.tick();
+  }
+
+  private streamEnded(): void {
+    this.stopTicking();
+    this.writeJournal(this.stream.stopped?.place ?? this.progress.place);
   }
 
   private tick(): () => void {
     const { boardClock, speed } = this.carriage.connection;
     let cancel = (): void => undefined;
     const next = (): void => {
-      if (this.streamer) {
-        this.tell(this.progress.update(this.streamer.place()));
-        if (boardClock.nowS() >= this.journalDueS) this.writeJournal();
+      if (this.stream.streamer) {
+        this.tell(this.progress.update(this.stream.streamer.place()));
+        if (boardClock.nowS() >= this.journalDueS) this.writeJournal(this.progress.place);
       }
       cancel = boardClock.after(PROGRESS_S * speed, next);
     };
@@ -496,11 +378,10 @@ export class CarriageRun implements LivePlotRun {
     for (const listener of this.progressListeners) listener(progress);
   }
 
-  private writeJournal(): void {
-    const { latest, place } = this.progress;
+  private writeJournal(left: Place | null): void {
+    const { latest } = this.progress;
     const { boardClock, speed } = this.carriage.connection;
     this.journalDueS = boardClock.nowS() + JOURNAL_S * speed;
-    const left = this.stopped?.place ?? place;
     if (!latest || !left) return;
     const { xMm, yMm, penUp, elapsedS } = latest;
     this.start.journal?.record({ place: left, xMm, yMm, penUp, elapsedS });

@@ -47,7 +47,17 @@ export class RunProgress {
     alongMm: 0,
   };
 
-  /** A part that will be streamed; the first of all is the plan that the page has too. */
+  /**
+   * What will be streamed are parts of this plan, which is the one that the page has. `from`: what lies before it
+   * was drawn by an earlier run.
+   */
+  isPartOf(whole: Trajectory, times: PlaceTimes, from: Place | null): void {
+    this.firstTrajectory = whole;
+    this.times = times;
+    if (from) this.doneS = times.timeOf(from) ?? 0;
+  }
+
+  /** A part that will be streamed; the first of all is the plan that the page has too, where that was not told. */
   add(part: Part): void {
     if (!this.firstTrajectory) {
       this.firstTrajectory = part.trajectory;
@@ -78,7 +88,7 @@ export class RunProgress {
       progress: Math.max(progress, this.latest?.progress ?? 0),
       elapsedS,
       remainingS,
-      planS: this.firstPlanS(part.trajectory, at.planS, now),
+      planS: this.firstPlanS(part, at.planS, now),
       xMm: now.x,
       yMm: now.y,
       penUp: now.penUp,
@@ -96,10 +106,10 @@ export class RunProgress {
   }
 
   /** The same place's time in the first plan. */
-  private firstPlanS(trajectory: Trajectory, planS: number, now: MotionState): number {
+  private firstPlanS({ trajectory, afterS }: Part, planS: number, now: MotionState): number {
     if (!this.firstTrajectory || trajectory === this.firstTrajectory) return planS;
     const timeS = now.stroke >= 0 ? this.times!.timeOf(now) : null;
-    const leftS = trajectory.totalS - planS;
+    const leftS = trajectory.totalS - planS + afterS;
     return timeS ?? this.latest?.planS ?? Math.max(0, this.firstTrajectory.totalS - leftS);
   }
 }

@@ -21,6 +21,8 @@ export interface PlannedPlot {
 export interface PlanRequest {
   /** Where in the drawing to begin; null for its beginning. */
   readonly from: Place | null;
+  /** Stroke before which to stop and go home; null for the end of the drawing. */
+  readonly until: number | null;
   /** Where the carriage is, mm from home. */
   readonly startXMm: number;
   readonly startYMm: number;

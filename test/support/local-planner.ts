@@ -1,4 +1,5 @@
-import { compile, machineOf, plan, withLayerCodes, type StrokeSet } from "../../src/index.js";
+import { machineOf, type StrokeLayer, type StrokeSet } from "../../src/index.js";
+import { planAndCompile } from "../../server/planning/stages.js";
 import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../server/plotter/types.js";
 
 /** A planner without its worker thread: the same stages, in the test's own thread. */
@@ -9,20 +10,7 @@ export class LocalPlanner implements PlotPlanner {
 
   plan(request: PlanRequest): Promise<PlannedPlot> {
     this.requests.push(request);
-    const { from } = request;
-    const settings = withLayerCodes(request.settings, this.strokes.layers);
-    const trajectory = plan(this.strokes, settings.motion, settings.pen, {
-      ...(from ? { from } : {}),
-      startX: request.startXMm,
-      startY: request.startYMm,
-    });
-    const commands = compile(trajectory, {
-      machine: machineOf(settings),
-      firmware: request.firmware,
-      pen: settings.pen,
-      start: request.board,
-    });
-    return Promise.resolve({ trajectory, commands });
+    return Promise.resolve(planAndCompile(this, request, machineOf(request.settings)));
   }
 
   close(): Promise<void> {
@@ -32,12 +20,23 @@ export class LocalPlanner implements PlotPlanner {
 
 /** Strokes from lists of x, y, x, y … in mm, all in one layer. */
 export function strokesOf(...lines: readonly (readonly number[])[]): StrokeSet {
+  return layeredStrokes(
+    [{ id: "all", name: "All", color: null }],
+    lines.map((line) => [0, line] as const),
+  );
+}
+
+/** The same, each with the index of its layer. */
+export function layeredStrokes(
+  layers: readonly StrokeLayer[],
+  lines: readonly (readonly [layer: number, line: readonly number[]])[],
+): StrokeSet {
   const offsets = new Uint32Array(lines.length + 1);
-  lines.forEach((line, i) => (offsets[i + 1] = offsets[i]! + line.length / 2));
+  lines.forEach(([, line], i) => (offsets[i + 1] = offsets[i]! + line.length / 2));
   return {
-    xy: Float64Array.from(lines.flat()),
+    xy: Float64Array.from(lines.flatMap(([, line]) => line)),
     offsets,
-    layer: new Uint16Array(lines.length),
-    layers: [{ id: "all", name: "All", color: null }],
+    layer: Uint16Array.from(lines.map(([layer]) => layer)),
+    layers,
   };
 }

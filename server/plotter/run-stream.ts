@@ -1,0 +1,238 @@
+/**
+ * The stream of one plot on the board: plays plans, brings them to rest along the path, and goes over from one
+ * plan to another in motion. What is to be drawn, and when, is said by `plot-run.ts`.
+ *
+ * What has been written to the board plays out, at most the streamer's window; everything after it is new.
+ */
+import {
+  comeToRest,
+  compile,
+  machineOf,
+  penCommand,
+  penMoveOf,
+  penSetUpCommands,
+  PlotwrightError,
+  type BoardState,
+  type CommandStream,
+  type PenSettings,
+  type Place,
+  type Streamer,
+  type StrokeSet,
+} from "../../src/index.js";
+import type { Carriage } from "./carriage.js";
+import {
+  boardStateBefore,
+  commandAfter,
+  isPenUpBefore,
+  nearestTime,
+  placeAt,
+  restingStream,
+  snappedPlace,
+  withoutDrop,
+} from "./plan-places.js";
+import type { Part, RunProgress } from "./run-progress.js";
+import type { RunSettings } from "./run-settings.js";
+import type { PlannedPlot, PlotProgress } from "./types.js";
+
+/** How far mm along the plan and mm along the drawing may be apart. */
+const SNAP_MM = 2;
+/** A pen that is down already changes its height in this time. */
+const RESEAT_MS = 60;
+
+/** A way to rest, and what follows from it. */
+interface Rest {
+  readonly part: Part;
+  /** What is still to be drawn then; null when it is all. */
+  readonly place: Place | null;
+  readonly state: BoardState;
+}
+
+/** A way over to another plan, which begins where `rest` ends. */
+export interface GoOver {
+  readonly index: number;
+  readonly part: Part;
+  readonly rest: Rest;
+  readonly from: Place;
+  readonly x: number;
+  readonly y: number;
+}
+
+export interface RunStreamEvents {
+  tell(progress: PlotProgress): void;
+  /** The stream has ended, however it did. */
+  ended(): void;
+}
+
+export class RunStream {
+  /** Set when the stream was stopped on purpose: what is still to be drawn then. */
+  stopped: { readonly place: Place | null } | null = null;
+  streamer: Streamer | null = null;
+
+  private emergency = false;
+  /** The heights that the board moves the pen to. */
+  private boardPen: PenSettings;
+
+  constructor(
+    private readonly carriage: Carriage,
+    private readonly strokes: StrokeSet,
+    private readonly settings: RunSettings,
+    private readonly progress: RunProgress,
+    private readonly events: RunStreamEvents,
+  ) {
+    this.boardPen = settings.current.pen;
+  }
+
+  get isPlaying(): boolean {
+    return this.streamer?.playing ?? false;
+  }
+
+  /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
+  async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
+    const { carriage } = this;
+    this.stopped = null;
+    if (carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
+    this.boardPen = this.settings.current.pen;
+    this.progress.add({ ...plot, start: carriage.boardState!, afterS });
+    const streamer = carriage.streamer();
+    const played = carriage.play(streamer, plot);
+    this.streamer = streamer;
+    begun();
+    try {
+      const report = await played;
+      const { trajectory } = this.progress.partOf(report.end.stream);
+      const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
+      // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
+      const isWhole = report.complete && !this.stopped;
+      const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
+      carriage.penUp = penUp;
+      // The board has come to rest, so a lift that had begun is over, whatever rounding says of its last instant.
+      this.events.tell({
+        ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
+        penUp,
+      });
+    } catch (error) {
+      if (!this.emergency) throw error;
+      await this.afterEmergency(streamer);
+    } finally {
+      this.streamer = null;
+      this.events.ended();
+    }
+    if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
+  }
+
+  /** Cuts the stream where the board has not got it yet, and puts the way to rest in its place. */
+  slowToRest(): void {
+    const { streamer } = this;
+    if (!streamer?.playing || this.stopped) return;
+    const cut = streamer.cut();
+    const part = this.progress.partOf(cut.stream);
+    const rest = this.restAt(part, cut.commandIndex, true);
+    this.stopped = { place: rest.place };
+    this.progress.add(rest.part);
+    streamer.replace(rest.part.commands);
+  }
+
+  /** Drops what the board has: it stops at once, and `play` ends with the place read back. */
+  stopAtOnce(): void {
+    if (!this.isPlaying) return;
+    this.emergency = true;
+    this.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
+  }
+
+  /** Stops the motors and fails with an error. */
+  abandon(error: PlotwrightError): void {
+    this.carriage.connection.session.write([{ line: "ES" }]);
+    this.streamer?.abandon(error);
+  }
+
+  /** A place some time ahead that the board has not got yet; null when what is left is too short for one. */
+  placeAhead(leadS: number): GoOver | null {
+    const { streamer } = this;
+    if (!streamer?.playing) return null;
+    const part = this.progress.partOf(streamer.nextStream);
+    const index = commandAfter(part.commands, streamer.nextIndex, leadS);
+    if (index >= part.commands.count) return null;
+    const rest = this.restAt(part, index, false);
+    if (!rest.place) return null;
+    const { endX, endY } = rest.part.trajectory;
+    return { index, part, rest, from: rest.place, x: endX, y: endY };
+  }
+
+  /** Goes over to a plan from there; false when the board has got there meanwhile. */
+  goOver({ index, part, rest }: GoOver, plot: PlannedPlot, afterSectionS: number): boolean {
+    const { streamer } = this;
+    if (streamer?.nextStream !== part.commands) return false;
+    const { trajectory } = rest.part;
+    const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
+    const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
+    const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
+    if (!streamer.cutAt(index, rest.part.commands, heights, commands)) return false;
+    this.boardPen = this.settings.current.pen;
+    const afterS = plot.trajectory.totalS + afterSectionS;
+    this.progress.add({ ...rest.part, afterS });
+    this.progress.add({ commands: heights, trajectory, start: rest.state, afterS });
+    this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state, afterS: afterSectionS });
+    return true;
+  }
+
+  /** The way to rest from before a command that is still to be written. */
+  private restAt(part: Part, index: number, lifts: boolean): Rest {
+    const { commands, trajectory } = part;
+    const fromS = commands.planS[index]!;
+    const { limits, pen } = this.settings.at(placeAt(trajectory, fromS));
+    const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
+    const { trajectory: restTrajectory, planS } = rest;
+    const leftS = Math.max(0, trajectory.totalS - planS) + part.afterS;
+    const start = boardStateBefore(commands, index, part.start);
+    const restCommands = compile(restTrajectory, {
+      machine: machineOf(this.settings.current),
+      firmware: this.carriage.connection.features.version,
+      pen,
+      start,
+    });
+    const state = boardStateBefore(restCommands, restCommands.count, start);
+    return {
+      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS },
+      place: this.snapped(placeAt(trajectory, planS), restTrajectory.endX, restTrajectory.endY),
+      state,
+    };
+  }
+
+  /** The place of the drawing where the pen stands, when it stands in the middle of a stroke. */
+  private snapped(place: Place | null, x: number, y: number): Place | null {
+    if (!place || place.alongMm === 0) return place;
+    return snappedPlace(this.strokes, place, x, y, SNAP_MM);
+  }
+
+  /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
+  private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
+    const { pen } = this.settings.current;
+    const machine = machineOf(this.settings.current);
+    const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
+    const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
+    if (isDown && byPct > 0) {
+      const { heightPct, ratePctPerS } = penMoveOf(pen, false);
+      const timeMs = ratePctPerS ? RESEAT_MS + (1_000 * byPct) / ratePctPerS : RESEAT_MS;
+      const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
+      lines.push([penCommand(machine, reseat), timeMs / 1000]);
+    }
+    return restingStream(lines, state, planS);
+  }
+
+  /** The board has dropped its queue: what it has drawn is what its counters say. */
+  private async afterEmergency(streamer: Streamer): Promise<void> {
+    this.emergency = false;
+    const at = streamer.place();
+    await this.carriage.findPlace();
+    const { trajectory } = this.progress.partOf(at.stream);
+    const { x, y } = this.carriage.place(machineOf(this.settings.current))!;
+    const planS = nearestTime(trajectory, at.planS, 1, x, y);
+    this.stopped = { place: this.snapped(placeAt(trajectory, planS) ?? this.progress.place, x, y) };
+    this.carriage.penUp = null;
+  }
+
+  /** Set by what happens during `play`, which the compiler cannot see. */
+  private wasStopped(): boolean {
+    return this.stopped !== null;
+  }
+}
