@@ -16,7 +16,9 @@ import {
 } from "./machine-commands.js";
 import { runPlan, type PlanCommandOptions } from "./plan.js";
 import { runPlot, type PlotCommandOptions } from "./plot.js";
+import { runLogs, type LogsOptions } from "./logs.js";
 import { runServe, type ServeCommandOptions } from "./serve.js";
+import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
 import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
@@ -86,6 +88,12 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--pen-down <percent>", "height when down", percent)
     .action((where: "up" | "down", options: OptionValues & { device?: string }) => runPen(where, options));
   addMoves(sub);
+  addService(program, io, setExitCode);
+  sub("logs", "print what happened, to be sent to whoever helps")
+    .option("--data <folder>", "folder for jobs and settings")
+    .option("--port <number>", "port of the running server", port, 9080)
+    .option("--out <file>", "write it to a file")
+    .action((options: LogsOptions) => runLogs(options, io, version));
   sub("board", "be a virtual board that other programs can drive")
     .requiredOption("--pty <path>", "where the serial port shall appear")
     .option("--firmware <version>", "firmware to be", "2.8.1")
@@ -140,6 +148,34 @@ function addMoves(sub: (name: string, about: string) => Command): void {
   );
 }
 
+function addService(program: Command, io: CliIo, setExitCode: (code: number) => void): void {
+  const service = program
+    .command("service")
+    .description("keep the server running by systemd")
+    .copyInheritedSettings(program);
+  const sub = (name: string, about: string): Command =>
+    service
+      .command(name)
+      .description(about)
+      .copyInheritedSettings(program)
+      .option("--system", "for the whole computer, started at boot; needs root");
+  sub("install", "write the unit and start it; options of serve after --")
+    .argument("[serve-options...]")
+    .option("--user <name>", "with --system: whose server it is")
+    .option("--print", "only show what would be written")
+    .action((serveArgs: string[], options: ServiceOptions) => {
+      // A service that dies of a mistyped option would be found out by nobody.
+      addServe(new Command("serve").copyInheritedSettings(program)).parse(serveArgs, { from: "user" });
+      installService(options, serveArgs, io);
+    });
+  sub("uninstall", "stop it and remove the unit").action((options: ServiceOptions) =>
+    uninstallService(options, io),
+  );
+  sub("status", "say whether it runs").action((options: ServiceOptions) =>
+    setExitCode(serviceStatus(options, io)),
+  );
+}
+
 function addServe(command: Command): Command {
   return addDevice(command)
     .option("--port <number>", "port to listen on", port, 9080)
@@ -151,6 +187,7 @@ function addServe(command: Command): Command {
     .option("--key <file>", "the certificate's key (PEM)")
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
     .option("--data <folder>", "folder for jobs and settings")
+    .option("--watch <folder>", "queue the drawings that are put there")
     .option("--max-upload-mb <number>", "largest drawing taken", positive, 200)
     .option("--open", "open the page in the browser");
 }

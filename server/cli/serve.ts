@@ -13,6 +13,7 @@ export interface ServeCommandOptions {
   readonly device?: string;
   readonly virtualSpeed?: number;
   readonly data?: string;
+  readonly watch?: string;
   readonly maxUploadMb: number;
   readonly open?: boolean;
   readonly lan?: boolean;
@@ -36,6 +37,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.device === undefined ? {} : { device: options.device }),
     ...(options.virtualSpeed === undefined ? {} : { virtualSpeed: options.virtualSpeed }),
     ...(options.data === undefined ? {} : { dataDir: options.data }),
+    ...(options.watch === undefined ? {} : { watchDir: options.watch }),
     log: (line) => io.err(`${line}\n`),
   });
   io.out(`plotwright is at ${server.url}\n`);

@@ -1,0 +1,37 @@
+/** `plotwright logs`: what happened, as one text to be sent to whoever helps. */
+import { writeFileSync } from "node:fs";
+import { defaultDataDir } from "../data-dir.js";
+import { bundleText, readLog } from "../log-book.js";
+import type { CliIo } from "./io.js";
+
+export interface LogsOptions {
+  readonly data?: string;
+  readonly port: number;
+  readonly out?: string;
+}
+
+const PATIENCE_MS = 3_000;
+
+/** From the server while it runs here, with the boards' logs; else from its data folder. */
+export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
+  const text =
+    (options.data === undefined ? await fromServer(options.port) : null) ??
+    bundleText({ version, serverLog: readLog(options.data ?? defaultDataDir()) });
+  if (options.out === undefined) io.out(`${text}\n`);
+  else {
+    writeFileSync(options.out, `${text}\n`);
+    io.err(`${options.out} is written. Look through it before you send it.\n`);
+  }
+}
+
+async function fromServer(port: number): Promise<string | null> {
+  try {
+    const response = await fetch(`http://127.0.0.1:${port}/api/v1/logs`, {
+      signal: AbortSignal.timeout(PATIENCE_MS),
+    });
+    const text = await response.text();
+    return response.ok && text.startsWith("plotwright ") ? text : null;
+  } catch {
+    return null;
+  }
+}

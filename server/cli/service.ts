@@ -1,0 +1,197 @@
+/**
+ * `plotwright service`: keeps the server running on a computer of its own (a Raspberry Pi under the table) by
+ * systemd: for one user, or with --system for the whole computer.
+ */
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { homedir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { PlotwrightError } from "../../src/index.js";
+import { packagePath } from "../package-files.js";
+import type { CliIo } from "./io.js";
+
+export interface ServiceOptions {
+  /** For the whole computer, started at boot; needs root. */
+  readonly system?: boolean;
+  /** Whose server it is, with `system`; whoever called sudo unless told. */
+  readonly user?: string;
+  /** Only shows what would be written. */
+  readonly print?: boolean;
+}
+
+export interface CommandResult {
+  readonly code: number;
+  readonly text: string;
+}
+
+/** What of the computer is touched, given in for tests. */
+export interface ServiceHost {
+  readonly platform: NodeJS.Platform;
+  readonly env: NodeJS.ProcessEnv;
+  readonly home: string;
+  readonly isRoot: boolean;
+  /** Where units of the whole computer lie. */
+  readonly systemDir: string;
+  /** The program that runs now: node and its script. */
+  readonly node: string;
+  readonly script: string;
+  readonly run: (command: string, args: readonly string[]) => CommandResult;
+}
+
+const UNIT = "plotwright.service";
+/** Options of `serve` whose value is a path. */
+const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
+
+export function thisHost(): ServiceHost {
+  return {
+    platform: process.platform,
+    env: process.env,
+    home: homedir(),
+    isRoot: process.getuid?.() === 0,
+    systemDir: "/etc/systemd/system",
+    node: process.execPath,
+    script: packagePath("dist/server/main.js"),
+    run: (command, args) => {
+      const { status, stdout, stderr, error } = spawnSync(command, args, { encoding: "utf8" });
+      return { code: error === undefined ? (status ?? 1) : 127, text: `${stdout ?? ""}${stderr ?? ""}` };
+    },
+  };
+}
+
+/** `serveArgs`: as after `plotwright serve`; paths in them are made whole. */
+export function installService(
+  options: ServiceOptions,
+  serveArgs: readonly string[],
+  io: CliIo,
+  host: ServiceHost = thisHost(),
+): void {
+  const unit = unitText(options, serveArgs, host);
+  const path = unitPath(options, host);
+  if (options.print === true) {
+    io.out(`# ${path}\n${unit}`);
+    return;
+  }
+  mustHaveSystemd(options, host);
+  if (host.script.includes("/_npx/")) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "npx keeps programs only for a while. Install plotwright first: npm install -g plotwright.",
+    );
+  }
+  mkdirSync(dirname(path), { recursive: true });
+  writeFileSync(path, unit);
+  systemctl(options, host, ["daemon-reload"]);
+  systemctl(options, host, ["enable", UNIT]);
+  // Not only started: an older one that runs must take the new unit.
+  systemctl(options, host, ["restart", UNIT]);
+  io.out(`${path} is written, and the server runs. It starts again by itself.\n`);
+  if (options.system === true) return;
+  const linger = host.run("loginctl", ["enable-linger"]);
+  if (linger.code !== 0) {
+    io.err("It runs only while you are logged in. To change that: sudo loginctl enable-linger $USER\n");
+  }
+}
+
+export function uninstallService(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): void {
+  const path = unitPath(options, host);
+  if (!existsSync(path)) {
+    throw new PlotwrightError("not-found", `There is no ${path}, so no service is installed.`);
+  }
+  mustHaveSystemd(options, host);
+  // A server that is not running is no reason to keep its unit.
+  host.run("systemctl", [...scope(options), "disable", "--now", UNIT]);
+  rmSync(path);
+  systemctl(options, host, ["daemon-reload"]);
+  io.out(`${path} is removed. Jobs and settings are kept.\n`);
+}
+
+/** 0 when it runs, 3 (as systemctl says it) when not. */
+export function serviceStatus(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): number {
+  const path = unitPath(options, host);
+  if (!existsSync(path)) {
+    io.out(`not installed (no ${path})\n`);
+    return 3;
+  }
+  const { code, text } = host.run("systemctl", [
+    ...scope(options),
+    "status",
+    "--no-pager",
+    "--lines=10",
+    UNIT,
+  ]);
+  io.out(text);
+  return code === 0 ? 0 : 3;
+}
+
+export function unitText(options: ServiceOptions, serveArgs: readonly string[], host: ServiceHost): string {
+  const isSystem = options.system === true;
+  const args = [host.node, host.script, "serve", ...wholePaths(serveArgs)];
+  return [
+    "[Unit]",
+    "Description=plotwright, the pen plotter's server",
+    ...(isSystem ? ["Wants=network-online.target", "After=network-online.target"] : []),
+    "",
+    "[Service]",
+    `ExecStart=${args.map(quoted).join(" ")}`,
+    ...(isSystem ? [`User=${userOf(options, host)}`, "SupplementaryGroups=dialout"] : []),
+    "Restart=on-failure",
+    "RestartSec=3",
+    "# The pen is lifted and walks home before the server ends.",
+    "TimeoutStopSec=60",
+    "NoNewPrivileges=yes",
+    "",
+    "[Install]",
+    `WantedBy=${isSystem ? "multi-user.target" : "default.target"}`,
+    "",
+  ].join("\n");
+}
+
+function unitPath({ system }: ServiceOptions, { systemDir, env, home }: ServiceHost): string {
+  if (system === true) return join(systemDir, UNIT);
+  const config = env["XDG_CONFIG_HOME"];
+  const base = config !== undefined && config !== "" ? config : join(home, ".config");
+  return join(base, "systemd", "user", UNIT);
+}
+
+/** Never root: a server on a network needs no more than its files and its port. */
+function userOf({ user }: ServiceOptions, { env }: ServiceHost): string {
+  const name = user ?? env["SUDO_USER"] ?? "";
+  if (name === "" || name === "root" || !/^[a-z_][a-z0-9_.-]*$/i.test(name)) {
+    throw new PlotwrightError("bad-setting", "Say whose server it shall be, not root's: --user NAME.");
+  }
+  return name;
+}
+
+function wholePaths(args: readonly string[]): string[] {
+  return args.map((arg, index) => {
+    const [name = "", ...value] = arg.split("=");
+    if (PATH_OPTIONS.includes(name) && value.length > 0) return `${name}=${resolve(value.join("="))}`;
+    return PATH_OPTIONS.includes(args[index - 1] ?? "") ? resolve(arg) : arg;
+  });
+}
+
+/** As systemd reads it: quotes, and its own % and $. */
+function quoted(arg: string): string {
+  const text = arg.replace(/[\\"]/g, "\\$&").replace(/%/g, "%%").replace(/\$/g, "$$$$").replace(/\n/g, "\\n");
+  return /^[\w@+=:,./-]+$/.test(arg) ? text : `"${text}"`;
+}
+
+const scope = ({ system }: ServiceOptions): string[] => (system === true ? [] : ["--user"]);
+
+function systemctl(options: ServiceOptions, host: ServiceHost, args: readonly string[]): void {
+  const { code, text } = host.run("systemctl", [...scope(options), ...args]);
+  if (code === 0) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `systemctl ${args.join(" ")} failed: ${text.trim() === "" ? `code ${code}` : text.trim()}`,
+  );
+}
+
+function mustHaveSystemd({ system }: ServiceOptions, { platform, isRoot }: ServiceHost): void {
+  if (platform !== "linux") {
+    throw new PlotwrightError("bad-setting", "Services are set up by systemd, which only Linux has.");
+  }
+  if (system === true && !isRoot) {
+    throw new PlotwrightError("not-allowed", "--system writes to /etc: run it with sudo, or leave it out.");
+  }
+}
