@@ -80,6 +80,8 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     dismissNotice: (id: string) => ask(okSchema, "DELETE", `/notices/${encodeURIComponent(id)}`),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
     jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),
+    setPlotterMachine: (id: string, machine: string): Promise<Plotter> =>
+      ask(plotterSchema, "PATCH", plotter(id), { machine }),
     movePen: (id: string, request: PenRequest): Promise<Plotter> =>
       ask(plotterSchema, "POST", `${plotter(id)}/pen`, request),
     motorsOff: (id: string): Promise<Plotter> => ask(plotterSchema, "POST", `${plotter(id)}/motors-off`),

@@ -27,7 +27,7 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
   const save = async (): Promise<void> => {
     const saved = await hand.saveMachine(named);
     if (!saved) return;
-    chooseMachine(saved);
+    await chooseMachine(saved);
     onNext(saved);
   };
   return (

@@ -2,7 +2,7 @@ import { useState } from "react";
 import { MACHINES } from "../../src/index.js";
 import { plotterWords } from "../panels/machine-words.js";
 import { activeJob, currentPlotter } from "../state/store.js";
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { PortSelect } from "../studio/port-select.js";
 import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
@@ -16,6 +16,7 @@ export const PlotterStep = ({ profile, onNext }: StepProps) => {
   const plotters = usePageState((state) => state.plotters);
   const plotter = usePageState(currentPlotter);
   const job = usePageState(activeJob);
+  const { choosePlotter } = useActions();
   const [like, setLike] = useState<string>(
     () => MACHINES.find(({ id }) => id === store.getState().settings.machine)?.id ?? MACHINES[0]!.id,
   );
@@ -29,7 +30,7 @@ export const PlotterStep = ({ profile, onNext }: StepProps) => {
           label={words.plotter}
           value={plotter.id}
           options={plotters.map(({ id, name }) => ({ value: id, label: name }))}
-          onChange={(plotterId) => store.setState({ plotterId })}
+          onChange={choosePlotter}
         />
       )}
       {plotter && <PortSelect plotter={plotter} />}

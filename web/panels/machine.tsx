@@ -103,7 +103,7 @@ const ModelSelect = () => {
       label={words.model}
       value={machine}
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
+      onChange={(id) => void chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
   );
 };

@@ -82,14 +82,14 @@ const StudioButton = () => {
 const PlotterSwitch = () => {
   const plotters = usePageState((state) => state.plotters);
   const current = usePageState(currentPlotter);
-  const store = usePageStore();
+  const { choosePlotter } = useActions();
   if (plotters.length < 2 || !current) return null;
   return (
     <select
       className="plotter-switch"
       aria-label={text.machine.which}
       value={current.id}
-      onChange={(event) => store.setState({ plotterId: event.target.value })}
+      onChange={(event) => choosePlotter(event.target.value)}
     >
       {plotters.map(({ id, name }) => (
         <option key={id} value={id}>

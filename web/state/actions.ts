@@ -223,8 +223,24 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => api.home(id, store.getState().settings));
     },
-    chooseMachine: (profile: MachineProfile | null): void => {
-      if (profile) changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));
+    /** For this page's settings, and for the plotter, which takes it for moves by hand and keeps it. */
+    chooseMachine: async (profile: MachineProfile | null): Promise<void> => {
+      if (!profile) return;
+      changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));
+      const plotter = currentPlotter(store.getState());
+      if (plotter && plotter.machine !== profile.id) {
+        await attempt("plotter", () => api.setPlotterMachine(plotter.id, profile.id));
+      }
+    },
+    /** Looks at another plotter; its machine comes with it. */
+    choosePlotter: (id: string): void => {
+      store.setState({ plotterId: id });
+      const { plotters, machines, settings } = store.getState();
+      const wanted = plotters.find((plotter) => plotter.id === id)?.machine ?? null;
+      const profile = [...MACHINES, ...machines].find((machine) => machine.id === wanted);
+      if (profile && wanted !== settings.machine) {
+        changeSettings("machine", (before) => ({ ...before, ...machineChoice(profile) }));
+      }
     },
     loadMachines: async (): Promise<void> => {
       const machines = await attempt("machines", () => api.machines());

@@ -1,0 +1,211 @@
+/** Moving a plotter by hand, setting one up, and the console, from the page, on the virtual board. */
+import type { Browser, Locator, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { MachineProfile } from "../../src/index.js";
+import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schema/index.js";
+import { launchBrowser } from "../support/browser.js";
+import { openTab, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+
+const data = temporaryFolder("machine");
+let browser: Browser;
+let server: ServerProcess;
+let page: Page;
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 20 });
+  page = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
+  page.setDefaultTimeout(20_000);
+  await page.goto(server.url);
+  await waitForPlan(page);
+});
+
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+  data.remove();
+});
+
+const machinePanel = (): Locator => page.getByRole("region", { name: "Plotter" });
+const button = (name: string | RegExp, within: Page | Locator = page): Locator =>
+  within.getByRole("button", { name, exact: typeof name === "string" });
+
+async function plotter(): Promise<Plotter> {
+  const state: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
+  return snapshotSchema.parse(state).plotters[0]!;
+}
+
+/** Presses, and waits until the server has answered with the plotter where it then stands. */
+async function move(press: () => Promise<void>): Promise<[xMm: number | null, yMm: number | null]> {
+  const answered = page.waitForResponse((response) => response.request().method() === "POST");
+  await press();
+  expect((await answered).ok()).toBe(true);
+  const { xMm, yMm } = await plotter();
+  return [xMm, yMm];
+}
+
+const close = (place: readonly (number | null)[], xMm: number, yMm: number): void => {
+  expect(place[0]).toBeCloseTo(xMm, 1);
+  expect(place[1]).toBeCloseTo(yMm, 1);
+};
+
+describe("moving by hand", () => {
+  it("jogs by the step in the direction of the key, by mouse and by the arrow keys", async () => {
+    await button("Move by hand", machinePanel()).click();
+    close(await move(() => button("Right by 10 mm").click()), 10, 0);
+    close(await move(() => button("Nearer and right by 10 mm").click()), 20, 10);
+    await page.getByRole("radio", { name: "1 mm", exact: true }).check();
+    close(await move(() => button("Left by 1 mm").click()), 19, 10);
+    await button("Left by 1 mm").focus();
+    close(await move(() => page.keyboard.press("ArrowDown")), 19, 11);
+    close(await move(() => page.keyboard.press("ArrowRight")), 20, 11);
+  });
+
+  it("walks to a place, and calls it home", async () => {
+    await page.getByLabel("From home, right").fill("50");
+    await page.getByLabel("From home, down").fill("30");
+    close(await move(() => button("Walk there").click()), 50, 30);
+    close(await move(() => button("Set home here").click()), 0, 0);
+    close(await move(() => button("Right by 1 mm").click()), 1, 0);
+    close(await move(() => button("Walk home").click()), 0, 0);
+  });
+
+  it("traces the frame of the drawing, cycles the pen, and draws a test patch", async () => {
+    for (const name of ["Trace the frame", "Cycle the pen", "Plot a test patch"]) {
+      await move(() => button(name).click());
+      expect((await plotter()).penUp).toBe(true);
+    }
+  });
+
+  it("nudges the pen to a height that the settings keep", async () => {
+    await move(() => button("Down: a little higher").click());
+    expect((await plotter()).penUp).toBe(false);
+    await move(() => button("Pen up", machinePanel()).click());
+  });
+
+  it("is held off while a job has the plotter", async () => {
+    await button("Plot", plotBar(page)).click();
+    await queuePanel(page).getByRole("progressbar").waitFor();
+    await page.getByText("Moves by hand come back when it ends").waitFor();
+    expect(await button(/^Right by/).isDisabled()).toBe(true);
+    await button("Console", machinePanel()).click();
+    await page.getByText("commands typed in between would spoil it").waitFor();
+    expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
+    await button("Close", page.getByRole("dialog")).click();
+    await button("Cancel", queuePanel(page)).click();
+    await button("Cancel", page.getByRole("alertdialog")).click();
+    await page.getByText("Cancelled").waitFor();
+  });
+});
+
+describe("the console", () => {
+  it("shows the board's reply, and brings earlier commands back", async () => {
+    await button("Console", machinePanel()).click();
+    const line = page.getByLabel("Command", { exact: true });
+    await line.fill("V");
+    await line.press("Enter");
+    await page.getByRole("log").getByText(/EBBv/).waitFor();
+    await line.press("ArrowUp");
+    expect(await line.inputValue()).toBe("V");
+    await button("Close", page.getByRole("dialog")).click();
+  });
+});
+
+describe("setting a plotter up", () => {
+  const wizard = (): Locator => page.getByRole("dialog", { name: "Set up a plotter" });
+  const press = (name: string): Promise<void> => button(name, wizard()).click();
+
+  it("makes a profile of which way it went, what a square measured, and how far the pen goes", async () => {
+    await button("Set up a plotter…", machinePanel()).click();
+    await wizard().getByLabel("Most like").selectOption("axidraw-v3");
+    await press("Next");
+    await press("It is in the middle");
+    await move(() => press("Move 20 mm to the right"));
+    await press("Away from me");
+    await move(() => press("Move 20 mm nearer"));
+    await press("Left");
+    await move(() => press("Right"));
+    await press("Yes, it goes there");
+    await move(() => press("Draw the square"));
+    await wizard().getByLabel("Measured width").fill("80");
+    await wizard().getByLabel("Measured height").fill("80");
+    await wizard().getByText("100 steps are one millimetre").waitFor();
+    await press("Take this");
+    await wizard().getByText("B2 (brushless)").click();
+    await move(() => wizard().getByLabel("Highest").fill("20000"));
+    await move(() => wizard().getByLabel("Lowest").fill("12000"));
+    await press("Next");
+    await wizard().getByLabel("Name").fill("Old Friend");
+    await wizard().getByLabel("Right", { exact: true }).fill("250");
+    await press("Save and use it");
+    await wizard().waitFor({ state: "detached" });
+
+    const { machines } = machineListSchema.parse(await (await fetch(`${server.url}/api/v1/machines`)).json());
+    const made = machines.filter(({ builtIn }) => !builtIn);
+    expect(made).toHaveLength(1);
+    // Told to go right it went away, told to come nearer it went left: the axes are swapped, and both run backwards.
+    expect(made[0]).toMatchObject({
+      id: "old-friend",
+      name: "Old Friend",
+      stepsPerMm: 100,
+      swapAxes: true,
+      flipX: true,
+      flipY: true,
+      servoPin: 5,
+      servoPosAt0Pct: 12_000,
+      servoPosAt100Pct: 20_000,
+      widthMm: 250,
+    } satisfies Partial<MachineProfile>);
+    expect(await machinePanel().getByLabel("Model").inputValue()).toBe("old-friend");
+  });
+
+  it("plots with the new profile from then on", async () => {
+    const sent = page.waitForRequest(
+      (request) => request.method() === "POST" && request.url().endsWith("/jobs"),
+    );
+    await waitForPlan(page);
+    await button("Add to queue", plotBar(page)).click();
+    const body = (await sent).postDataJSON() as { settings: { customMachine: MachineProfile | null } };
+    expect(body.settings.customMachine?.stepsPerMm).toBe(100);
+    await button(/^Start /, queuePanel(page)).waitFor();
+  });
+});
+
+describe("machines as files", () => {
+  it("are read, edited and kept", async () => {
+    await button("Machines…", machinePanel()).click();
+    const sheet = page.getByRole("dialog", { name: "Machines" });
+    const profile = {
+      id: "a-one",
+      name: "A1 clone",
+      widthMm: 840,
+      heightMm: 594,
+      stepsPerMm: 100,
+      motors: "mixed",
+      microstepMode: 1,
+      servoPosAt0Pct: 8_000,
+      servoPosAt100Pct: 26_000,
+      servoPin: 4,
+    };
+    const file = (content: unknown): { name: string; mimeType: string; buffer: Buffer } => ({
+      name: "machine.json",
+      mimeType: "application/json",
+      buffer: Buffer.from(JSON.stringify(content)),
+    });
+    const chooser = sheet.getByLabel("Read a machine from a file");
+    await chooser.setInputFiles(file({ ...profile, stepsPerMm: -1 }));
+    await sheet.getByText(/stepsPerMm/).waitFor();
+    await chooser.setInputFiles(file(profile));
+    await sheet.getByLabel("Steps for one mm").fill("120");
+    await button("Save and use", sheet).click();
+    await button("Edit A1 clone", sheet).waitFor();
+    const download = page.waitForEvent("download");
+    await button("Save A1 clone as a file", sheet).click();
+    expect((await download).suggestedFilename()).toBe("a-one.json");
+    await button("Remove A1 clone", sheet).click();
+    await button("Edit A1 clone", sheet).waitFor({ state: "detached" });
+    await button("Close", sheet).click();
+    await openTab(page, "Set up");
+  });
+});
