@@ -1,0 +1,173 @@
+import {
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  renameSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { JobQueue } from "../../server/queue/job-queue.js";
+import { Notices } from "../../server/queue/notices.js";
+import type { Planning } from "../../server/queue/queue-parts.js";
+import { Store } from "../../server/queue/store.js";
+import { WatchFolder } from "../../server/watch-folder.js";
+import { PlotwrightError } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+
+let dir: string;
+let watched: string;
+let store: Store;
+let queue: JobQueue;
+let notices: Notices;
+let folder: WatchFolder;
+let logged: string[];
+let planning: Planning;
+
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-watch-"));
+  watched = join(dir, "in");
+  mkdirSync(watched);
+  prepareDataDir(dir);
+  logged = [];
+  planning = LED_PLANNING;
+});
+afterEach(async () => {
+  await close();
+  rmSync(dir, { recursive: true, force: true });
+});
+
+async function open(stableMs = 100): Promise<void> {
+  store = Store.open(dir);
+  const plotter = new LedPlotter();
+  const files = new DrawingFiles(dir, 100_000);
+  const announce = (): void => undefined;
+  const nowIso = (): string => new Date().toISOString();
+  queue = new JobQueue({
+    store,
+    files,
+    planning,
+    plotters: new Map([[plotter.id, plotter]]),
+    announce,
+    nowIso,
+  });
+  notices = new Notices({ store, announce, nowIso });
+  const log = (line: string): void => void logged.push(line);
+  const withMachine = <T>(settings: T): T => settings;
+  folder = await WatchFolder.open(watched, { queue, files, store, notices, withMachine, log, stableMs });
+}
+async function close(): Promise<void> {
+  await folder.close();
+  await queue.close();
+  store.close();
+}
+const put = (name: string, text = `<svg>${name}</svg>`): void => writeFileSync(join(watched, name), text);
+const names = (): string[] => queue.list().map(({ name }) => name);
+const queued = (...wanted: string[]): Promise<void> =>
+  expect.poll(() => [...names()].sort(), { timeout: 20_000 }).toEqual([...wanted].sort());
+
+describe("the watched folder", () => {
+  it("queues what lies there and what comes, once each, and nothing twice after a restart", async () => {
+    put("a.svg");
+    await open();
+    await queued("a.svg");
+    put("b.dxf");
+    put("notes.txt");
+    put(".hidden.svg");
+    await queued("a.svg", "b.dxf");
+    // Exported again with the same content, or under another name for a while.
+    put("a.svg");
+    renameSync(join(watched, "b.dxf"), join(watched, "c.tmp"));
+    renameSync(join(watched, "c.tmp"), join(watched, "b.dxf"));
+    await close();
+    put("late.svg");
+    await open();
+    await queued("a.svg", "b.dxf", "late.svg");
+    put("a.svg", "<svg>changed</svg>");
+    await queued("a.svg", "a.svg", "b.dxf", "late.svg");
+  });
+
+  it("takes a file only when its size has stood still", async () => {
+    await open(1_500);
+    const whole = "<svg><!-- 1 2 3 4 5 6 --></svg>";
+    for (let length = 5; length < whole.length; length += 5) {
+      put("slow.svg", whole.slice(0, length));
+      await new Promise((resolve) => setImmediate(resolve));
+    }
+    put("slow.svg", whole);
+    await queued("slow.svg");
+    put("next.svg");
+    await queued("slow.svg", "next.svg");
+    const slow = queue.list().find(({ name }) => name === "slow.svg");
+    expect(readFileSync(queue.drawingPath(slow?.id ?? ""), "utf8")).toBe(whole);
+  });
+
+  it("names what can't be plotted in the log and in a notice, once, and goes on", async () => {
+    planning = {
+      ...LED_PLANNING,
+      measure: (...args) =>
+        notices.list().length === 0
+          ? Promise.reject(new PlotwrightError("bad-file", "The file breaks off."))
+          : LED_PLANNING.measure(...args),
+    };
+    put("torn.svg");
+    await open();
+    await expect.poll(() => notices.list().length, { timeout: 20_000 }).toBe(1);
+    const message = '"torn.svg" in the watched folder can\'t be plotted: The file breaks off.';
+    expect(notices.list()[0]?.message).toBe(message);
+    expect(logged).toContain(message);
+    put("empty.svg", "");
+    put("huge.svg", "x".repeat(100_001));
+    put("good.svg");
+    await queued("good.svg");
+    await expect.poll(() => notices.list().length, { timeout: 20_000 }).toBe(3);
+    await close();
+    await open();
+    put("more.svg");
+    await queued("good.svg", "more.svg");
+    expect(notices.list()).toHaveLength(3);
+  });
+
+  it("takes its settings from the last job, and a file beside the drawing goes before them", async () => {
+    put("a.settings.json", JSON.stringify({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 12 } }));
+    put("a.svg");
+    await open();
+    await queued("a.svg");
+    expect(queue.list()[0]?.settings).toEqual({
+      ...DEFAULT_PLOT_SETTINGS,
+      pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 12 },
+    });
+    put("b.svg");
+    await queued("a.svg", "b.svg");
+    expect(queue.list()[1]?.settings.pen.downPct).toBe(12);
+    put("c.settings.json", '{ "pen": { "downPct": 400 } }');
+    put("c.svg");
+    await expect
+      .poll(() => notices.list()[0]?.message, { timeout: 20_000 })
+      .toMatch(/c\.settings\.json: pen\./);
+  });
+
+  it("does not follow links out of the folder, and says when the folder is not there", async () => {
+    writeFileSync(join(dir, "secret.svg"), "<svg/>");
+    symlinkSync(join(dir, "secret.svg"), join(watched, "link.svg"));
+    await open();
+    put("a.svg");
+    await queued("a.svg");
+    const parts = {
+      queue,
+      store,
+      notices,
+      files: new DrawingFiles(dir, 1),
+      withMachine: <T>(one: T): T => one,
+    };
+    await expect(WatchFolder.open(join(dir, "none"), { ...parts, log: () => undefined })).rejects.toThrow(
+      "is not there",
+    );
+  });
+});
