@@ -5,7 +5,7 @@
  *        │  ┌───────────┐           inside   the paper less its margins
  *        │  │  inside   │           fit      what is drawn fills `inside`, centred
  *        y  └───────────┘           true     page corner on paper corner
- *                                   place    the drawing's own box where the numbers say
+ *                                   place    the drawing's own box where the numbers say, then turned about its middle
  */
 import type { ClipRegion, Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
@@ -29,6 +29,8 @@ export interface Placement {
   readonly map: Affine;
   readonly paper: Box;
   readonly inside: Box;
+  /** What is drawn, on the paper, before the turn of a placed box; empty for an empty drawing. */
+  readonly frame: Box;
   /** Box of each shape on the paper, before any clipping; empty for a shape that draws nothing. */
   readonly shapeBoxes: readonly Box[];
 }
@@ -46,13 +48,28 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
   const inside = insideMargins(paper, settings);
   const turn = compose(rotation((settings.rotateDeg * Math.PI) / 180), MIRRORS[settings.mirror]);
   const turned = shapeBoxes(drawing, turn);
-  const content = (): Box => contentBox(drawing, turned, turn, settings.cropToPage);
+  const content = contentBox(drawing, turned, turn, settings.cropToPage);
   const after = settings.place
-    ? placed(content(), settings.place)
+    ? placed(content, settings.place)
     : settings.fit
-      ? fitted(content(), inside)
+      ? fitted(content, inside)
       : onCorner(pageBox(drawing, turn));
-  return { map: compose(after, turn), paper, inside, shapeBoxes: turned.map((box) => movedBox(box, after)) };
+  const frame = isEmptyBox(content) ? content : movedBox(content, after);
+  const place = { paper, inside, frame };
+  const last = aboutMiddle(frame, settings.place?.turnDeg ?? 0);
+  if (last === null) {
+    return { ...place, map: compose(after, turn), shapeBoxes: turned.map((box) => movedBox(box, after)) };
+  }
+  const map = compose(last, compose(after, turn));
+  return { ...place, map, shapeBoxes: shapeBoxes(drawing, map) };
+}
+
+/** Null for no turn. */
+function aboutMiddle(box: Box, turnDeg: number): Affine | null {
+  if (turnDeg === 0 || isEmptyBox(box)) return null;
+  const x = (box.x0 + box.x1) / 2;
+  const y = (box.y0 + box.y1) / 2;
+  return compose(translation(x, y), compose(rotation((turnDeg * Math.PI) / 180), translation(-x, -y)));
 }
 
 const MIRRORS: Readonly<Record<MirrorMode, Affine>> = {

@@ -26,6 +26,8 @@ export interface PlacedBox {
   /** One of them null: the drawing keeps its proportions. Both null: its true size. */
   readonly widthMm: number | null;
   readonly heightMm: number | null;
+  /** A turn after that, clockwise about the box's middle: the size stays, and so does the middle. */
+  readonly turnDeg?: number | undefined;
 }
 
 export interface ShiftMm {

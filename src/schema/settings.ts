@@ -67,6 +67,7 @@ export const prepareSettingsSchema = z.object({
       yMm: anywhere,
       widthMm: positive(100_000).nullable(),
       heightMm: positive(100_000).nullable(),
+      turnDeg: z.number().min(-360).max(360).optional(),
     })
     .nullable()
     .default(null),

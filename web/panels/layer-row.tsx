@@ -1,5 +1,5 @@
 import type { RefObject } from "react";
-import { parseLayerName, shownLayerName, type PreparedLayer } from "../../src/index.js";
+import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/index.js";
 import { layerColor } from "../preview/color-map.js";
 import { setLayerPen, showLayer } from "../state/layer-settings.js";
 import { usePageState } from "../state/use-store.js";
@@ -41,23 +41,20 @@ export const LayerRow = (props: LayerRowProps) => {
               change(`layer ${row.id}`, (settings) => showLayer(settings, row, isOn));
             }}
           />
-          <Swatch row={row} index={index} />
-          <span className="layer-words">
-            <span className="layer-name" title={row.name}>
-              {name}
-            </span>
-            <Facts row={row} />
-          </span>
         </label>
-        <PenPicker row={row} name={name} />
+        <PenPicker row={row} name={name} index={index} />
         <button
           type="button"
-          className="tool layer-more"
+          className="layer-open"
           aria-label={words.details(name)}
-          title={words.detailsHint}
+          title={row.name}
           aria-expanded={isOpen}
           onClick={props.onToggle}
         >
+          <span className="layer-words">
+            <span className="layer-name">{name}</span>
+            <Facts row={row} />
+          </span>
           <Icon name="chevron" />
         </button>
       </div>
@@ -87,14 +84,6 @@ const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readon
   );
 };
 
-/** The colour that the layer is drawn in: its pen's, else its own. */
-const Swatch = ({ row, index }: Pick<LayerRowProps, "row" | "index">) => {
-  const penColor = usePageState(
-    ({ settings }) => settings.pens.find(({ id }) => id === settings.layerPens[row.id])?.color ?? null,
-  );
-  return <span className="swatch" style={{ backgroundColor: penColor ?? row.color ?? layerColor(index) }} />;
-};
-
 /** How much there is to draw, and what of it is out of the ordinary. */
 const Facts = ({ row }: { row: PreparedLayer }) => {
   const times = usePageState(({ settings }) => settings.prepare.layerRepeats[row.id] ?? 1);
@@ -104,9 +93,11 @@ const Facts = ({ row }: { row: PreparedLayer }) => {
       settings.pen.layers?.[row.id] !== undefined ||
       settings.prepare.layerHatches.some(({ layer }) => layer === row.id),
   );
+  const pen = usePageState(({ settings }) => penOf(settings, row)?.name);
   const { penDownPct, drawSpeedPct, delayMs, skip } = parseLayerName(row.name);
   const isCoded = penDownPct !== null || drawSpeedPct !== null || delayMs !== null;
   const facts = [
+    ...(pen === undefined ? [] : [pen]),
     words.strokes(formatCount(row.strokeCount), row.strokeCount === 1),
     ...(times > 1 ? [words.times(times)] : []),
     ...(hasOwn || isCoded ? [words.own] : []),
@@ -115,29 +106,41 @@ const Facts = ({ row }: { row: PreparedLayer }) => {
   return <span className="layer-count">{facts.join(" · ")}</span>;
 };
 
-const PenPicker = ({ row, name }: { row: PreparedLayer; name: string }) => {
+/** The colour that the layer is drawn in, its pen's or its own; where there are pens, a press chooses one. */
+const PenPicker = ({
+  row,
+  name,
+  index,
+}: Pick<LayerRowProps, "row" | "index"> & { readonly name: string }) => {
   const pens = usePageState(({ settings }) => settings.pens);
-  const penId = usePageState(({ settings }) => settings.layerPens[row.id] ?? "");
+  const pen = usePageState(({ settings }) => penOf(settings, row));
   const change = useChange();
-  if (pens.length === 0) return null;
+  const swatch = (
+    <span className="swatch" style={{ backgroundColor: pen?.color ?? row.color ?? layerColor(index) }} />
+  );
+  if (pens.length === 0) return <span className="layer-pen">{swatch}</span>;
   return (
-    <select
-      className="layer-pen"
-      aria-label={words.penOf(name)}
-      value={pens.some(({ id }) => id === penId) ? penId : ""}
-      onChange={(event) => {
-        const chosen = event.target.value;
-        change(`pen of ${row.id}`, (settings) =>
-          setLayerPen(settings, row.id, chosen === "" ? null : chosen),
-        );
-      }}
-    >
-      <option value="">{words.anyPen}</option>
-      {pens.map((pen) => (
-        <option key={pen.id} value={pen.id}>
-          {pen.name}
-        </option>
-      ))}
-    </select>
+    <span className="layer-pen" data-choice>
+      {swatch}
+      <Icon name="down" />
+      <select
+        aria-label={words.penOf(name)}
+        title={words.penOf(name)}
+        value={pen?.id ?? ""}
+        onChange={(event) => {
+          const chosen = event.target.value;
+          change(`pen of ${row.id}`, (settings) =>
+            setLayerPen(settings, row.id, chosen === "" ? null : chosen),
+          );
+        }}
+      >
+        <option value="">{words.anyPen}</option>
+        {pens.map(({ id, name: penName }) => (
+          <option key={id} value={id}>
+            {penName}
+          </option>
+        ))}
+      </select>
+    </span>
   );
 };

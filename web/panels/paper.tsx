@@ -6,10 +6,12 @@ import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { NumberField } from "../ui/number-field.js";
-import { placeOfFrame } from "../preview/placing.js";
+import { placeOfFrame, wholeTurn } from "../preview/placing.js";
+import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.paper;
+const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
 const CUSTOM = "custom";
@@ -31,7 +33,18 @@ export const PaperPanel = () => {
   const change = usePrepareChange();
   const { paper, landscape, marginMm, rotateDeg } = prepare;
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
-  const firstPlace = placeOfFrame(frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100 });
+  const firstPlace = placeOfFrame(
+    frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100, turnDeg: 0 },
+  );
+  const angleDeg = wholeTurn(rotateDeg + (prepare.place?.turnDeg ?? 0));
+  // A placed drawing turns about its own middle and keeps its size.
+  const turnTo = (what: string, deg: number): void =>
+    change(
+      what,
+      prepare.place
+        ? { place: { ...prepare.place, turnDeg: wholeTurn(deg - rotateDeg) } }
+        : { rotateDeg: wholeTurn(deg) },
+    );
   const name = nameOfPaper(paper);
   const size = landscape
     ? `${formatNumber(paper.heightMm, 1)} × ${formatNumber(paper.widthMm, 1)}`
@@ -87,23 +100,23 @@ export const PaperPanel = () => {
           change("fit", value === "place" ? { place: firstPlace } : { fit: value === "fit", place: null })
         }
       />
-      {prepare.place && <PlaceFields place={prepare.place} change={change} />}
+      {prepare.place && <PlaceFields place={prepare.place} />}
       <div className="field-with-button">
         <NumberField
           label={words.rotate}
-          value={rotateDeg}
+          value={angleDeg}
           unit="°"
           min={-360}
           max={360}
           step={1}
-          onChange={(value) => change("rotate", { rotateDeg: value })}
+          onChange={(value) => turnTo("rotate", value)}
         />
         <button
           type="button"
           className="button button-icon"
           title={words.rotateQuarter}
           aria-label={words.rotateQuarter}
-          onClick={() => change("quarter", { rotateDeg: (rotateDeg + 90) % 360 })}
+          onClick={() => turnTo("quarter", angleDeg + 90)}
         >
           <Icon name="again" />
         </button>
@@ -197,44 +210,3 @@ const Margins = ({ prepare: { margins, marginMm }, change }: PartProps) => (
     )}
   </>
 );
-
-interface PlaceFieldsProps {
-  readonly place: NonNullable<PrepareSettings["place"]>;
-  change(what: string, change: Partial<PrepareSettings>): void;
-}
-
-/** Where the drawing stands and how large; its proportions stay, so one of the sizes decides. */
-const PlaceFields = ({ place, change }: PlaceFieldsProps) => {
-  const frame = usePageState((state) => state.planned?.frameMm ?? null);
-  const set = (part: Partial<typeof place>): void =>
-    change(`place ${Object.keys(part).join()}`, { place: { ...place, ...part } });
-  const fields = [
-    ["xMm", words.x, place.xMm, -10_000],
-    ["yMm", words.y, place.yMm, -10_000],
-    ["widthMm", words.width, place.widthMm ?? frame?.widthMm ?? 0, 0.1],
-    ["heightMm", words.height, place.heightMm ?? frame?.heightMm ?? 0, 0.1],
-  ] as const;
-  return (
-    <>
-      <div className="field-pair">
-        {fields.map(([key, label, value, min]) => (
-          <NumberField
-            key={key}
-            label={label}
-            value={value}
-            unit="mm"
-            min={min}
-            max={10_000}
-            step={1}
-            onChange={(mm) => {
-              if (key === "widthMm") set({ widthMm: mm, heightMm: null });
-              else if (key === "heightMm") set({ widthMm: null, heightMm: mm });
-              else set({ [key]: mm });
-            }}
-          />
-        ))}
-      </div>
-      <p className="note">{words.placeHint}</p>
-    </>
-  );
-};

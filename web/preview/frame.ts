@@ -1,15 +1,31 @@
-/** The drawing's frame on the paper: drawn with handles while it is placed by hand, and dragged by them. */
+/** The drawing's frame on the paper: drawn with handles while it is placed by hand, dragged and nudged. */
 import type { Actions } from "../state/actions.js";
 import type { PageState, PageStore } from "../state/store.js";
-import { draggedFrame, framePartAt, placeOfFrame, type FrameMm } from "./placing.js";
+import { formatNumber } from "../ui/format.js";
+import type { Drag } from "./gestures.js";
+import {
+  CORNER_PARTS,
+  boxAround,
+  cornerOf,
+  draggedFrame,
+  framePartAt,
+  knobOf,
+  placeOfFrame,
+  snapFrame,
+  snapLinesOf,
+  type FrameMm,
+  type SnapLines,
+} from "./placing.js";
 import type { Stage } from "./stage.js";
 import { mmFromScreen, type View } from "./view.js";
 
-const HANDLE_PX = 9;
-const REACH_PX = 18;
+const HANDLE_PX = 10;
+const REACH_PX = 20;
+const KNOB_PX = 30;
+const SNAP_PX = 7;
 
 /** Where the drawing is to stand: as last planned, or as the settings say since. */
-const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
+export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
   const frame = planned?.frameMm ?? null;
   const place = prepare.place;
   if (!frame || !place) return null;
@@ -17,8 +33,14 @@ const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null
     place.widthMm ??
     (place.heightMm === null ? frame.widthMm : (place.heightMm * frame.widthMm) / frame.heightMm);
   const heightMm = place.heightMm ?? (frame.widthMm > 0 ? (widthMm * frame.heightMm) / frame.widthMm : 0);
-  return { xMm: place.xMm, yMm: place.yMm, widthMm, heightMm };
+  return { xMm: place.xMm, yMm: place.yMm, widthMm, heightMm, turnDeg: place.turnDeg ?? 0 };
 };
+
+const setFrame = (actions: Actions, what: string, frame: FrameMm): void =>
+  actions.changeSettings(what, (settings) => ({
+    ...settings,
+    prepare: { ...settings.prepare, place: placeOfFrame(frame) },
+  }));
 
 /** Begins a drag of the frame, where one is placed by hand and lies under the pointer. */
 export const grabFrame = (
@@ -26,21 +48,32 @@ export const grabFrame = (
   store: PageStore,
   actions: Actions,
   at: { x: number; y: number },
-): ((dxPx: number, dyPx: number) => void) | null => {
+): Drag | null => {
   const frame = frameNow(store.getState());
   if (!frame) return null;
   const { scale } = stage.view;
-  const [xMm, yMm] = mmFromScreen(stage.view, at.x, at.y);
-  const part = framePartAt(frame, xMm, yMm, REACH_PX / scale);
+  const [x, y] = mmFromScreen(stage.view, at.x, at.y);
+  const part = framePartAt(frame, x, y, REACH_PX / scale, KNOB_PX / scale);
   if (!part) return null;
-  return (dxPx, dyPx) =>
-    actions.changeSettings("drag", (settings) => ({
-      ...settings,
-      prepare: {
-        ...settings.prepare,
-        place: placeOfFrame(draggedFrame(frame, part, dxPx / scale, dyPx / scale)),
-      },
-    }));
+  const { paperMm, margins } = stage.desk;
+  const lines = snapLinesOf(paperMm, margins);
+  return {
+    to: (dxPx, dyPx, isFree) => {
+      const dragged = draggedFrame(frame, part, { x, y }, dxPx / scale, dyPx / scale);
+      const snapped = isFree ? null : snapFrame(dragged, part, lines, SNAP_PX / scale);
+      store.setState({ snapLines: snapped?.lines ?? null });
+      setFrame(actions, "drag", snapped?.frame ?? dragged);
+    },
+    end: () => store.setState({ snapLines: null }),
+  };
+};
+
+/** Moves a drawing that is placed by hand; false where none is. */
+export const nudgeFrame = (store: PageStore, actions: Actions, dxMm: number, dyMm: number): boolean => {
+  const frame = frameNow(store.getState());
+  if (!frame) return false;
+  setFrame(actions, "nudge", { ...frame, xMm: frame.xMm + dxMm, yMm: frame.yMm + dyMm });
+  return true;
 };
 
 type Painter = (context: CanvasRenderingContext2D, view: View) => void;
@@ -48,21 +81,29 @@ type Painter = (context: CanvasRenderingContext2D, view: View) => void;
 /** The frame with its handles, and the places that a note of the report is about. */
 export const painterOf = (state: PageState): Painter | null => {
   const frame = frameNow(state);
-  const { noteBoxes, planned } = state;
+  const { noteBoxes, planned, snapLines } = state;
   if (!frame && noteBoxes.length === 0) return null;
   return (context, view) => {
     if (planned) for (const box of noteBoxes) paintNote(context, view, paperBoxOf(box, planned.pageToPaper));
+    if (frame && snapLines) paintSnapLines(context, view, snapLines);
     if (frame) paintFrame(context, view, frame);
   };
 };
 
-type Map = NonNullable<PageState["planned"]>["pageToPaper"];
+type PageMap = NonNullable<PageState["planned"]>["pageToPaper"];
+
+interface BoxMm {
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly widthMm: number;
+  readonly heightMm: number;
+}
 
 /** The box around a page box that may have been turned on its way to the paper. */
 export const paperBoxOf = (
   [x0, y0, x1, y1]: readonly [number, number, number, number],
-  map: Map,
-): FrameMm => {
+  map: PageMap,
+): BoxMm => {
   const corners = [
     [x0, y0],
     [x1, y0],
@@ -77,30 +118,82 @@ export const paperBoxOf = (
 };
 
 const FRAME_COLOR = "#2f62d8";
+const SNAP_COLOR = "#d2452c";
 const NOTE_COLOR = "#b86e00";
 const NOTE_PAD_PX = 5;
 
 const paintFrame = (context: CanvasRenderingContext2D, view: View, frame: FrameMm): void => {
-  const x = view.offsetX + frame.xMm * view.scale;
-  const y = view.offsetY + frame.yMm * view.scale;
-  const width = frame.widthMm * view.scale;
-  const height = frame.heightMm * view.scale;
+  const onScreen = ({ x, y }: { x: number; y: number }): [number, number] => [
+    view.offsetX + x * view.scale,
+    view.offsetY + y * view.scale,
+  ];
+  const [nw, ne, sw, se] = CORNER_PARTS.map((part) => onScreen(cornerOf(frame, part))) as [Px, Px, Px, Px];
+  const knob = onScreen(knobOf(frame, KNOB_PX / view.scale));
   context.strokeStyle = FRAME_COLOR;
   context.lineWidth = 1.5;
-  context.strokeRect(x, y, width, height);
-  context.fillStyle = "#ffffff";
-  for (const [hx, hy] of [
-    [x, y],
-    [x + width, y],
-    [x, y + height],
-    [x + width, y + height],
-  ] as const) {
-    context.fillRect(hx - HANDLE_PX / 2, hy - HANDLE_PX / 2, HANDLE_PX, HANDLE_PX);
-    context.strokeRect(hx - HANDLE_PX / 2, hy - HANDLE_PX / 2, HANDLE_PX, HANDLE_PX);
+  context.beginPath();
+  for (const [k, [x, y]] of [nw, ne, se, sw].entries()) {
+    if (k === 0) context.moveTo(x, y);
+    else context.lineTo(x, y);
   }
+  context.closePath();
+  context.moveTo((nw[0] + ne[0]) / 2, (nw[1] + ne[1]) / 2);
+  context.lineTo(...knob);
+  context.stroke();
+  context.fillStyle = "#ffffff";
+  for (const [x, y] of [nw, ne, sw, se]) {
+    context.beginPath();
+    context.rect(x - HANDLE_PX / 2, y - HANDLE_PX / 2, HANDLE_PX, HANDLE_PX);
+    context.fill();
+    context.stroke();
+  }
+  context.beginPath();
+  context.arc(...knob, HANDLE_PX / 2 + 1, 0, 2 * Math.PI);
+  context.fill();
+  context.stroke();
+  paintSize(context, view, frame);
 };
 
-const paintNote = (context: CanvasRenderingContext2D, view: View, box: FrameMm): void => {
+type Px = [number, number];
+
+/** How large it is and how far it is turned, in a label under the frame. */
+const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm): void => {
+  const { x0, x1, y1 } = boxAround(frame);
+  const words = `${formatNumber(frame.widthMm, 1)} × ${formatNumber(frame.heightMm, 1)} mm${
+    frame.turnDeg === 0 ? "" : `, ${formatNumber(frame.turnDeg, 1)}°`
+  }`;
+  context.font = "12px Helvetica, Arial, sans-serif";
+  const width = context.measureText(words).width + 14;
+  const x = view.offsetX + ((x0 + x1) / 2) * view.scale;
+  const y = view.offsetY + y1 * view.scale + 12;
+  context.fillStyle = FRAME_COLOR;
+  context.beginPath();
+  context.roundRect(x - width / 2, y, width, 21, 4);
+  context.fill();
+  context.fillStyle = "#ffffff";
+  context.textAlign = "center";
+  context.fillText(words, x, y + 15);
+};
+
+const paintSnapLines = (context: CanvasRenderingContext2D, view: View, { xs, ys }: SnapLines): void => {
+  const { width, height } = context.canvas;
+  context.strokeStyle = SNAP_COLOR;
+  context.lineWidth = 1;
+  context.beginPath();
+  for (const mm of xs) {
+    const x = Math.round(view.offsetX + mm * view.scale) + 0.5;
+    context.moveTo(x, 0);
+    context.lineTo(x, height);
+  }
+  for (const mm of ys) {
+    const y = Math.round(view.offsetY + mm * view.scale) + 0.5;
+    context.moveTo(0, y);
+    context.lineTo(width, y);
+  }
+  context.stroke();
+};
+
+const paintNote = (context: CanvasRenderingContext2D, view: View, box: BoxMm): void => {
   const x = view.offsetX + box.xMm * view.scale - NOTE_PAD_PX;
   const y = view.offsetY + box.yMm * view.scale - NOTE_PAD_PX;
   const width = box.widthMm * view.scale + 2 * NOTE_PAD_PX;

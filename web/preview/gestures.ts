@@ -7,13 +7,23 @@ export interface GestureTarget {
   fit(): void;
   /** The pointer rests at (x, y) CSS px of the element, or has left (null). */
   hover(at: { x: number; y: number } | null): void;
-  /** Something under (x, y) that a drag moves: gets the way from there, px. Null: the drag pans. */
-  grab(at: { x: number; y: number }): ((dxPx: number, dyPx: number) => void) | null;
+  /** Something under (x, y) that a drag moves. Null: the drag pans. */
+  grab(at: { x: number; y: number }): Drag | null;
+  /** Arrow keys: moves what is placed by hand, mm; false where nothing is, and the keys pan. */
+  nudge(dxMm: number, dyMm: number): boolean;
   /** A press without a drag. */
   tap(at: { x: number; y: number }): void;
 }
 
+export interface Drag {
+  /** The way from where it began, px; free: asked not to be drawn to lines. */
+  to(dxPx: number, dyPx: number, isFree: boolean): void;
+  end(): void;
+}
+
 const KEY_PAN_PX = 60;
+/** By an arrow key; ten times as far with Shift, a tenth with Alt. */
+const NUDGE_MM = 1;
 const KEY_ZOOM = 1.25;
 const TAP_PX = 5;
 
@@ -21,7 +31,11 @@ const TAP_PX = 5;
 export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
   const pointers = new Map<number, { x: number; y: number }>();
   let travelled = 0;
-  let held: { readonly from: Point; readonly drag: (dxPx: number, dyPx: number) => void } | null = null;
+  let held: { readonly from: Point; readonly drag: Drag } | null = null;
+  const letGo = (): void => {
+    held?.drag.end();
+    held = null;
+  };
 
   const placeOf = (event: MouseEvent): { x: number; y: number } => {
     const box = element.getBoundingClientRect();
@@ -36,7 +50,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
       travelled = 0;
       const drag = target.grab(at);
       held = drag && { from: at, drag };
-    } else held = null;
+    } else letGo();
     pointers.set(event.pointerId, at);
   };
 
@@ -51,14 +65,15 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     pointers.set(event.pointerId, now);
     if (other) target.setView(pinched(target.view(), before, now, other));
-    else if (held && travelled > TAP_PX) held.drag(now.x - held.from.x, now.y - held.from.y);
-    else if (travelled > TAP_PX) target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
+    else if (held && travelled > TAP_PX) {
+      held.drag.to(now.x - held.from.x, now.y - held.from.y, event.altKey || event.ctrlKey);
+    } else if (travelled > TAP_PX) target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
   };
 
   const onUp = (event: PointerEvent): void => {
     if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") target.tap(placeOf(event));
     pointers.delete(event.pointerId);
-    held = null;
+    letGo();
   };
 
   const onWheel = (event: WheelEvent): void => {
@@ -75,6 +90,11 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   };
 
   const onKey = (event: KeyboardEvent): void => {
+    const way = ARROWS[event.key];
+    if (way && !event.ctrlKey && !event.metaKey) {
+      const mm = NUDGE_MM * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+      if (target.nudge(way[0] * mm, way[1] * mm)) return event.preventDefault();
+    }
     const change = keyChange(event, element);
     if (change === null) return;
     event.preventDefault();
@@ -115,6 +135,13 @@ export const pinched = (view: View, before: Point, now: Point, other: Point): Vi
     Math.max(1, Math.hypot(before.x - other.x, before.y - other.y));
   const moved = panBy(view, (now.x - before.x) / 2, (now.y - before.y) / 2);
   return zoomAt(moved, factor, (now.x + other.x) / 2, (now.y + other.y) / 2);
+};
+
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
 };
 
 const keyChange = (event: KeyboardEvent, element: HTMLElement): "fit" | ((view: View) => View) | null => {

@@ -10,15 +10,25 @@ export interface Marker {
   readonly penUp: boolean;
 }
 
+/** What part of the rulers is marked, mm. */
+export interface RulerSpan {
+  readonly x0: number;
+  readonly y0: number;
+  readonly x1: number;
+  readonly y1: number;
+}
+
 export const drawRulers = (
   context: CanvasRenderingContext2D,
   view: View,
   size: Size,
   colors: DeskColors,
+  span: RulerSpan | null,
 ): void => {
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, size.width, RULER_PX);
   context.fillRect(0, RULER_PX, RULER_PX, size.height - RULER_PX);
+  if (span) markSpan(context, view, span);
   drawTicks(context, view.offsetX, view.scale, size.width, colors, false);
   context.save();
   // The left ruler is the top one turned: its numbers read upwards.
@@ -40,6 +50,20 @@ export const drawRulers = (
   context.moveTo(RULER_PX + 0.5, 0);
   context.lineTo(RULER_PX + 0.5, size.height);
   context.stroke();
+};
+
+const SPAN_COLOR = "rgb(47 98 216 / 22%)";
+
+const markSpan = (
+  context: CanvasRenderingContext2D,
+  { offsetX, offsetY, scale }: View,
+  span: RulerSpan,
+): void => {
+  const x = Math.max(RULER_PX, offsetX + span.x0 * scale);
+  const y = Math.max(RULER_PX, offsetY + span.y0 * scale);
+  context.fillStyle = SPAN_COLOR;
+  context.fillRect(x, 0, Math.max(0, offsetX + span.x1 * scale - x), RULER_PX);
+  context.fillRect(0, y, RULER_PX, Math.max(0, offsetY + span.y1 * scale - y));
 };
 
 const drawTicks = (

@@ -3,6 +3,7 @@ import { COLOR_MODES, type ColorMode } from "../state/persist.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Icon, type IconName } from "../ui/icon.js";
+import { placeOfFrame } from "./placing.js";
 import type { Stage } from "./stage.js";
 
 const words = text.preview;
@@ -45,11 +46,37 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
         <Icon name="travel" />
         {words.travel}
       </button>
+      <PlaceTool />
       <span className="tool-gap" />
       <Tool icon="minus" isZoom label={words.zoomOut} onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)} />
       <Tool icon="plus" isZoom label={words.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
       <Tool icon="fit" label={words.fitPaper} onClick={() => stage.current?.fit()} />
     </div>
+  );
+};
+
+/** Puts handles round the drawing; pressed again, it fits the paper. */
+const PlaceTool = () => {
+  const frame = usePageState((state) => state.planned?.frameMm ?? null);
+  const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
+  const { changeSettings } = useActions();
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={words.place}
+      title={words.place}
+      aria-pressed={isPlaced}
+      disabled={!frame}
+      onClick={() =>
+        changeSettings("place by hand", (settings) => ({
+          ...settings,
+          prepare: { ...settings.prepare, place: isPlaced || !frame ? null : placeOfFrame(frame) },
+        }))
+      }
+    >
+      <Icon name="place" />
+    </button>
   );
 };
 

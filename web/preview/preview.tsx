@@ -9,9 +9,10 @@ import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "./hover.js";
 import { HoverTip } from "./hover-tip.js";
-import { grabFrame, painterOf } from "./frame.js";
+import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { Legend } from "./legend.js";
 import type { Marker } from "./overlay.js";
+import { boxAround } from "./placing.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
 import { mmFromScreen } from "./view.js";
@@ -71,6 +72,7 @@ const useStage = (
       setView: (view) => made.setView(view),
       fit: () => made.fit(),
       grab: (at) => grabFrame(made, store, actions, at),
+      nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
       hover: (at) => pointAt(at),
       tap: (at) => pointAt(at),
     });
@@ -109,9 +111,11 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (
       state.planned !== before?.planned ||
       state.settings !== before?.settings ||
-      state.noteBoxes !== before?.noteBoxes
+      state.noteBoxes !== before?.noteBoxes ||
+      state.snapLines !== before.snapLines
     ) {
-      stage.setPainter(painterOf(state));
+      const frame = frameNow(state);
+      stage.setPainter(painterOf(state), frame && boxAround(frame));
     }
   };
   show(store.getState(), null);

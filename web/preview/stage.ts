@@ -8,7 +8,7 @@
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { createCanvasRenderer } from "./canvas-renderer.js";
 import { createGlRenderer } from "./gl-renderer.js";
-import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
+import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
 import type { Frame, SceneRenderer } from "./renderer.js";
 import type { Scene } from "./scene.js";
 import { fitView, zoomAt, type Size, type View } from "./view.js";
@@ -38,6 +38,7 @@ export class Stage {
   #desk: Desk;
   #marker: Marker | null = null;
   #paint: ((context: CanvasRenderingContext2D, view: View) => void) | null = null;
+  #rulerSpan: RulerSpan | null = null;
   #colors: DeskColors;
   #size: Size = { width: 0, height: 0 };
   #view: View = { scale: 1, offsetX: 0, offsetY: 0 };
@@ -123,9 +124,17 @@ export class Stage {
     this.#refresh(false);
   }
 
-  /** A painter for what lies over the strokes (highlights, handles), called with every frame. */
-  setPainter(paint: ((context: CanvasRenderingContext2D, view: View) => void) | null): void {
+  get desk(): Desk {
+    return this.#desk;
+  }
+
+  /** A painter for what lies over the strokes (highlights, handles), called with every frame; and its box on the rulers. */
+  setPainter(
+    paint: ((context: CanvasRenderingContext2D, view: View) => void) | null,
+    rulerSpan: RulerSpan | null,
+  ): void {
     this.#paint = paint;
+    this.#rulerSpan = rulerSpan;
     this.#refresh(false);
   }
 
@@ -203,7 +212,7 @@ export class Stage {
     if (overlayContext) {
       this.#paint?.(overlayContext, this.#view);
       if (this.#marker) drawMarker(overlayContext, this.#view, this.#marker, this.#colors);
-      drawRulers(overlayContext, this.#view, this.#size, this.#colors);
+      drawRulers(overlayContext, this.#view, this.#size, this.#colors, this.#rulerSpan);
     }
   }
 

@@ -11,6 +11,7 @@ import type {
   QueueSettings,
 } from "../../src/schema/index.js";
 import type { Hover } from "../preview/hover.js";
+import type { SnapLines } from "../preview/placing.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
@@ -70,9 +71,13 @@ export interface PageState {
   readonly hover: Hover | null;
   /** Places on the file's page that a note of the report is about, while it is shown; mm x0 y0 x1 y1. */
   readonly noteBoxes: readonly (readonly [number, number, number, number])[];
+  /** The lines on which a dragged drawing has come to lie. */
+  readonly snapLines: SnapLines | null;
 
   readonly link: ServerLink;
   readonly version: string | null;
+  /** The server has a newer page than this one. */
+  readonly isOutdated: boolean;
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
   readonly jobs: readonly Job[];
@@ -111,8 +116,10 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     playRate: 10,
     hover: null,
     noteBoxes: [],
+    snapLines: null,
     link: "connecting",
     version: null,
+    isOutdated: false,
     plotters: [],
     plotterId: null,
     jobs: [],

@@ -11,7 +11,6 @@ export const enSetup = {
     drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
     dragHint: "Drag to change the order, or arrow up and down",
     details: (name: string) => `Settings of ${name}`,
-    detailsHint: "Settings of this layer",
     everything: "All on",
     onlyThis: "Draw only this layer",
     earlier: "Draw it earlier",
@@ -92,6 +91,15 @@ export const enSetup = {
       ] as readonly (readonly [upToDeg: number, tone: string])[],
     },
     showInPens: "Show the drawing in its pens",
+  },
+
+  place: {
+    x: "From the left",
+    y: "From the top",
+    width: "Width",
+    height: "Height",
+    hint: "Drag the drawing on the paper, its corners or its knob, or move it with the arrow keys. It is drawn to margins and middles; Alt keeps it free.",
+    align: { across: "Centre across", down: "Centre down", fill: "Fill margins" },
   },
 
   export: {

@@ -49,9 +49,6 @@ export const en = {
     fit: "Fit paper",
     trueSize: "True size",
     byNumbers: "Own place",
-    x: "From the left",
-    y: "From the top",
-    placeHint: "Drag the drawing on the paper, or its corners, or type.",
     margins: "Each margin by itself",
     top: "Top",
     right: "Right",
@@ -222,6 +219,9 @@ export const en = {
     operating: (name: string) => `${name} is operating.`,
     takeOver: "Take over",
     read: "I have read it",
+    outdated: "plotwright was brought up to date on the server.",
+    offline:
+      "plotwright’s server can’t be reached: switched off, or this device has no network. Drawings can be looked at meanwhile; plotting comes back with the server.",
   },
 
   queue: {
@@ -257,6 +257,7 @@ export const en = {
     zoomOut: "Zoom out",
     fitPaper: "Whole paper",
     travel: "Pen-up moves",
+    place: "Place the drawing by hand",
     colorBy: "Colour by",
     colorBySpeed: "Speed",
     colorByOrder: "Order",
@@ -271,7 +272,7 @@ export const en = {
     fast: "fast",
     first: "first",
     last: "last",
-    hint: "Arrow keys move, plus and minus zoom, 0 shows the whole paper.",
+    hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",
     noGl: "Drawn without the graphics card: large drawings move slowly here.",
   },
 

@@ -93,7 +93,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
       pageToPaper: placement.map,
-      frameMm: frameOf(placement),
+      frameMm: frameOf(placement, settings.prepare.place?.turnDeg ?? 0),
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),
       drawnLayers: ready.strokes.layers,
@@ -144,13 +144,8 @@ function preparedOf(
   return prepared;
 }
 
-const frameOf = ({ shapeBoxes }: Placement): FrameMm | null => {
-  const x0 = shapeBoxes.reduce((least, box) => Math.min(least, box.x0), Infinity);
-  const y0 = shapeBoxes.reduce((least, box) => Math.min(least, box.y0), Infinity);
-  const x1 = shapeBoxes.reduce((most, box) => Math.max(most, box.x1), -Infinity);
-  const y1 = shapeBoxes.reduce((most, box) => Math.max(most, box.y1), -Infinity);
-  return x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 } : null;
-};
+const frameOf = ({ frame: { x0, y0, x1, y1 } }: Placement, turnDeg: number): FrameMm | null =>
+  x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0, turnDeg } : null;
 
 async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
   if (!prepared) return;

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
+import { placeDrawing } from "../../../src/prepare/place.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
 import { prepareSettingsSchema } from "../../../src/schema/index.js";
@@ -39,6 +40,15 @@ describe("place by numbers", () => {
   it("goes before the fit, and after turning", () => {
     const place = { xMm: 0, yMm: 0, widthMm: null, heightMm: null };
     expect(draw(drawing, { place, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
+  });
+
+  it("turns a placed box about its own middle, and keeps its size", () => {
+    const place = { xMm: 5, yMm: 16, widthMm: 40, heightMm: null };
+    expect(draw(drawing, { place: { ...place, turnDeg: 90 } })).toEqual([[35, 6, 15, 46]]);
+    expect(draw(drawing, { place: { ...place, turnDeg: 0 } })).toEqual(draw(drawing, { place }));
+    const { frame, shapeBoxes } = placeDrawing(drawing, { ...TRUE_SIZE, place: { ...place, turnDeg: 90 } });
+    expect(frame).toEqual({ x0: 5, y0: 16, x1: 45, y1: 36 });
+    expect(Object.values(shapeBoxes[0]!).map((v) => Math.round(v * 1e6) / 1e6)).toEqual([15, 6, 35, 46]);
   });
 
   it("mirrors left to right and upside down about the page", () => {
