@@ -1,0 +1,172 @@
+/** Stops that a plot makes by itself, and how long plots are expected to take. */
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { timeRatio } from "../../server/queue/expected-time.js";
+import { JobQueue } from "../../server/queue/job-queue.js";
+import { Store } from "../../server/queue/store.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type PlotWait } from "../../src/schema/index.js";
+import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { STATS, drawingOf, makeJob } from "./support/jobs.js";
+
+const BLUE: PlotWait = { kind: "pen", layerName: "2 sky", penName: "Blue 0.3", color: "#00f" };
+
+let dir: string;
+let store: Store;
+let plotter: LedPlotter;
+let queue: JobQueue;
+let nowMs: number;
+
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-waits-"));
+  prepareDataDir(dir);
+  nowMs = Date.UTC(2026, 0, 1);
+  openQueue();
+});
+afterEach(async () => {
+  await queue.close();
+  store.close();
+  rmSync(dir, { recursive: true, force: true });
+});
+
+function openQueue(): void {
+  store = Store.open(dir);
+  plotter = new LedPlotter();
+  queue = new JobQueue({
+    store,
+    files: new DrawingFiles(dir, 1_000_000),
+    planning: LED_PLANNING,
+    plotters: new Map([[plotter.id, plotter]]),
+    announce: () => undefined,
+    nowIso: () => new Date(nowMs).toISOString(),
+  });
+}
+/** As after a kill: nothing is closed in order. */
+function crash(): void {
+  store.close();
+  openQueue();
+}
+const add = (name: string): Promise<Job> =>
+  queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
+const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+
+async function plot(id: string, tookS: number): Promise<void> {
+  queue.start(id);
+  const run = await plotter.nextRun();
+  await settled();
+  nowMs += tookS * 1000;
+  run.end({ kind: "done" });
+  await settled();
+}
+
+describe("a stop for a pen", () => {
+  it("holds the job with what it waits for, on disk too, until somebody resumes it", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.holdPlace = { stroke: 2, alongMm: 0 };
+    run.held(true, BLUE);
+    const held = { state: "paused", wait: BLUE, message: 'Put in "Blue 0.3" for "2 sky".' };
+    expect(queue.get(id)).toMatchObject(held);
+    expect(store.jobs()[0]).toMatchObject(held);
+    queue.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null, message: "Going on." });
+    queue.pause(id);
+    expect(queue.get(id)).toMatchObject({ state: "paused", wait: null });
+  });
+
+  it("is asked for again after a crash, and not once it was answered", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.record({ place: { stroke: 2, alongMm: 0 } });
+    run.held(true, BLUE);
+    crash();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", wait: BLUE });
+    queue.recover(id);
+    const again = await plotter.nextRun();
+    await settled();
+    expect(queue.get(id)).toMatchObject({
+      state: "paused",
+      wait: BLUE,
+      message: expect.stringMatching(/^Put in "Blue 0.3" for "2 sky"\. The board still knows its place/),
+    });
+    queue.resume(id);
+    expect(again.asked).toEqual(["pause", "resume"]);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null });
+    again.record({ place: { stroke: 2, alongMm: 4 } });
+    crash();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", wait: null });
+  });
+
+  it.each(["cancel", "finish"] as const)("is over when the job ends (%s)", async (end) => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.held(true, BLUE);
+    if (end === "cancel") queue.cancel(id);
+    else run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: end === "cancel" ? "cancelled" : "done", wait: null });
+    expect(queue.requeue(id).wait).toBeNull();
+  });
+
+  it("is left out of the time that the plot took", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    nowMs += 5_000;
+    run.held(true, BLUE);
+    nowMs += 3_600_000;
+    run.held(false);
+    nowMs += 7_000;
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id).plottedS).toBe(12);
+  });
+});
+
+describe("the expected time", () => {
+  it("is the plan's at first, then follows what the plotter's plots really took; that of ended jobs stays", async () => {
+    const [first, second] = [await add("a"), await add("b")];
+    expect(first.expectedS).toBe(STATS.durationS);
+    await plot(first.id, STATS.durationS * 1.25);
+    expect(queue.get(second.id).expectedS).toBeCloseTo(STATS.durationS * 1.25, 6);
+    expect((await add("c")).expectedS).toBeCloseTo(STATS.durationS * 1.25, 6);
+    expect(queue.get(first.id)).toMatchObject({
+      expectedS: STATS.durationS,
+      plottedS: STATS.durationS * 1.25,
+    });
+    crash();
+    expect(queue.get(second.id).expectedS).toBeCloseTo(STATS.durationS * 1.25, 6);
+  });
+
+  it("takes the middle of a plotter's own ended plots, and leaves out what is of another kind", () => {
+    const done = (took: number, more: Partial<Job> = {}): Job =>
+      makeJob(String(took), { state: "done", plottedS: STATS.durationS * took, ...more });
+    expect(timeRatio([], "virtual")).toBe(1);
+    expect(timeRatio([done(1.1), done(1.9), done(1.2)], "virtual")).toBeCloseTo(1.2, 9);
+    expect(timeRatio([done(1.1), done(1.2)], "virtual")).toBeCloseTo(1.15, 9);
+    const others = [
+      done(1.5, { plotterId: "other" }),
+      done(1.5, { state: "cancelled" }),
+      done(1.5, { speedPct: 150 }),
+      done(1.5, { stats: null }),
+      done(0.05),
+      done(30),
+    ];
+    expect(timeRatio([...others, done(1.1)], "virtual")).toBeCloseTo(1.1, 9);
+    const newest = Array.from({ length: 20 }, () => done(1.3));
+    expect(timeRatio([...newest, ...Array.from({ length: 50 }, () => done(0.9))], "virtual")).toBeCloseTo(
+      1.3,
+      9,
+    );
+  });
+});
