@@ -4,6 +4,7 @@ import { createRoot } from "react-dom/client";
 import { createApiClient } from "./api/client.js";
 import { openEvents } from "./api/events.js";
 import { App } from "./app.js";
+import { keepPage, lookForUpdate } from "./pwa/register.js";
 import { createActions } from "./state/actions.js";
 import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
 import { watchJobs } from "./state/notify.js";
@@ -72,11 +73,14 @@ listenForShortcuts(shortcuts);
 watchJobs(store, (sentence) => {
   if (window.Notification?.permission === "granted") new Notification(text.appName, { body: sentence });
 });
+keepPage(() => store.setState({ isOutdated: true }));
 openEvents("/api/v1/events", {
   onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
   onLink: (isConnected) => {
     store.setState({ link: isConnected ? "connected" : "lost" });
-    if (isConnected) void actions.meet();
+    if (!isConnected) return;
+    void actions.meet();
+    void lookForUpdate();
   },
 });
 void greet(store);

@@ -26,12 +26,38 @@ const withoutNeverCalled = (): Plugin => ({
   },
 });
 
+/** Of public/: what belongs to the page when it is opened without the server. */
+const PUBLIC_FILES = ["icon.svg", "manifest.webmanifest"];
+
+/** The service worker, with the names of all the files of the page put in. */
+const serviceWorker = (): Plugin => ({
+  name: "service-worker",
+  apply: "build",
+  buildStart() {
+    this.emitFile({ type: "chunk", id: "pwa/service-worker.ts", fileName: "service-worker.js" });
+  },
+  generateBundle: {
+    order: "post",
+    handler(_options, bundle) {
+      const built = Object.keys(bundle).filter((name) => /^assets\/.*\.(js|css)$/.test(name));
+      const files = ["/", ...[...PUBLIC_FILES, ...built].map((name) => `/${name}`)].sort();
+      // Every other file's hash is named in one of these two, and so changes theirs.
+      const version = built.filter((name) => /^assets\/index-/.test(name)).join();
+      const worker = bundle["service-worker.js"];
+      if (worker?.type !== "chunk") throw new Error("no service worker was built");
+      const shell = JSON.stringify(JSON.stringify({ version, files }));
+      worker.code = worker.code.replace(/(["'`])__SHELL__\1/, () => shell);
+      if (!worker.code.includes(version)) throw new Error("the service worker was not told its files");
+    },
+  },
+});
+
 // The page is served by plotwright's own server under a strict content security policy:
 // everything is a file of its own, nothing is inlined into the HTML.
 export default defineConfig({
   // Relative to the package, where npm runs its scripts.
   root: "web",
-  plugins: [react(), withoutNeverCalled()],
+  plugins: [react(), withoutNeverCalled(), serviceWorker()],
   build: {
     outDir: "../dist/web",
     emptyOutDir: true,

@@ -14,8 +14,8 @@ let page: Page;
 
 beforeAll(async () => {
   browser = await launchBrowser();
-  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 20 });
-  page = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 4 });
+  page = await (await browser.newContext({ viewport: { width: 1280, height: 720 } })).newPage();
   page.setDefaultTimeout(20_000);
   await page.goto(server.url);
   await waitForPlan(page);
@@ -92,7 +92,7 @@ describe("moving by hand", () => {
     await button("Console", machinePanel()).click();
     await page.getByText("commands typed in between would spoil it").waitFor();
     expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
-    await button("Close", page.getByRole("dialog")).click();
+    await page.keyboard.press("Escape");
     await button("Cancel", queuePanel(page)).click();
     await button("Cancel", page.getByRole("alertdialog")).click();
     await page.getByText("Cancelled").waitFor();
@@ -108,7 +108,7 @@ describe("the console", () => {
     await page.getByRole("log").getByText(/EBBv/).waitFor();
     await line.press("ArrowUp");
     expect(await line.inputValue()).toBe("V");
-    await button("Close", page.getByRole("dialog")).click();
+    await page.keyboard.press("Escape");
   });
 });
 
@@ -205,7 +205,7 @@ describe("machines as files", () => {
     expect((await download).suggestedFilename()).toBe("a-one.json");
     await button("Remove A1 clone", sheet).click();
     await button("Edit A1 clone", sheet).waitFor({ state: "detached" });
-    await button("Close", sheet).click();
+    await page.keyboard.press("Escape");
     await openTab(page, "Set up");
   });
 });

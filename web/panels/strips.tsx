@@ -9,11 +9,28 @@ const PenWait = lazyPart(async () => (await import("./pen-wait.js")).PenWait);
 /** Over the paper, whatever panel is open: what the server, another person or the plot itself wants to be known. */
 export const Strips = () => (
   <div className="strips">
+    <LinkStrip />
     <PenStrip />
     <OperatorStrip />
     <ServerNotices />
   </div>
 );
+
+/** The server is away, or has a newer page. */
+const LinkStrip = () => {
+  const link = usePageState((state) => state.link);
+  const isOutdated = usePageState((state) => state.isOutdated);
+  if (link === "lost") return <p className="strip strip-bad">{words.offline}</p>;
+  if (!isOutdated) return null;
+  return (
+    <p className="strip">
+      <span>{words.outdated}</span>
+      <button type="button" className="button button-small" onClick={() => location.reload()}>
+        {text.errors.reload}
+      </button>
+    </p>
+  );
+};
 
 const PenStrip = () => {
   const job = usePageState(activeJob);

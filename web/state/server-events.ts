@@ -41,6 +41,7 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
     ...withPlotters(state, plotters),
     ...(isGoing ? {} : { live: null }),
     version,
+    isOutdated: state.isOutdated || (state.version !== null && state.version !== version),
     jobs,
     queues,
     operator,

@@ -1,0 +1,38 @@
+import { describe, expect, it } from "vitest";
+import { cachesToDrop, ruleFor } from "../../web/pwa/shell-rules.js";
+
+const HERE = "http://127.0.0.1:9080";
+const asked = (path: string, more: { method?: string; mode?: string } = {}) =>
+  ruleFor({ method: "GET", url: new URL(path, HERE).href, mode: "cors", ...more }, HERE);
+
+describe("the service worker", () => {
+  it("answers for the page and its files", () => {
+    expect(asked("/", { mode: "navigate" })).toBe("page");
+    expect(asked("/assets/index-abc.js")).toBe("kept");
+    expect(asked("/icon.svg")).toBe("kept");
+  });
+
+  it("never answers for the API, however it is asked", () => {
+    for (const path of [
+      "/api/v1/state",
+      "/api/v1/events",
+      "/api/v1/samples/a.svg",
+      "/api/v1/jobs/a/drawing",
+    ]) {
+      expect(asked(path)).toBeNull();
+      expect(asked(path, { mode: "navigate" })).toBeNull();
+      expect(asked(path, { method: "POST" })).toBeNull();
+    }
+  });
+
+  it("leaves pairing, other pages and other sites alone", () => {
+    expect(asked("/pair?token=x", { mode: "navigate" })).toBeNull();
+    expect(asked("http://camera.local/picture.png")).toBeNull();
+  });
+
+  it("keeps the version before, for pages that are still open", () => {
+    const names = ["plotwright-1", "other", "plotwright-2", "plotwright-3"];
+    expect(cachesToDrop(names, "plotwright-", "plotwright-3")).toEqual(["plotwright-1"]);
+    expect(cachesToDrop(["plotwright-3"], "plotwright-", "plotwright-3")).toEqual([]);
+  });
+});

@@ -1,0 +1,67 @@
+/**
+ * Keeps the page's own files, so that the page opens without the server and can say that it is missing. Never keeps
+ * anything of the API. A new version's files are fetched whole before it takes over.
+ */
+import { cachesToDrop, ruleFor } from "./shell-rules.js";
+
+/** Put in by the build: paths of the page's files, and a name that changes with them. */
+const SHELL = JSON.parse("__SHELL__") as { readonly version: string; readonly files: readonly string[] };
+const PREFIX = "plotwright-";
+const CACHE = `${PREFIX}${SHELL.version}`;
+/** A server that is switched off may take a minute to be given up by the network. */
+const PATIENCE_MS = 4_000;
+
+/** What of a service worker's scope is used; the DOM's types have none. */
+interface Waiting extends Event {
+  waitUntil(done: Promise<unknown>): void;
+}
+interface Fetching extends Waiting {
+  readonly request: Request;
+  respondWith(answer: Promise<Response>): void;
+}
+interface Scope {
+  readonly location: Location;
+  readonly clients: { claim(): Promise<void> };
+  skipWaiting(): Promise<void>;
+  addEventListener(type: "install" | "activate", listener: (event: Waiting) => void): void;
+  addEventListener(type: "fetch", listener: (event: Fetching) => void): void;
+}
+const scope = globalThis as unknown as Scope;
+
+scope.addEventListener("install", (event) => event.waitUntil(fetchShell()));
+scope.addEventListener("activate", (event) => event.waitUntil(takeOver()));
+scope.addEventListener("fetch", (event) => {
+  const rule = ruleFor(event.request, scope.location.origin);
+  if (rule === "page") event.respondWith(pageOrKept(event.request));
+  if (rule === "kept") event.respondWith(keptOrFetched(event.request));
+});
+
+async function fetchShell(): Promise<void> {
+  const cache = await caches.open(CACHE);
+  // Past the browser's own cache: a file without a hash may be an old one there.
+  await cache.addAll(SHELL.files.map((file) => new Request(file, { cache: "reload" })));
+  await scope.skipWaiting();
+}
+
+async function takeOver(): Promise<void> {
+  const names = cachesToDrop(await caches.keys(), PREFIX, CACHE);
+  await Promise.all(names.map((name) => caches.delete(name)));
+  await scope.clients.claim();
+}
+
+async function pageOrKept(request: Request): Promise<Response> {
+  const fetched = fetch(request);
+  const late = new Promise<null>((resolve) => setTimeout(() => resolve(null), PATIENCE_MS));
+  try {
+    const first = await Promise.race([fetched, late]);
+    if (first?.ok) return first;
+  } catch {
+    // No server: what was kept is shown instead.
+  }
+  const cache = await caches.open(CACHE);
+  return (await cache.match("/")) ?? fetched;
+}
+
+async function keptOrFetched(request: Request): Promise<Response> {
+  return (await caches.match(request)) ?? fetch(request);
+}
