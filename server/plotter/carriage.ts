@@ -24,6 +24,7 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { AdvanceWatch } from "./advance-watch.js";
 import type { Connection } from "./connection.js";
 import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
@@ -178,15 +179,30 @@ export class Carriage {
 
   streamer(): Streamer {
     const { session, boardClock, speed } = this.connection;
-    return new Streamer(session, {
+    const watch = new AdvanceWatch(boardClock, speed);
+    const streamer = new Streamer(session, {
       clock: boardClock,
       windowS: WINDOW_S * speed,
       queueDepth: this.queueDepth,
       poll: { lines: this.pollLines(), everyS: POLL_S * speed },
       stuckS: STUCK_S * speed,
       origin: this.origin,
-      onPoll: (line, reply) => this.events.polled(line, reply),
+      onPoll: (line, reply) => {
+        if (line !== "QS") this.events.polled(line, reply);
+        else if (streamer.playing && watch.isStalled(reply, streamer.place())) this.stalled(streamer);
+      },
     });
+    return streamer;
+  }
+
+  private stalled(streamer: Streamer): void {
+    this.connection.session.write([{ line: "ES" }]);
+    streamer.abandon(
+      new PlotwrightError(
+        "board-error",
+        "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
+      ),
+    );
   }
 
   /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
@@ -312,8 +328,10 @@ export class Carriage {
 
   /** What keeps the stream's time true, and tells of the button and of the motors' supply. */
   private pollLines(): readonly string[] {
-    if (this.queueDepth > 1) return ["QU,6", "QG", "QC"];
-    return this.connection.features.hasGeneralQuery ? ["QG", "QC"] : ["QM", "QB", "QC"];
+    const { features } = this.connection;
+    if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC"];
+    if (features.hasGeneralQuery) return ["QG", "QS", "QC"];
+    return features.hasStepQuery ? ["QM", "QB", "QS", "QC"] : ["QM", "QB", "QC"];
   }
 
   private misplaced(report: StreamReport): never {

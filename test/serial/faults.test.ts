@@ -1,4 +1,8 @@
 /** What can happen to a board in mid-plot, over a real pseudo-terminal: each fault ends in a named state within 3 s. */
+import { fork } from "node:child_process";
+import { once } from "node:events";
+import { chmodSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import { afterEach, describe, expect, it } from "vitest";
 import { PlotterDriver, type PlotterState } from "../../server/plotter/plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
@@ -88,6 +92,49 @@ describe("in the middle of a plot", () => {
     expect(idle.xMm).not.toBeNull();
   });
 
+  it.each(["2.8.1", "3.0.3"])(
+    "a board of firmware %s whose motion never ends is a fault that says so",
+    async (firmware) => {
+      const { board, driver, journal, ended } = await drawing(firmware);
+      board.tell({ type: "frozen", frozen: true });
+      const { outcome, afterMs } = await ended();
+      expect(outcome).toMatch(
+        /^board-(error|timeout): The board (has stopped answering|answers but does not finish)/,
+      );
+      expect(afterMs).toBeLessThan(WITHIN_MS);
+      expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+      board.tell({ type: "frozen", frozen: false });
+      await state(driver, ({ connection }) => connection === "idle");
+    },
+  );
+
+  it("a board that stands blocked is cancelled at once all the same", async () => {
+    const { board, driver, run, ended } = await drawing();
+    board.tell({ type: "frozen", frozen: true });
+    void run.cancel().catch(() => undefined);
+    const { afterMs } = await ended();
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    expect(driver.state.connection).not.toBe("busy");
+  });
+
+  it("a board that another program puts into its other syntax goes on, or is a fault that says so", async () => {
+    const { board, run, ended } = await drawing("3.0.3");
+    board.tell({ type: "send", line: "CU,10,1\r" });
+    await run.change({ speedPct: 200 });
+    expect((await ended()).outcome).toBe("done");
+    expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+  });
+
+  it("a supply too low for the motors, as that of USB alone, ends it and is named", async () => {
+    const { board, driver, ended } = await drawing();
+    board.tell({ type: "volts", volts: 5 });
+    const { outcome, afterMs } = await ended();
+    expect(outcome).toMatch(/^board-error: The motors have no power, or too little/);
+    expect(afterMs).toBeLessThan(WITHIN_MS);
+    board.tell({ type: "volts", volts: 9.1 });
+    expect(await state(driver, ({ connection }) => connection === "idle")).toMatchObject({ xMm: null });
+  });
+
   it("motors without power end it as a board error that names the supply", async () => {
     const { board, driver, ended } = await drawing();
     board.tell({ type: "volts", volts: 0 });
@@ -167,6 +214,37 @@ describe("when connecting", () => {
       connection: "fault",
       message: expect.stringContaining("Nothing answers on this port"),
     });
+  });
+
+  it("a board without motor supply is a fault within 3 s that says where to look", async () => {
+    const board = await PtyBoard.open();
+    open.push(board);
+    board.tell({ type: "volts", volts: 5 });
+    await board.report();
+    const driver = new PlotterDriver({ device: board.path });
+    open.push(driver);
+    const from = Date.now();
+    await driver.start();
+    const { message } = await state(driver, ({ connection }) => connection === "fault");
+    expect(message).toContain("power supply");
+    expect(Date.now() - from).toBeLessThan(WITHIN_MS);
+  });
+
+  it("a port that this account may not open is a fault that names group and udev rule", async () => {
+    const board = await PtyBoard.open();
+    open.push(board);
+    chmodSync(board.path, 0);
+    // Root may open everything: then somebody else tries.
+    const child = fork(fileURLToPath(new URL("../support/connect-child.ts", import.meta.url)), [board.path], {
+      execArgv: ["--import", "tsx"],
+      ...(process.getuid?.() === 0 ? { uid: 65_534, gid: 65_534 } : {}),
+    });
+    const [found] = (await once(child, "message")) as [PlotterState];
+    expect(found).toMatchObject({
+      connection: "fault",
+      message: expect.stringMatching(/may not open .*dialout.*udev rule/) as string,
+    });
+    await once(child, "exit");
   });
 
   it("another machine that answers is no plotter, and says so", async () => {

@@ -289,3 +289,39 @@ describe("a board that fails", () => {
     expect(driver.state.connection).toBe("fault");
   });
 });
+
+describe("a board that answers but does not get on", () => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("ends the plot within 3 s, on firmware %s", async (firmware) => {
+    const { world, driver, board, begin } = await newPlotter(firmware);
+    const { run } = await begin(strokesOf([10, 10, 250, 10]));
+    await world.advance(1.5);
+    board.setFrozen(true);
+    expect(await outcome(world.run(run.finished, 3))).toMatch(
+      /^board-(error|timeout): The board (answers but does not finish|has stopped answering)/,
+    );
+    board.setFrozen(false);
+    await world.advance(5);
+    expect(driver.state.connection).toBe("idle");
+  });
+
+  it("that spends the time of its moves without a step ends it too", async () => {
+    const { world, board, begin } = await newPlotter("3.0.3");
+    const { run } = await begin(strokesOf([10, 10, 250, 10]));
+    await world.advance(1.5);
+    board.setMotionless(true);
+    expect(await outcome(world.run(run.finished, 3))).toMatch(/^board-error: The board answers but does not/);
+  });
+
+  it("is not confused with one that waits for its pen, or moves slowly", async () => {
+    const { world, driver } = await newPlotter("3.0.3");
+    const settings = {
+      ...SETTINGS,
+      pen: { ...SETTINGS.pen, liftMs: 4_000, dropMs: 4_000 },
+      motion: { ...SETTINGS.motion, draw: { ...SETTINGS.motion.draw, speedMmPerS: 0.5 } },
+    };
+    const run = await world.run(
+      driver.plot(new LocalPlanner(strokesOf([2, 2, 6, 2], [6, 4, 5, 4])), settings),
+    );
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+});

@@ -1,0 +1,49 @@
+/**
+ * Notices a board that answers and takes commands, but whose motors do not get on: asked again and again where
+ * they stand, it says the same while the plan has gone on. A long command would hide that until its end.
+ */
+import { parseSteps, type Clock, type StreamPlace } from "../../src/index.js";
+
+/** Seconds of ours without a step, with motion planned all the time. */
+const STALL_S = 1.2;
+/** What counts as planned motion, steps of one motor: far above what the two times may be apart. */
+const MOVED_STEPS = 160;
+
+interface Standing {
+  readonly steps: string;
+  readonly sinceS: number;
+  readonly planned: readonly [number, number];
+}
+
+export class AdvanceWatch {
+  private standing: Standing | null = null;
+
+  constructor(
+    private readonly clock: Clock,
+    private readonly speed: number,
+  ) {}
+
+  /** One answer to QS, and where the board should be now. True: it does not get on. */
+  isStalled(reply: string, at: StreamPlace): boolean {
+    const steps = parseSteps(reply).join();
+    const planned = plannedSteps(at);
+    const nowS = this.clock.nowS();
+    if (this.standing?.steps !== steps) {
+      this.standing = { steps, sinceS: nowS, planned };
+      return false;
+    }
+    const { sinceS, planned: before } = this.standing;
+    const moved = Math.max(Math.abs(planned[0] - before[0]), Math.abs(planned[1] - before[1]));
+    return nowS - sinceS > STALL_S * this.speed && moved > MOVED_STEPS;
+  }
+}
+
+/** Steps at an instant of a stream, as if each command ran evenly. */
+function plannedSteps({ stream, commandIndex, planS }: StreamPlace): readonly [number, number] {
+  const before = Math.max(0, commandIndex - 1);
+  const [fromS, toS] = [stream.planS[commandIndex]!, stream.planS[commandIndex + 1]!];
+  const share = toS > fromS ? Math.min(1, Math.max(0, (planS - fromS) / (toS - fromS))) : 1;
+  const between = (steps: Int32Array): number =>
+    steps[before]! + share * (steps[commandIndex]! - steps[before]!);
+  return [between(stream.steps1), between(stream.steps2)];
+}
