@@ -1,0 +1,219 @@
+/**
+ * The real server process, killed without warning again and again while jobs are added, moved, removed and
+ * plotted over HTTP. What it has answered holds after every restart: no job lost, none twice, order kept.
+ *
+ * PLOTWRIGHT_KILLS=100 for the long run; the suite does a part of it.
+ */
+import { once } from "node:events";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { ENDED_STATES, jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+
+const KILL_COUNT = Number(process.env["PLOTWRIGHT_KILLS"] ?? "12");
+const SEED = Number(process.env["PLOTWRIGHT_SEED"] ?? "20261121");
+
+const lines = (count: number): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">${Array.from(
+    { length: count },
+    (_, i) => `<path d="M5 ${2 + i / 4}h50"/>`,
+  ).join("")}</svg>`;
+const SHORT = lines(2);
+const LONG = lines(200);
+
+/** One thing asked of the server, and what it makes of the order of all jobs that were ever taken. */
+interface Action {
+  readonly method: string;
+  readonly path: string;
+  readonly body?: string;
+  readonly isJson?: boolean;
+  /** `answer`: the body of a 2xx answer; null when the server was killed before it could answer. */
+  readonly becomes: (order: readonly string[], answer: Job | null) => readonly string[];
+}
+
+class Client {
+  /** Ids in queue order, those that have ended since too. */
+  order: readonly string[] = [];
+  /** What the order may be instead: the request under way when the server was killed. */
+  maybe: readonly string[] | null = null;
+  /** Its name may be there once, with an id that was not told. */
+  maybeName: string | null = null;
+  readonly removed = new Set<string>();
+  maybeRemoved: string | null = null;
+  readonly done = new Map<string, number | null>();
+  readonly #random: () => number;
+  #nameCount = 0;
+  url = "";
+
+  constructor(seed: number) {
+    let state = seed;
+    this.#random = () => {
+      state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0;
+      return state / 2 ** 32;
+    };
+  }
+
+  below(count: number): number {
+    return Math.floor(this.#random() * count);
+  }
+
+  async state(): Promise<Job[]> {
+    return snapshotSchema.parse(await (await fetch(`${this.url}/api/v1/state`)).json()).jobs;
+  }
+
+  /** Something that a user may do, given how the jobs stand. */
+  choose(jobs: readonly Job[]): Action {
+    const queued = jobs.filter(({ state }) => state === "queued");
+    const any = queued[this.below(queued.length)];
+    const broken = jobs.find(({ state }) => state === "interrupted");
+    const held = jobs.find(({ state }) => state === "paused");
+    const choice = this.below(10);
+    if (held !== undefined) return this.#simple(held.id, "resume");
+    if (broken !== undefined && choice < 6) return this.#simple(broken.id, "recover");
+    if (any === undefined || (choice < 4 && queued.length < 8)) return this.#add();
+    if (choice === 4) return this.#remove(any.id);
+    if (choice < 7) return this.#simple(any.id, "start");
+    return this.#move(any.id, this.below(3) === 0 ? null : (queued[this.below(queued.length)]?.id ?? null));
+  }
+
+  /** Returns false when the server went before it answered: then both may be. */
+  async carryOut({ method, path, body, isJson, becomes }: Action): Promise<boolean> {
+    const name = method === "POST" && body !== undefined && isJson !== true ? this.#lastName() : null;
+    const removed = method === "DELETE" ? path.replace("/jobs/", "") : null;
+    try {
+      const response = await fetch(`${this.url}/api/v1${path}`, {
+        method,
+        ...(body === undefined ? {} : { body }),
+        ...(isJson === true ? { headers: { "Content-Type": "application/json" } } : {}),
+      });
+      const answer: unknown = await response.json();
+      const job = jobSchema.safeParse(answer);
+      if (response.ok) this.order = becomes(this.order, job.success ? job.data : null);
+      if (response.ok && removed !== null) this.removed.add(removed);
+      expect([path, [200, 201, 404, 409, 503].includes(response.status)]).toEqual([path, true]);
+      return true;
+    } catch (error) {
+      if (!(error instanceof TypeError || (error as Error).name === "SyntaxError")) throw error;
+      this.maybe = becomes(this.order, null);
+      this.maybeName = name;
+      this.maybeRemoved = removed;
+      return false;
+    }
+  }
+
+  /** Compares what the server has after its restart, and goes on from there. */
+  check(jobs: readonly Job[]): void {
+    const known = new Set(this.order);
+    const strangers = jobs.filter(({ id }) => !known.has(id));
+    expect(strangers.map(({ name }) => name)).toEqual(strangers.length === 0 ? [] : [this.maybeName]);
+    expect(new Set(jobs.map(({ id }) => id)).size).toBe(jobs.length);
+    expect(new Set(jobs.map(({ name }) => name)).size).toBe(jobs.length);
+    const found = new Set(jobs.map(({ id }) => id));
+    const missing = this.order.filter((id) => !found.has(id) && !this.removed.has(id));
+    expect(missing.filter((id) => id !== this.maybeRemoved)).toEqual([]);
+    expect([...this.removed].filter((id) => found.has(id))).toEqual([]);
+
+    const live = jobs.filter(({ state }) => !ENDED_STATES.includes(state)).map(({ id }) => id);
+    const old = live.filter((id) => known.has(id));
+    const fits = [this.order, this.maybe ?? this.order].map((order) =>
+      order.filter((id) => live.includes(id)),
+    );
+    expect(fits).toContainEqual(old);
+    // One that was added without an answer is last.
+    if (strangers.length > 0) expect(live.slice(-1)).toEqual([strangers[0]?.id]);
+
+    for (const { id, plottedS } of jobs.filter(({ state }) => state === "done")) {
+      if (!this.done.has(id)) this.done.set(id, plottedS);
+    }
+    const states = new Map(jobs.map(({ id, state, plottedS }) => [id, `${state} ${plottedS}`]));
+    const kept = [...this.done].filter(([id]) => !this.removed.has(id) && id !== this.maybeRemoved);
+    expect(kept.map(([id]) => states.get(id))).toEqual(kept.map(([, plottedS]) => `done ${plottedS}`));
+
+    for (const id of missing) this.removed.add(id);
+    const ended = this.order.filter((id) => !live.includes(id));
+    this.order = [...ended, ...live];
+    [this.maybe, this.maybeName, this.maybeRemoved] = [null, null, null];
+  }
+
+  #lastName = (): string => `job ${this.#nameCount}`;
+
+  #add(): Action {
+    this.#nameCount++;
+    return {
+      method: "POST",
+      path: `/jobs?name=${encodeURIComponent(this.#lastName())}`,
+      body: this.below(3) === 0 ? LONG : SHORT,
+      becomes: (order, answer) => (answer === null ? order : [...order, answer.id]),
+    };
+  }
+
+  #simple(id: string, name: string): Action {
+    return { method: "POST", path: `/jobs/${id}/${name}`, becomes: (order) => order };
+  }
+
+  #remove(id: string): Action {
+    return { method: "DELETE", path: `/jobs/${id}`, becomes: (order) => order };
+  }
+
+  #move(id: string, beforeId: string | null): Action {
+    return {
+      method: "POST",
+      path: `/jobs/${id}/move`,
+      body: JSON.stringify({ beforeId: beforeId === id ? null : beforeId }),
+      isJson: true,
+      becomes: (order) => {
+        const others = order.filter((one) => one !== id);
+        const at = beforeId === null || beforeId === id ? others.length : others.indexOf(beforeId);
+        return [...others.slice(0, at), id, ...others.slice(at)];
+      },
+    };
+  }
+}
+
+describe("a server that is killed without warning", () => {
+  const folder = temporaryFolder("kills");
+  let server: ServerProcess;
+  const start = async (client: Client): Promise<void> => {
+    server = await startServerProcess({ dataDir: folder.path, virtualSpeed: 200 });
+    client.url = server.url;
+  };
+  const client = new Client(SEED);
+  beforeAll(async () => {
+    await start(client);
+    const body = JSON.stringify({ runOn: true });
+    const headers = { "Content-Type": "application/json" };
+    await fetch(`${client.url}/api/v1/queue`, { method: "PATCH", body, headers });
+  });
+  afterAll(async () => {
+    await server.stop();
+    folder.remove();
+  });
+
+  it(
+    `loses no job, doubles none and keeps their order, ${KILL_COUNT} times`,
+    async () => {
+      let cutOffCount = 0;
+      for (let kill = 0; kill < KILL_COUNT; kill++) {
+        for (let step = client.below(7); step > 0; step--) {
+          expect(await client.carryOut(client.choose(await client.state()))).toBe(true);
+        }
+        // The last request is under way when the server goes: at once, or somewhere in the middle of it.
+        const last = client.carryOut(client.choose(await client.state()));
+        await new Promise((resolve) =>
+          setTimeout(resolve, client.below(4) === 0 ? client.below(150) : client.below(12)),
+        );
+        const gone = once(server.process, "exit");
+        server.process.kill("SIGKILL");
+        await gone;
+        if (!(await last)) cutOffCount++;
+        await start(client);
+        client.check(await client.state());
+      }
+      console.info(
+        `${KILL_COUNT} kills, ${cutOffCount} within a request; ${client.order.length} jobs taken, ${client.done.size} plotted to the end`,
+      );
+      expect(cutOffCount).toBeGreaterThan(KILL_COUNT / 10);
+      expect(client.done.size).toBeGreaterThan(0);
+    },
+    Math.max(120_000, KILL_COUNT * 30_000),
+  );
+});
