@@ -176,7 +176,8 @@ function securityHeaders(): express.RequestHandler {
         styleSrc: ["'self'"],
         // React's style={…} becomes properties, which need no exception; attributes in markup would.
         styleSrcAttr: ["'unsafe-inline'"],
-        imgSrc: ["'self'", "data:", "blob:"],
+        // The picture of a camera may come from anywhere; pictures run nothing.
+        imgSrc: ["'self'", "data:", "blob:", "http:", "https:"],
         workerSrc: ["'self'", "blob:"],
         connectSrc: ["'self'"],
         objectSrc: ["'none'"],

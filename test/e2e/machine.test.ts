@@ -4,7 +4,8 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { MachineProfile } from "../../src/index.js";
 import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schema/index.js";
 import { launchBrowser } from "../support/browser.js";
-import { openTab, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import { ruledSheet } from "../support/drawings.js";
+import { dropFile, openTab, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("machine");
@@ -85,6 +86,9 @@ describe("moving by hand", () => {
   });
 
   it("is held off while a job has the plotter", async () => {
+    await dropFile(page, "lines.svg", ruledSheet());
+    await page.getByText("lines").first().waitFor();
+    await waitForPlan(page);
     await button("Plot", plotBar(page)).click();
     await queuePanel(page).getByRole("progressbar").waitFor();
     await page.getByText("Moves by hand come back when it ends").waitFor();

@@ -106,3 +106,13 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
     warnings: [],
   };
 }
+
+/** A sheet of ruled lines: little to draw on a screen, minutes to plot. */
+export const ruledSheet = (lineCount = 40): string => {
+  const lines = Array.from(
+    { length: lineCount },
+    (_, i) => `<path d="M5 ${5 + (i * 130) / lineCount}h190"/>`,
+  );
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140">
+  <g fill="none" stroke="#000">${lines.join("")}</g></svg>`;
+};

@@ -7,33 +7,63 @@ export interface EventsListener {
 }
 
 const RETRY_MS = 1_500;
+/** A page that was out of sight for so long (a phone in a pocket) may have a stream that is dead and does not know. */
+const ASLEEP_MS = 15_000;
 
 /**
  * Returns a function that closes it. The browser's own retry stops for good after an HTTP error
- * (a server that is just starting), so a closed stream is opened anew.
+ * (a server that is just starting), so a closed stream is opened anew; so is one that has lost its network.
  */
 export const openEvents = (path: string, listener: EventsListener): (() => void) => {
   let source: EventSource | null = null;
   let retry: ReturnType<typeof setTimeout> | null = null;
 
+  const close = (): void => {
+    if (retry !== null) clearTimeout(retry);
+    retry = null;
+    source?.close();
+    source = null;
+  };
   const open = (): void => {
-    source = new EventSource(path);
-    source.onmessage = ({ data }: MessageEvent<string>) => {
+    close();
+    const opened = new EventSource(path);
+    source = opened;
+    opened.onmessage = ({ data }: MessageEvent<string>) => {
       const event = parseServerEvent(data);
       if (!event) return;
       if (event.type === "snapshot") listener.onLink(true);
       listener.onEvent(event);
     };
-    source.onerror = () => {
+    opened.onerror = () => {
       listener.onLink(false);
-      if (source?.readyState !== EventSource.CLOSED) return;
-      retry = setTimeout(open, RETRY_MS);
+      if (opened.readyState === EventSource.CLOSED) retry ??= setTimeout(open, RETRY_MS);
     };
   };
+  const stopWatching = watchNetwork(open, () => {
+    close();
+    listener.onLink(false);
+  });
   open();
   return () => {
-    if (retry !== null) clearTimeout(retry);
-    source?.close();
+    stopWatching();
+    close();
+  };
+};
+
+/** Calls back when the device has its network again, or wakes up, and when it has lost its network. */
+const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
+  let hiddenAtMs: number | null = null;
+  const onSight = (): void => {
+    if (document.visibilityState === "hidden") hiddenAtMs = Date.now();
+    else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) onBack();
+  };
+  window.addEventListener("online", onBack);
+  window.addEventListener("offline", onGone);
+  document.addEventListener("visibilitychange", onSight);
+  return () => {
+    window.removeEventListener("online", onBack);
+    window.removeEventListener("offline", onGone);
+    document.removeEventListener("visibilitychange", onSight);
   };
 };
 

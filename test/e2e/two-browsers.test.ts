@@ -1,0 +1,172 @@
+/** Several browsers on one server at once: the same picture, one operator, watchers, and one that loses its network. */
+import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import { launchBrowser } from "../support/browser.js";
+import { ruledSheet } from "../support/drawings.js";
+import { dropFile, historyPanel, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+
+const data = temporaryFolder("two-browsers");
+/** Small, so that three pages that draw it in software leave time for what is measured. */
+const VIEWPORT = { width: 900, height: 600 };
+let browser: Browser;
+let server: ServerProcess;
+let anna: Page;
+let ben: Page;
+let watcher: Page;
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2, args: ["--pair-always"] });
+  const [operatePath, watchPath] = await vi.waitFor(() => {
+    const links = server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
+    if (links.length < 2) throw new Error(`no links to pair with: ${server.output()}`);
+    return links;
+  });
+  anna = await pairedPage(operatePath!);
+  ben = await pairedPage(operatePath!);
+  watcher = await pairedPage(watchPath!);
+});
+
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+  data.remove();
+});
+
+async function pairedPage(path: string): Promise<Page> {
+  const context: BrowserContext = await browser.newContext({ viewport: VIEWPORT });
+  const page = await context.newPage();
+  await page.goto(`${server.url}${path}`);
+  await page.waitForURL(`${server.url}/`);
+  await waitForPlan(page);
+  return page;
+}
+
+const pages = (): readonly Page[] => [anna, ben, watcher];
+const plotButton = (page: Page): Locator =>
+  plotBar(page).getByRole("button", { name: "Add to queue", exact: true });
+
+/** From now on each page notes when its queue first said what. */
+async function noteQueue(page: Page): Promise<void> {
+  await page.evaluate(() => {
+    const seen = new Map<string, number>();
+    (window as unknown as { seenAt: Map<string, number> }).seenAt = seen;
+    const region = document.querySelector('section[aria-label="Queue"]')!;
+    const note = (): void => {
+      const now = performance.timeOrigin + performance.now();
+      const said = [...region.querySelectorAll(".job-name, .badge")].map((one) => one.textContent);
+      const share = region.querySelector("[role=progressbar]")?.getAttribute("aria-valuenow");
+      for (const what of [...said.map((words) => `says ${words}`), `${share ?? "no"} %`]) {
+        if (!seen.has(what)) seen.set(what, now);
+      }
+    };
+    new MutationObserver(note).observe(region, { subtree: true, childList: true, attributes: true });
+  });
+}
+
+const seenAt = async (page: Page): Promise<ReadonlyMap<string, number>> =>
+  new Map(await page.evaluate(() => [...(window as unknown as { seenAt: Map<string, number> }).seenAt]));
+
+describe("two browsers and a watcher", () => {
+  it("see the same queue and the same progress, at the same time", async () => {
+    for (const page of pages()) await noteQueue(page);
+    await dropFile(anna, "lines.svg", ruledSheet());
+    await anna.getByText("lines").first().waitFor();
+    await waitForPlan(anna);
+    await plotButton(anna).click();
+    await queuePanel(anna)
+      .getByRole("button", { name: /^Start / })
+      .click();
+    for (const page of pages()) {
+      await page.waitForFunction(
+        () => Number(document.querySelector("[role=progressbar]")?.getAttribute("aria-valuenow")) >= 12,
+      );
+    }
+    const [annas, ...others] = await Promise.all(pages().map(seenAt));
+    for (const theirs of others) {
+      const shared = [...annas!].filter(([what]) => theirs.has(what));
+      const apartMs = shared.map(([what, at]) => Math.abs(at - theirs.get(what)!)).sort((a, b) => a - b);
+      expect(shared.map(([what]) => what)).toEqual(
+        expect.arrayContaining(["says lines", "says Plotting", "10 %"]),
+      );
+      const medianMs = apartMs[Math.floor(apartMs.length / 2)]!;
+      console.log(
+        `${shared.length} changes seen by both: apart by ${medianMs.toFixed(0)} ms (median), ${apartMs.at(-1)!.toFixed(0)} ms (most)`,
+      );
+      expect(apartMs[Math.floor(apartMs.length * 0.9)]).toBeLessThan(300);
+    }
+  });
+
+  it("the watcher sees who operates, may stop the plot, and can change nothing", async () => {
+    await watcher.getByText("this device watches").waitFor();
+    expect(await plotButton(watcher).isDisabled()).toBe(true);
+    for (const name of [/^Start /, /^Remove /, "Resume", "Pen up", "Home"]) {
+      expect(await watcher.getByRole("button", { name }).count()).toBe(0);
+    }
+    await queuePanel(watcher).getByRole("button", { name: "Stop at once" }).waitFor();
+    const statuses = await watcher.evaluate(async () => {
+      const { jobs } = (await (await fetch("/api/v1/state")).json()) as { jobs: { id: string }[] };
+      const ask = async (method: string, path: string, body?: unknown): Promise<number> =>
+        (
+          await fetch(`/api/v1${path}`, {
+            method,
+            headers: { "content-type": "application/json" },
+            body: JSON.stringify(body ?? {}),
+          })
+        ).status;
+      return Promise.all([
+        ask("PATCH", "/queue", { runOn: true }),
+        ask("POST", `/jobs/${jobs[0]!.id}/duplicate`),
+        ask("PATCH", `/jobs/${jobs[0]!.id}`, { name: "mine" }),
+        ask("POST", "/operator/take"),
+        ask("POST", "/access/keys", { name: "me", role: "operate" }),
+      ]);
+    });
+    expect(statuses.every((status) => status === 401 || status === 403)).toBe(true);
+  });
+
+  it("one operates until the other takes over", async () => {
+    await ben.getByText("is operating.").waitFor();
+    expect(await plotButton(ben).isDisabled()).toBe(true);
+    await ben.getByRole("button", { name: "Take over" }).click();
+    await anna.getByRole("button", { name: "Take over" }).waitFor();
+    expect(await plotButton(anna).isDisabled()).toBe(true);
+    expect(await plotButton(ben).isDisabled()).toBe(false);
+  });
+
+  it("one that was offline comes back to what has become of the plot", async () => {
+    await anna.context().setOffline(true);
+    await anna.getByText("server can’t be reached").first().waitFor();
+    await queuePanel(ben).getByRole("button", { name: "Pause" }).click();
+    await queuePanel(ben).getByRole("button", { name: "Resume" }).waitFor();
+    expect(await queuePanel(anna).getByText("Paused").count()).toBe(0);
+    await anna.context().setOffline(false);
+    await queuePanel(anna).getByText("Paused").waitFor();
+    const shares = await Promise.all(
+      [anna, ben].map((page) => queuePanel(page).getByRole("progressbar").getAttribute("aria-valuenow")),
+    );
+    expect(shares[0]).toBe(shares[1]);
+    expect(await anna.getByText("server can’t be reached").count()).toBe(0);
+  });
+
+  it("anybody may stop it", async () => {
+    await queuePanel(anna).getByRole("button", { name: "Cancel" }).click();
+    await queuePanel(anna).getByRole("alertdialog").getByRole("button", { name: "Cancel" }).click();
+    for (const page of pages()) await historyPanel(page).getByText("Cancelled").waitFor();
+  });
+
+  it("the page opens without the server, and says so", async () => {
+    const page = await browser.newPage({ viewport: VIEWPORT });
+    await page.goto(server.url);
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+    await server.stop();
+    await page.reload();
+    await page.getByText("server can’t be reached").first().waitFor();
+    await dropFile(page, "lines.svg", ruledSheet());
+    await waitForPlan(page);
+    expect(await plotButton(page).isDisabled()).toBe(true);
+    await page.close();
+  });
+});
