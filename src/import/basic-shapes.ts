@@ -4,10 +4,12 @@ import type { Side } from "./length.js";
 import { drawPathData, NumberReader } from "./path-data.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 
+export type LengthName = "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry";
+
 /** Where a shape's numbers come from: CSS first, then attributes. */
 export interface ShapeSource {
   /** User units; null where the value is absent, auto or malformed. */
-  length(name: "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry", side: Side): number | null;
+  length(name: LengthName, side: Side): number | null;
   /** An attribute that is a plain length. */
   attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null;
   text(name: "d" | "points"): string | undefined;

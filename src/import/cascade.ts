@@ -7,8 +7,9 @@
  * only those that may match; css-select decides where a selector has more than that one part.
  */
 import { compile } from "css-select";
+import type { Declared } from "./declared.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
-import { TEXT_NODE, tagOf, type SvgTree } from "./svg-tree.js";
+import { attributeValue, TEXT_NODE, tagOf, type SvgTree } from "./svg-tree.js";
 
 /** Properties that the importer uses; the first group may also be written as attributes. */
 const PRESENTATION = [
@@ -64,9 +65,6 @@ export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number]
 const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
 const IS_PRESENTATION = new Set<string>(PRESENTATION);
 const IS_PROPERTY = new Set<string>([...PRESENTATION, ...CSS_ONLY]);
-
-/** What won on one element; custom properties (`--x`) among them. */
-export type Declared = Map<string, string>;
 
 export interface CascadeFaults {
   readonly importCount: number;
@@ -124,10 +122,10 @@ export class Cascade {
     const end = tree.attributeOffsets[element + 1];
     for (let i = tree.attributeOffsets[element]; i < end; i++) {
       const name = tree.attributeNames[i];
-      if (this.isPresentation[name] === 1) into.set(tree.names[name], tree.attributeValues[i]);
-      else if (tree.names[name] === "style") style = tree.attributeValues[i];
-      else if (tree.names[name] === "id") id = tree.attributeValues[i];
-      else if (tree.names[name] === "class") classes = tree.attributeValues[i];
+      if (this.isPresentation[name] === 1) into.set(tree.names[name], attributeValue(tree, i));
+      else if (tree.names[name] === "style") style = attributeValue(tree, i);
+      else if (tree.names[name] === "id") id = attributeValue(tree, i);
+      else if (tree.names[name] === "class") classes = attributeValue(tree, i);
     }
     const rules = this.hasRules ? this.match(element, id, classes) : this.matched;
     const inline = style === undefined ? [] : parseInlineStyle(style);
@@ -250,7 +248,7 @@ export class Cascade {
     const { tree } = this;
     const end = tree.attributeOffsets[node.index + 1];
     for (let i = tree.attributeOffsets[node.index]; i < end; i++) {
-      if (tree.names[tree.attributeNames[i]] === name) return tree.attributeValues[i];
+      if (tree.names[tree.attributeNames[i]] === name) return attributeValue(tree, i);
     }
     return undefined;
   }
@@ -281,7 +279,7 @@ function* styleTexts(tree: SvgTree): Generator<string> {
     if (tree.tags[element] !== style) continue;
     let text = "";
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
-      text += tree.attributeValues[tree.attributeOffsets[child]];
+      text += attributeValue(tree, tree.attributeOffsets[child]);
     }
     yield text;
   }

@@ -8,10 +8,10 @@ import {
   type DrawingGroup,
 } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
-import { boxOfPoints, EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
+import { EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, type PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
-import { CoordBlocks } from "./coord-blocks.js";
+import { CoordColumn } from "./coord-column.js";
 import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
@@ -36,7 +36,7 @@ export class DrawingBuilder {
   private readonly dashes: DashPattern[] = [];
   private readonly dashIndex = new Map<string, number>();
   private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
-  private readonly coords = new CoordBlocks();
+  private readonly coords = new CoordColumn();
   private readonly verbOffsets = new ColumnBuffer(Uint32Array, 256);
   private readonly coordOffsets = new ColumnBuffer(Uint32Array, 256);
   private readonly group = new ColumnBuffer(Uint32Array, 256);
@@ -61,6 +61,11 @@ export class DrawingBuilder {
     return this.coords.length;
   }
 
+  /** How much of the file has been drawn, 0 … 1: lets the columns be made as long as they will be. */
+  set progress(share: number) {
+    this.coords.share = share;
+  }
+
   /** Adds a group; ids already taken get a number, so that they stay distinct. */
   addGroup(id: string, name: string, hidden: boolean): number {
     const taken = new Set(this.groups.map((group) => group.id));
@@ -70,23 +75,26 @@ export class DrawingBuilder {
     return this.groups.length - 1;
   }
 
-  /** Adds `shape`, mapped to page mm. Returns its box, or null where it is out of range and left out. */
+  /**
+   * Adds `shape`, mapped to page mm. Returns its box, or null where it is out of range and left out:
+   * `where` names it in the warning.
+   */
   addShape(
     shape: ShapeBuffer,
     map: Affine,
     look: Look,
     group: number,
     clip: ClipNode | null,
-    where: string,
+    where: () => string,
   ): Box | null {
     const { coords } = this;
     coords.reserve(shape.coords.length);
-    if (!writeMapped(shape.coords, map, coords.block, coords.at)) {
-      this.warnings.add("coordinates-out-of-range", undefined, where);
+    if (!writeMapped(shape.coords, map, coords.data, coords.length)) {
+      this.warnings.add("coordinates-out-of-range", undefined, where());
       return null;
     }
-    const box = boxOfPoints(coords.block, coords.at, coords.at + shape.coords.length);
-    coords.commit(shape.coords.length);
+    const box = coords.boxOf(coords.length, coords.length + shape.coords.length);
+    coords.length += shape.coords.length;
     const { verbs } = this;
     const count = shape.verbs.length;
     verbs.reserve(count);
@@ -112,10 +120,10 @@ export class DrawingBuilder {
   /** The box of all curves themselves, where `boxOfShapes` has that of their control points. */
   extent(): Box {
     let box = EMPTY_BOX;
+    const verbs = this.verbOffsets.data;
     for (let i = 0; i < this.shapeCount; i++) {
-      const { block, at } = this.coords.find(this.coordOffsets.data[i]);
-      const verbs = this.verbOffsets.data;
-      box = uniteBoxes(box, curveBoxOf(this.verbs.data, verbs[i], verbs[i + 1], block, at));
+      const at = this.coordOffsets.data[i];
+      box = uniteBoxes(box, curveBoxOf(this.verbs.data, verbs[i], verbs[i + 1], this.coords.data, at));
     }
     return box;
   }
@@ -142,17 +150,17 @@ export class DrawingBuilder {
       clips: this.clips,
       paths: {
         count: this.shapeCount,
-        verbs: this.verbs.toArray(),
-        coords: this.coords.take(),
-        verbOffsets: this.verbOffsets.toArray(),
-        coordOffsets: this.coordOffsets.toArray(),
-        group: this.group.toArray(),
-        stroke: this.stroke.toArray(),
-        fill: this.fill.toArray(),
-        fillRule: this.fillRule.toArray(),
-        strokeWidth: this.strokeWidth.toArray(),
-        dash: this.dash.toArray(),
-        clip: this.clip.toArray(),
+        verbs: this.verbs.view(),
+        coords: this.coords.data.subarray(0, this.coords.length),
+        verbOffsets: this.verbOffsets.view(),
+        coordOffsets: this.coordOffsets.view(),
+        group: this.group.view(),
+        stroke: this.stroke.view(),
+        fill: this.fill.view(),
+        fillRule: this.fillRule.view(),
+        strokeWidth: this.strokeWidth.view(),
+        dash: this.dash.view(),
+        clip: this.clip.view(),
       },
       warnings: this.warnings.toArray(),
     };

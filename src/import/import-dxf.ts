@@ -154,7 +154,7 @@ class DxfImport {
       strokeWidth: 0,
       dash: null,
     };
-    this.builder.addShape(shape, map, look, group, null, `${entity.type} on layer ${layerName}`);
+    this.builder.addShape(shape, map, look, group, null, () => `${entity.type} on layer ${layerName}`);
   }
 
   private pushInsert(entity: DxfEntity, map: Affine, from: Pending, stack: Pending[]): void {

@@ -241,7 +241,7 @@ class HpglImport {
         strokeWidth: 0,
         dash: null,
       };
-      this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, `pen ${this.pen}`);
+      this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, () => `pen ${this.pen}`);
     }
     shape.clear();
   }

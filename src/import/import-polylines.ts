@@ -5,6 +5,7 @@
  *     "layers": [ { "name": "Ink", "color": "#ff0000", "strokes": [ [x0, y0, x1, y1, …], … ] } ] }
  *
  * mm, origin top left, y down. Points may also be pairs: [[x0, y0], [x1, y1], …]. A stroke of one point is a dot.
+ * What `toJson` writes is of this form, with "strokesMm" for "strokes".
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
@@ -65,14 +66,15 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number): void 
   const given = layer["color"];
   const color = typeof given === "string" ? (parseColor(given)?.hex ?? null) : "#000000";
   if (color === null) throw bad(`the colour of layer ${index + 1} is none`);
-  if (!Array.isArray(layer["strokes"])) throw bad(`layer ${index + 1} has no list of strokes`);
+  const strokes = layer["strokes"] ?? layer["strokesMm"];
+  if (!Array.isArray(strokes)) throw bad(`layer ${index + 1} has no list of strokes`);
   const group = builder.addGroup(id, name, false);
   const look = { stroke: color, fill: null, evenOdd: false, strokeWidth: 0, dash: null };
   const shape = new ShapeBuffer();
-  layer["strokes"].forEach((stroke: unknown, strokeIndex) => {
+  strokes.forEach((stroke: unknown, strokeIndex) => {
     const where = `stroke ${strokeIndex + 1} of layer ${index + 1}`;
     drawStroke(shape, stroke, where);
-    if (!shape.isEmpty) builder.addShape(shape, IDENTITY, look, group, null, where);
+    if (!shape.isEmpty) builder.addShape(shape, IDENTITY, look, group, null, () => where);
   });
 }
 

@@ -10,7 +10,8 @@
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { PX_PER_INCH } from "../units.js";
-import { Cascade, type Declared } from "./cascade.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { DrawingBuilder } from "./drawing-builder.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
@@ -51,8 +52,8 @@ const fontOf = ({ text = "single-stroke", font }: ImportOptions): TextFont | nul
 /** Lets others run between steps: resolves when it is this work's turn again. */
 export type Pause = () => Promise<void>;
 
-/** Part of the page's diagonal that an arc may be off: 0.1 µm once the page fills an A4 sheet, 0.3 µm on A1. */
-const ARC_TOLERANCE = 3e-7;
+/** Part of the page's diagonal that an arc may be off: 0.3 µm once the page fills an A4 sheet, 1 µm on A1. */
+const ARC_TOLERANCE = 8e-7;
 
 /**
  * The drawing in an SVG text, in mm on its own page. Throws PlotwrightError("bad-file").
@@ -100,7 +101,7 @@ function* draw(
   const cascade = new Cascade(tree);
   reportParsing(tree, cascade, warnings);
 
-  const root: Declared = new Map();
+  const root = new Declared();
   cascade.collect(0, root);
   const page = findPage(tree, root, options.pxPerInch ?? PX_PER_INCH);
   const context = rootContext(page, root);

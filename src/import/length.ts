@@ -49,9 +49,7 @@ export function absolutePx(text: string): number | null {
 export function lengthPx(text: string, basis: LengthBasis, side: Side): number | null {
   // Plain numbers are by far the most common.
   const plain = Number(text);
-  if (plain === plain && text.length > 0) {
-    return Number.isFinite(plain) && text.trim() !== "" && !/[xX]/.test(text) ? plain : null;
-  }
+  if (plain === plain && isDecimal(text)) return Number.isFinite(plain) ? plain : null;
   const parts = splitLength(text);
   if (parts === null) return null;
   const { value, unit } = parts;
@@ -79,6 +77,17 @@ export function lengthPx(text: string, basis: LengthBasis, side: Side): number |
       return null;
   }
 }
+
+/** Number() also takes "", " ", "0x1f", "0b1" and "0o7", which are no lengths. */
+function isDecimal(text: string): boolean {
+  const trimmed = text.charCodeAt(0) > 32 ? text : text.trim();
+  const second = trimmed.charCodeAt(1) | 32;
+  return trimmed !== "" && second !== LETTER_X && second !== LETTER_B && second !== LETTER_O;
+}
+
+const LETTER_B = 98;
+const LETTER_O = 111;
+const LETTER_X = 120;
 
 function percentBasis(basis: LengthBasis, side: Side): number {
   if (side === "width") return basis.viewportWidth;

@@ -1,5 +1,6 @@
 /** Computed style: what an element inherits and what it declares, as values ready to draw with. */
-import type { Declared, Property } from "./cascade.js";
+import type { Property } from "./cascade.js";
+import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "./color.js";
 import { lengthPx, splitLength, type LengthBasis } from "./length.js";
 
@@ -165,12 +166,13 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
   const size = declared.get("font-size");
   if (size !== undefined) style.fontSize = parseFontSize(resolve(style, size) ?? "", parent, basis);
   const own = style.fontSize === basis.fontSize ? basis : { ...basis, fontSize: style.fontSize };
-  for (const [property, raw] of declared) {
-    const set = SETTERS[property as Property];
+  for (let i = 0; i < declared.size; i++) {
+    const property = declared.nameAt(i) as Property;
+    const set = SETTERS[property];
     if (set === undefined) continue;
-    const value = resolve(style, raw);
+    const value = resolve(style, declared.valueAt(i));
     if (value === null) continue;
-    if (!setKeyword(style, parent, property as Property, value)) set(style, value, own);
+    if (!setKeyword(style, parent, property, value)) set(style, value, own);
   }
   return style;
 }
@@ -185,10 +187,11 @@ export function declaredValue(style: Style, declared: Declared, property: Proper
 
 function setVariables(style: Mutable<Style>, declared: Declared): void {
   let own: Map<string, string> | null = null;
-  for (const [property, value] of declared) {
+  for (let i = 0; i < declared.size; i++) {
+    const property = declared.nameAt(i);
     if (!property.startsWith("--")) continue;
     own ??= new Map(style.variables ?? []);
-    own.set(property, value);
+    own.set(property, declared.valueAt(i));
   }
   if (own !== null) style.variables = own;
 }

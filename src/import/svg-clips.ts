@@ -9,7 +9,8 @@ import { applyX, applyY, compose, IDENTITY, translation, type Affine } from "../
 import { boxOfPoints, EMPTY_BOX, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { Cascade, type Declared } from "./cascade.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { ClipNode, type ClipShapes } from "./clip-node.js";
 import { curveBox } from "./curve-box.js";
 import { lengthPx } from "./length.js";
@@ -36,7 +37,7 @@ interface BuiltClip {
 
 export class SvgClips {
   private readonly built = new Map<string, BuiltClip | null>();
-  private readonly declared: Declared = new Map();
+  private readonly declared = new Declared();
   private measured = 0;
 
   constructor(
@@ -171,7 +172,7 @@ export class SvgClips {
     const { tree } = this;
     let box = EMPTY_BOX;
     const pending: { element: number; map: Affine }[] = [{ element, map: IDENTITY }];
-    const declared: Declared = new Map();
+    const declared = new Declared();
     while (pending.length > 0) {
       const { element: at, map } = pending.pop()!;
       if (++this.measured > MAX_MEASURED) {

@@ -1,9 +1,10 @@
 /** Elements to outlines in user units, and where they are on the page. */
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
-import { drawBasicShape, type ShapeSource } from "./basic-shapes.js";
-import type { Declared, Property } from "./cascade.js";
-import { lengthPx } from "./length.js";
+import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
+import type { Property } from "./cascade.js";
+import type { Declared } from "./declared.js";
+import { lengthPx, type Side } from "./length.js";
 import { mapBox } from "./map-box.js";
 import { ShapeBuffer } from "./shape-buffer.js";
 import type { Context } from "./svg-context.js";
@@ -14,20 +15,23 @@ import type { Warnings } from "./warnings.js";
 export class SvgGeometry {
   /** The outline made last. */
   readonly shape = new ShapeBuffer();
+  private readonly source: ElementSource;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly warnings: Warnings,
     /** mm on the page: how far an arc may be from its cubics. */
     private readonly arcToleranceMm: number,
-  ) {}
+  ) {
+    this.source = new ElementSource(tree);
+  }
 
   /** The element's outline in user units, in `shape`, which the next call uses again. */
   geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
     const { shape } = this;
     shape.clear();
     const tolerance = this.arcToleranceMm / largestScale(context.map);
-    const fault = drawBasicShape(tag, this.sourceOf(element, declared, context), shape, tolerance);
+    const fault = drawBasicShape(tag, this.source.of(element, declared, context), shape, tolerance);
     shape.finish();
     if (fault !== null) {
       const where = this.whereOf(element);
@@ -55,24 +59,43 @@ export class SvgGeometry {
     const line = `line ${this.tree.lines[element]}`;
     return id === undefined ? line : `${line}, id ${id.slice(0, 40)}`;
   }
+}
 
-  private sourceOf(element: number, declared: Declared, context: Context): ShapeSource {
-    const { tree } = this;
-    const { basis, style } = context;
-    const length = (text: string | undefined, side: "width" | "height" | "both"): number | null =>
-      text === undefined || text === "auto" ? null : lengthPx(text, basis, side);
-    const css = (name: Property): string | undefined =>
-      declared.size === 0 ? undefined : declaredValue(style, declared, name);
-    return {
-      length: (name, side) => length(css(name) ?? attribute(tree, element, name), side),
-      attributeLength: (name, side) => length(attribute(tree, element, name), side),
-      text: (name) => {
-        if (name === "points") return attribute(tree, element, name);
-        const path = css("d");
-        const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
-        return quoted?.[1] ?? attribute(tree, element, name);
-      },
-    };
+/** The numbers of one element after the other: one object, since there may be a million of them. */
+class ElementSource implements ShapeSource {
+  private element = 0;
+  private declared: Declared | null = null;
+  private context: Context | null = null;
+
+  constructor(private readonly tree: SvgTree) {}
+
+  of(element: number, declared: Declared, context: Context): this {
+    this.element = element;
+    this.declared = declared.size === 0 ? null : declared;
+    this.context = context;
+    return this;
+  }
+
+  length(name: LengthName, side: Side): number | null {
+    return this.px(this.css(name) ?? attribute(this.tree, this.element, name), side);
+  }
+
+  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null {
+    return this.px(attribute(this.tree, this.element, name), side);
+  }
+
+  text(name: "d" | "points"): string | undefined {
+    const path = name === "d" ? this.css("d") : undefined;
+    const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
+    return quoted?.[1] ?? attribute(this.tree, this.element, name);
+  }
+
+  private px(text: string | undefined, side: Side): number | null {
+    return text === undefined || text === "auto" ? null : lengthPx(text, this.context!.basis, side);
+  }
+
+  private css(name: Property): string | undefined {
+    return this.declared === null ? undefined : declaredValue(this.context!.style, this.declared, name);
   }
 }
 

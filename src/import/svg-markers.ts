@@ -8,7 +8,8 @@ import {
   scaling,
   translation,
 } from "../geometry/affine.js";
-import type { Cascade, Declared } from "./cascade.js";
+import type { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import type { MarkerPlace } from "./markers.js";
 import type { SvgClips } from "./svg-clips.js";
@@ -37,7 +38,7 @@ function refPosition(text: string | undefined, start: number, length: number): n
 }
 
 export class SvgMarkers {
-  private readonly declared: Declared = new Map();
+  private readonly declared = new Declared();
 
   constructor(
     private readonly tree: SvgTree,

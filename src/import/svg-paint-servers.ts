@@ -1,5 +1,6 @@
 /** The colour that stands for a gradient or pattern. */
-import { Cascade, type Declared } from "./cascade.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { parseColor } from "./color.js";
 import type { Context } from "./svg-context.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
@@ -38,7 +39,7 @@ export class SvgPaintServers {
   }
 
   private stopColor(stop: number, context: Context): string {
-    const declared: Declared = new Map();
+    const declared = new Declared();
     this.cascade.collect(stop, declared);
     const text = declaredValue(context.style, declared, "stop-color");
     if (text === undefined) return INITIAL_STYLE.color.hex;

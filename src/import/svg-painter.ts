@@ -3,7 +3,8 @@ import { compose, meanScale, rotation, scaling, translation } from "../geometry/
 import type { Box } from "../geometry/box.js";
 import type { DashPattern } from "../drawing/drawing.js";
 import { MM_PER_PX } from "../units.js";
-import type { Cascade, Declared } from "./cascade.js";
+import type { Cascade } from "./cascade.js";
+import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
 import { lengthPx } from "./length.js";
 import { drawPathData } from "./path-data.js";
@@ -18,6 +19,10 @@ import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "./warnings.js";
 
 export class SvgPainter {
+  /** What is being drawn, and its name in warnings. */
+  private element = 0;
+  private readonly where = (): string => this.geometry.whereOf(this.element);
+
   constructor(
     private readonly tree: SvgTree,
     private readonly geometry: SvgGeometry,
@@ -32,6 +37,7 @@ export class SvgPainter {
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
     const { style } = context;
     if (!style.isVisible) return;
+    this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
       if (shape.lonePoints > 0)
@@ -40,14 +46,7 @@ export class SvgPainter {
     }
     const look = this.lookOf(element, tag, declared, context);
     if (look === null) return;
-    this.builder.addShape(
-      shape,
-      context.map,
-      look,
-      context.group,
-      context.clip,
-      this.geometry.whereOf(element),
-    );
+    this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
   }
 
   /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */
@@ -79,6 +78,7 @@ export class SvgPainter {
     drawPathData(shape, letter.path, 1);
     shape.finish();
     if (shape.isEmpty) return;
+    this.element = element;
     const own = { ...context, style };
     const turned = compose(translation(letter.x, letter.y), rotation(letter.angle));
     const map = compose(context.map, compose(turned, scaling(style.fontSize)));
@@ -94,7 +94,7 @@ export class SvgPainter {
       strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
       dash: null,
     };
-    this.builder.addShape(shape, map, look, context.group, context.clip, this.geometry.whereOf(element));
+    this.builder.addShape(shape, map, look, context.group, context.clip, this.where);
   }
 
   private roughPlaceOf(element: number, context: Context): Box {

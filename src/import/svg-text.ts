@@ -4,9 +4,10 @@
  * The text's characters are gathered with the style and the x, y, dx, dy, rotate that fall on each;
  * every absolute x or y begins a chunk, which is laid out along the line and then anchored.
  */
-import type { Cascade, Declared } from "./cascade.js";
+import type { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
-import { attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attributeValue, attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
 import type { TextFont } from "./text-font.js";
 
@@ -63,7 +64,7 @@ class Gatherer {
   readonly unsupported: string[] = [];
   /** Elements with positions, and which characters lie in them: [first, last). */
   private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
-  private readonly declared: Declared = new Map();
+  private readonly declared = new Declared();
 
   constructor(
     private readonly tree: SvgTree,
@@ -86,7 +87,7 @@ class Gatherer {
     while (stack.length > 0) {
       const { node, style, open } = stack.pop()!;
       const tag = tagOf(tree, node);
-      if (tag === TEXT_NODE) this.addText(tree.attributeValues[tree.attributeOffsets[node]], style, open);
+      if (tag === TEXT_NODE) this.addText(attributeValue(tree, tree.attributeOffsets[node]), style, open);
       else if (tag === "tspan" || tag === "a") {
         this.cascade.collect(node, this.declared);
         const own = computeStyle(style, this.declared, { ...this.basis, fontSize: style.fontSize });

@@ -3,7 +3,8 @@
  *
  * Element i has the attributes [attributeOffsets[i], attributeOffsets[i + 1]); names are numbers into
  * `names`. Elements stand in document order, so a child's index is above its parent's. Text is kept,
- * as elements named "#text", only inside the elements whose text means something.
+ * as elements named "#text", only inside the elements whose text means something. Values are kept as places in
+ * the file's text, which is held anyway; only those that read otherwise there (entities, line ends) as strings.
  *
  * Of entities only XML's own five and numeric ones are expanded, so no entity can grow the text.
  */
@@ -23,9 +24,8 @@ const SLICE_CHARS = 1 << 18;
 const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 
-const SHARED_CHARS = 200;
-const MAX_SHARED = 4096;
-const UNSHARED = new Set("id d points x y x1 y1 x2 y2 cx cy r rx ry width height transform".split(" "));
+/** Added to a value's place: it is not in the text but a string of its own, with that number. */
+const OWN_STRING = 0x80000000;
 
 /** Faults of the XML that leave no doubt about what was meant; browsers accept them in pages. */
 const HARMLESS = ["undefined entity", "unquoted attribute value", "attribute without value", "]]>"];
@@ -39,7 +39,8 @@ export interface SvgTree {
   readonly nextSiblings: Int32Array;
   readonly attributeOffsets: Uint32Array;
   readonly attributeNames: Uint32Array;
-  readonly attributeValues: readonly string[];
+  /** Read by `attributeValue`. */
+  readonly values: AttributeValues;
   readonly lines: Uint32Array;
   readonly elementById: ReadonlyMap<string, number>;
   /** What the parser forgave: its words, with line and column. */
@@ -48,11 +49,26 @@ export interface SvgTree {
   readonly hasStylesheetLink: boolean;
 }
 
+/** Where in `text` each value stands, up to a quote like the one before it; or `OWN_STRING` + where in `own`. */
+interface AttributeValues {
+  readonly text: string;
+  readonly places: Uint32Array;
+  readonly own: readonly string[];
+}
+
+/** The value of attribute `index` of all. */
+export function attributeValue({ values }: SvgTree, index: number): string {
+  const { text, own } = values;
+  const place = values.places[index];
+  if (place >= OWN_STRING) return own[place - OWN_STRING];
+  return text.slice(place, text.indexOf(text[place - 1], place));
+}
+
 /** The value of an attribute, or undefined. Linear in the element's own attributes. */
 export function attribute(tree: SvgTree, element: number, name: string): string | undefined {
   const end = tree.attributeOffsets[element + 1];
   for (let i = tree.attributeOffsets[element]; i < end; i++) {
-    if (tree.names[tree.attributeNames[i]] === name) return tree.attributeValues[i];
+    if (tree.names[tree.attributeNames[i]] === name) return attributeValue(tree, i);
   }
   return undefined;
 }
@@ -63,7 +79,7 @@ export const tagOf = (tree: SvgTree, element: number): string => tree.names[tree
 export function* parseSvgTree(text: string): Generator<void, SvgTree> {
   const start = skipBlank(text);
   rejectOtherFormats(text, start);
-  const builder = new TreeBuilder(countLines(text, start));
+  const builder = new TreeBuilder(text, start);
   for (let at = start; at < text.length; at += SLICE_CHARS) {
     builder.write(text.slice(at, at + SLICE_CHARS));
     yield;
@@ -120,8 +136,15 @@ class TreeBuilder {
   private readonly nextSiblings = new ColumnBuffer(Int32Array);
   private readonly attributeOffsets = new ColumnBuffer(Uint32Array);
   private readonly attributeNames = new ColumnBuffer(Uint32Array);
-  private readonly attributeValues: string[] = [];
-  private readonly sharedValues = new Map<string, string>();
+  private readonly valuePlaces = new ColumnBuffer(Uint32Array);
+  private readonly ownStrings: string[] = [];
+  /** The attributes of the tag that is being read: its names, values, and where in the text these end. */
+  private tagCount = 0;
+  private readonly tagNames: string[] = [];
+  private readonly tagValues: string[] = [];
+  private readonly tagValueEnds: number[] = [];
+  /** By name as written: the number of the name it is kept under, −1 for none. */
+  private readonly keptNames = new Map<string, number>();
   private readonly lines = new ColumnBuffer(Uint32Array);
   private readonly elementById = new Map<string, number>();
   private readonly repairs: string[] = [];
@@ -138,20 +161,28 @@ class TreeBuilder {
   private svgPrefix = "";
   private startLine = 0;
 
-  constructor(lineOffset: number) {
-    this.lineOffset = lineOffset;
+  constructor(
+    private readonly text: string,
+    private readonly start: number,
+  ) {
+    this.lineOffset = countLines(text, start);
     const parser = this.parser;
+    // Seven events at most: with an eighth the parser's properties are too many for V8 to keep them fast.
     parser.on("error", (error) => this.onError(error));
     parser.on("opentagstart", () => {
       this.startLine = parser.line;
+      this.tagCount = 0;
     });
-    parser.on("opentag", (tag) => this.onOpen(tag.name, tag.attributes as Record<string, string>));
+    parser.on("attribute", ({ name, value }) => {
+      const i = this.tagCount++;
+      this.tagNames[i] = name;
+      this.tagValues[i] = value;
+      this.tagValueEnds[i] = parser.position;
+    });
+    parser.on("opentag", (tag) => this.onOpen(tag.name));
     parser.on("closetag", () => this.onClose());
     parser.on("text", (text) => this.onText(text));
     parser.on("cdata", (text) => this.onText(text));
-    parser.on("processinginstruction", (instruction) => {
-      if (instruction.target === "xml-stylesheet") this.hasStylesheetLink = true;
-    });
   }
 
   write(slice: string): void {
@@ -161,7 +192,7 @@ class TreeBuilder {
   finish(): SvgTree {
     this.parser.close();
     if (this.tags.length === 0) throw notAnSvg("it has no <svg> element");
-    this.attributeOffsets.push(this.attributeValues.length);
+    this.attributeOffsets.push(this.attributeNames.length);
     return {
       count: this.tags.length,
       names: this.names,
@@ -171,7 +202,11 @@ class TreeBuilder {
       nextSiblings: this.nextSiblings.data,
       attributeOffsets: this.attributeOffsets.data,
       attributeNames: this.attributeNames.data,
-      attributeValues: this.attributeValues,
+      values: {
+        text: this.text,
+        places: this.valuePlaces.data,
+        own: this.ownStrings,
+      },
       lines: this.lines.data,
       elementById: this.elementById,
       repairs: this.repairs,
@@ -199,11 +234,11 @@ class TreeBuilder {
     });
   }
 
-  private onOpen(name: string, attributes: Record<string, string>): void {
+  private onOpen(name: string): void {
     this.depth++;
     if (this.skipDepth > 0) return;
     const isRoot = this.tags.length === 0;
-    if (isRoot) this.acceptRoot(name, attributes);
+    if (isRoot) this.acceptRoot(name);
     const local = this.localTag(name);
     if (local === null || SKIPPED.has(local)) {
       if (local === "foreignObject") this.foreignObjects++;
@@ -211,28 +246,31 @@ class TreeBuilder {
       return;
     }
     const element = this.addElement(local);
-    for (const key in attributes) {
-      const kept = keptAttribute(key);
-      if (kept === null) continue;
-      this.attributeNames.push(this.nameId(kept));
-      this.attributeValues.push(this.shared(kept, attributes[key]));
-      if (kept === "id" && !this.elementById.has(attributes[key]))
-        this.elementById.set(attributes[key], element);
+    for (let i = 0; i < this.tagCount; i++) {
+      const kept = this.keptName(this.tagNames[i]);
+      if (kept < 0) continue;
+      const value = this.tagValues[i];
+      this.attributeNames.push(kept);
+      this.addValue(value, this.start + this.tagValueEnds[i] - 1 - value.length);
+      if (this.names[kept] === "id" && !this.elementById.has(value)) this.elementById.set(value, element);
     }
     this.open = element;
     this.lastChildren.push(-1);
     this.keepsText = TEXT_PARENTS.has(local);
   }
 
-  private acceptRoot(name: string, attributes: Record<string, string>): void {
+  private acceptRoot(name: string): void {
+    const prolog = this.text.slice(this.start, this.start + this.parser.position);
+    this.hasStylesheetLink = prolog.includes("<?xml-stylesheet");
     const colon = name.indexOf(":");
     if (name.slice(colon + 1) !== "svg") {
       throw notAnSvg(`its outermost element is <${name.slice(0, 60)}>, not <svg>`);
     }
     if (colon >= 0) this.svgPrefix = name.slice(0, colon);
     else {
-      for (const key in attributes) {
-        if (key.startsWith("xmlns:") && attributes[key] === SVG_NAMESPACE) this.svgPrefix = key.slice(6);
+      for (let i = 0; i < this.tagCount; i++) {
+        const key = this.tagNames[i];
+        if (key.startsWith("xmlns:") && this.tagValues[i] === SVG_NAMESPACE) this.svgPrefix = key.slice(6);
       }
     }
   }
@@ -251,7 +289,7 @@ class TreeBuilder {
     this.parents.push(parent);
     this.firstChildren.push(-1);
     this.nextSiblings.push(-1);
-    this.attributeOffsets.push(this.attributeValues.length);
+    this.attributeOffsets.push(this.attributeNames.length);
     this.lines.push(this.startLine + this.lineOffset);
     if (parent >= 0) {
       const last = this.lastChildren[this.lastChildren.length - 1];
@@ -277,24 +315,41 @@ class TreeBuilder {
     if (!this.keepsText || this.skipDepth > 0 || text === "") return;
     const node = this.addElement(TEXT_NODE);
     this.attributeNames.push(this.nameId(TEXT_NODE));
-    this.attributeValues.push(text);
+    this.addValue(text, -1);
     this.firstChildren.data[node] = -1;
   }
 
-  /** The same string for equal values that many elements have; geometry and ids seldom repeat. */
-  private shared(name: string, value: string): string {
-    if (value.length > SHARED_CHARS || UNSHARED.has(name)) return value;
-    const known = this.sharedValues.get(value);
-    if (known !== undefined) return known;
-    if (this.sharedValues.size < MAX_SHARED) this.sharedValues.set(value, value);
-    return value;
+  /** By its place in the text if it reads the same there, else as a string. `at` −1: place unknown. */
+  private addValue(value: string, at: number): void {
+    const isThere = at > 0 && this.isQuoted(value, at);
+    this.valuePlaces.push(isThere ? at : OWN_STRING + this.ownStrings.length);
+    if (!isThere) this.ownStrings.push(value);
+  }
+
+  private isQuoted(value: string, at: number): boolean {
+    const { text } = this;
+    const quote = text[at - 1];
+    return (
+      (quote === '"' || quote === "'") && text.startsWith(value, at) && text[at + value.length] === quote
+    );
+  }
+
+  private keptName(name: string): number {
+    let id = this.keptNames.get(name);
+    if (id === undefined) {
+      const kept = keptAttribute(name);
+      id = kept === null ? -1 : this.nameId(kept);
+      this.keptNames.set(name, id);
+    }
+    return id;
   }
 
   private nameId(name: string): number {
     let id = this.nameIds.get(name);
     if (id === undefined) {
       id = this.names.length;
-      this.names.push(name);
+      // As an object's key the name is the one string of its kind that comparisons know by its address.
+      this.names.push(Object.keys({ [name]: id })[0]);
       this.nameIds.set(name, id);
     }
     return id;

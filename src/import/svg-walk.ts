@@ -15,7 +15,8 @@ import {
   type Affine,
 } from "../geometry/affine.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { Cascade, type Declared, type Property } from "./cascade.js";
+import { Cascade, type Property } from "./cascade.js";
+import { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
 import type { SvgClips } from "./svg-clips.js";
@@ -25,7 +26,7 @@ import { isMarked, SvgMarkers } from "./svg-markers.js";
 import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { computeStyle, declaredValue, INITIAL_STYLE, parseOpacity, type Style } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "./warnings.js";
@@ -47,6 +48,7 @@ const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
   mesh: "not-supported",
   flowRoot: "not-supported",
 };
+const CONDITIONS = ["requiredExtensions", "systemLanguage"];
 const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
 
 interface Frame {
@@ -60,13 +62,21 @@ interface Frame {
 }
 
 export class SvgWalk {
-  private readonly declared: Declared = new Map();
+  private readonly declared = new Declared();
+  /** The style computed last, and from what. */
+  private readonly last = {
+    parent: INITIAL_STYLE,
+    basis: null as Context["basis"] | null,
+    declared: new Declared(),
+    style: INITIAL_STYLE,
+  };
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
   /** The group of what is drawn outside of every layer; −1 until needed. */
   private looseGroup = -1;
   private readonly markers: SvgMarkers;
+  private readonly hasConditions: boolean;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -81,6 +91,7 @@ export class SvgWalk {
     private readonly languages: readonly string[],
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
+    this.hasConditions = CONDITIONS.some((name) => tree.names.includes(name));
   }
 
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
@@ -102,6 +113,7 @@ export class SvgWalk {
       visited++;
       if (visited % ELEMENTS_PER_YIELD === 0 || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
         coordsAtYield = this.builder.coordCount;
+        this.builder.progress = element / tree.count;
         yield;
       }
     }
@@ -131,7 +143,7 @@ export class SvgWalk {
     this.spendCopy(outer);
     const { declared } = this;
     this.cascade.collect(element, declared);
-    const style = computeStyle(outer.style, declared, outer.basis);
+    const style = this.styleIn(outer);
     const group = this.groupOf(element, tag, outer);
     if (declaredValue(style, declared, "display") === "none") {
       if (group !== outer.group) this.hideGroup(group);
@@ -148,6 +160,18 @@ export class SvgWalk {
     if (clip !== context.clip) context = { ...context, clip };
     if (!isContainer) this.visitLeaf(element, tag, context, warning);
     else this.enter(element, tag, context, warning);
+  }
+
+  /** The style that `declared` makes in a context: most elements declare what the one before did. */
+  private styleIn({ style, basis }: Context): Style {
+    const { last, declared } = this;
+    if (last.parent !== style || last.basis !== basis || !last.declared.equals(declared)) {
+      last.style = computeStyle(style, declared, basis);
+      last.parent = style;
+      last.basis = basis;
+      last.declared.copyFrom(declared);
+    }
+    return last.style;
   }
 
   private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
@@ -352,6 +376,7 @@ export class SvgWalk {
 
   /** requiredExtensions and systemLanguage, as `switch` and all elements heed them. */
   private meetsConditions(element: number): boolean {
+    if (!this.hasConditions) return true;
     const extensions = attribute(this.tree, element, "requiredExtensions");
     if (extensions !== undefined && extensions.trim() !== "") return false;
     const language = attribute(this.tree, element, "systemLanguage");

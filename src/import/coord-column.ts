@@ -1,0 +1,45 @@
+/**
+ * Coordinates in one array that is made about as large as it will be, once a part of the file shows how much that
+ * is: a large drawing is then never held twice, neither while it grows nor at the end.
+ *
+ * What is reserved beyond the need costs address space only: the system gives memory to pages that are written.
+ */
+import { boxOfPoints, type Box } from "../geometry/box.js";
+
+const FIRST_LENGTH = 1 << 12;
+/** From this share of the file on, what it has brought so far tells what is to come. */
+const TELLING_SHARE = 0.01;
+/** The rest of the file may be denser than what has been seen. */
+const MARGIN = 1.25;
+
+export class CoordColumn {
+  /** Replaced when it grows. */
+  data = new Float64Array(FIRST_LENGTH);
+  /** Numbers held. */
+  length = 0;
+  /** Share of the file that has been drawn, 0 … 1. */
+  share = 0;
+
+  /** Makes room for `count` more: the caller writes them to `data` from `length` on, then adds to `length`. */
+  reserve(count: number): void {
+    const needed = this.length + count;
+    if (needed <= this.data.length) return;
+    const expected = this.share >= TELLING_SHARE ? (MARGIN * this.length) / this.share : 0;
+    const grown = new Float64Array(Math.max(needed, 2 * this.data.length, Math.ceil(expected)));
+    grown.set(this.data.subarray(0, this.length));
+    this.data = grown;
+  }
+
+  translate(dx: number, dy: number): void {
+    const { data, length } = this;
+    for (let i = 0; i < length; i += 2) {
+      data[i] += dx;
+      data[i + 1] += dy;
+    }
+  }
+
+  /** The box of the numbers [from, to). */
+  boxOf(from: number, to: number): Box {
+    return boxOfPoints(this.data, from, to);
+  }
+}
