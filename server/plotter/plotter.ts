@@ -70,6 +70,7 @@ export class PlotterDriver {
       device: isVirtual || options.device === "auto" ? null : options.device,
       connection: "connecting",
       boardName: null,
+      activity: "none",
       firmware: null,
       message: null,
       penUp: null,
@@ -114,7 +115,8 @@ export class PlotterDriver {
     this.settings = settings;
     const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
-    this.tell({ connection: "busy" });
+    this.tell({ connection: "busy", activity: "plotting" });
+    run.onHeld((held) => this.tell({ activity: held ? "held" : "plotting" }));
     run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));
     run.finished.then(
       () => this.runEnded(),
@@ -284,7 +286,7 @@ export class PlotterDriver {
 
   private runEnded(): void {
     this.run = null;
-    if (this.carriage && !this.powerIsLow) this.tell({ connection: "idle" });
+    this.tell({ activity: "none", ...(this.carriage && !this.powerIsLow ? { connection: "idle" } : {}) });
     this.carriageChanged();
   }
 
@@ -325,12 +327,12 @@ export class PlotterDriver {
   private async byHand<T>(action: (carriage: Carriage) => Promise<T>): Promise<T> {
     const carriage = await this.idleCarriage();
     this.movingByHand = true;
-    this.tell({ connection: "busy" });
+    this.tell({ connection: "busy", activity: "moving" });
     try {
       return await action(carriage);
     } finally {
       this.movingByHand = false;
-      if (this.carriage && !this.powerIsLow) this.tell({ connection: "idle" });
+      this.tell({ activity: "none", ...(this.carriage && !this.powerIsLow ? { connection: "idle" } : {}) });
     }
   }
 

@@ -119,6 +119,8 @@ export const plotterSchema = z.object({
   /** Serial path, for people; null for the virtual board. */
   device: z.string().nullable(),
   connection: z.enum(["absent", "connecting", "idle", "busy", "fault"]),
+  /** What it is busy with; "held": a plot that waits, pen up. */
+  activity: z.enum(["none", "plotting", "held", "moving"]).default("none"),
   firmware: z.string().nullable(),
   /** What is wrong and what to do, or null. */
   message: z.string().nullable(),

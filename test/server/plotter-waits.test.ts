@@ -56,9 +56,11 @@ async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}
 
 describe("a plot with a change of pens", () => {
   it("waits at home with the pen up, says for which, and goes on when it is told", async () => {
-    const { world, board, run, held, nextHold, drawnRows } = await plotting();
+    const { world, driver, board, run, held, nextHold, drawnRows } = await plotting();
+    expect(driver.state.activity).toBe("plotting");
     await world.run(nextHold());
     expect(held).toEqual([[true, BLACK]]);
+    expect(driver.state.activity).toBe("held");
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true, isBusy: false });
     expect(drawnRows()).toEqual([10, 20, 30]);
     await world.advance(60);
@@ -71,6 +73,7 @@ describe("a plot with a change of pens", () => {
     ]);
     expect(drawnRows()).toEqual([10, 20, 30, 40, 50]);
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
   });
 
   it("tells the progress of the whole, to 1, with the waits left out", async () => {

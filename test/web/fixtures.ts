@@ -34,6 +34,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   firmware: "3.0.3",
   message: null,
   penUp: true,
+  activity: "none",
   motorsOn: false,
   xMm: 0,
   yMm: 0,

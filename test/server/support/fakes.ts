@@ -115,6 +115,7 @@ export class LedPlotter implements ManagedPlotter {
       firmware: "2.8.1",
       message: null,
       penUp: true,
+      activity: "none",
       motorsOn: false,
       xMm: 0,
       yMm: 0,

@@ -1,0 +1,58 @@
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { machineById, type MachineProfile, type PlotwrightError } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+/** All inputs of the virtual board are its button: one switch for both axes, pressed beyond these places. */
+const SWITCH_X_MM = -7.3;
+const SWITCH_Y_MM = -4.1;
+const HOMING = { port: "B", pin: 0, pressed: 0 } as const;
+const MACHINE: MachineProfile = {
+  ...machineById("axidraw-v3"),
+  id: "switched",
+  homing: { x: HOMING, y: HOMING },
+};
+const SETTINGS = { ...DEFAULT_PLOT_SETTINGS, machine: "switched", customMachine: MACHINE };
+
+async function newPlotter(pressed: (x: number, y: number) => boolean) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
+  await world.run(driver.start());
+  const board = driver.virtualBoard!;
+  board.onChange(() => {
+    const { xMm, yMm } = board.state();
+    board.holdButton(pressed(xMm, yMm));
+  });
+  return { world, driver, board };
+}
+
+describe("a machine with switches", () => {
+  it("finds home by them, each axis by itself, and counts from there", async () => {
+    let seen = { x: 0, y: 0 };
+    const { world, driver, board } = await newPlotter((x, y) => {
+      // Home sets the counters to 0: the last place before that is where it stands.
+      if (x !== 0 || y !== 0) seen = { x, y };
+      return x < SWITCH_X_MM || y < SWITCH_Y_MM;
+    });
+    await world.run(driver.home());
+    expect(driver.state).toMatchObject({ xMm: 0, yMm: 0, penUp: true, connection: "idle" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(Math.abs(seen.x - SWITCH_X_MM)).toBeLessThan(0.1);
+    expect(Math.abs(seen.y - SWITCH_Y_MM)).toBeLessThan(0.1);
+    await world.run(driver.walkTo(10, 5));
+    expect(driver.state).toMatchObject({ xMm: 10, yMm: 5 });
+  });
+
+  it("says so when no switch is met, or one stays pressed", async () => {
+    const failure = async (pressed: boolean): Promise<string> => {
+      const { world, driver } = await newPlotter(() => pressed);
+      return world
+        .run(driver.home())
+        .then(() => "done")
+        .catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+    };
+    expect(await failure(false)).toMatch(/^board-error: .* went 330 mm along x and met no switch/);
+    expect(await failure(true)).toMatch(/^board-error: The switch of x \(B0\) stays pressed/);
+  });
+});
