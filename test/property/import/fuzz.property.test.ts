@@ -2,8 +2,12 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importSvg } from "../../../src/import/import-svg.js";
+import { cpuS, endWhenOver } from "../../support/watchdog.js";
 
 const CASES = 10_000;
+/** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
+const LONGEST_S = 2;
+const HANGS_MS = 60_000;
 
 const SEEDS = [
   '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm" viewBox="0 0 100 80"><style>.a{stroke:red;fill:none}#b>g:not(.x){stroke-width:2px}</style><defs><symbol id="s" viewBox="0 0 9 9"><circle cx="4" cy="4" r="3"/></symbol><linearGradient id="l"><stop stop-color="#f00"/></linearGradient><clipPath id="c" clipPathUnits="objectBoundingBox"><circle cx=".5" cy=".5" r=".4"/></clipPath><marker id="m" orient="auto" viewBox="0 0 4 4"><path d="M0 0l4 2-4 2z"/></marker></defs><g id="b" transform="translate(5 5) rotate(30)"><use href="#s" x="3" width="20" height="20"/><path class="a" d="M0 0h10v10A5 5 0 01 3 4q1 2 3 4t5 5s1 2 3 4z" stroke-dasharray="1 2" marker-end="url(#m)"/></g><g clip-path="url(#c)"><rect x="10%" y="1cm" width="3em" height="20" rx="2" stroke="url(#l)"/><polygon points="1,2 3,4 5,6"/></g></svg>',
@@ -46,6 +50,14 @@ function mutate(text: string, below: (n: number) => number): string {
 }
 
 describe("importSvg on damaged files", () => {
+  it("would be ended if it hung", () => {
+    expect(() =>
+      endWhenOver(50, () => {
+        for (;;);
+      }),
+    ).toThrow(/timed out/);
+  });
+
   it(`neither crashes, nor hangs, nor lets a NaN through, ${CASES} times`, () => {
     let drawn = 0;
     let refused = 0;
@@ -53,7 +65,9 @@ describe("importSvg on damaged files", () => {
       const below = generator(i);
       const text = mutate(SEEDS[i % SEEDS.length], below);
       try {
-        const { paths, clips, widthMm, heightMm } = importSvg(text);
+        const mark = process.cpuUsage();
+        const { paths, clips, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importSvg(text));
+        expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
         expect(paths.coords.every(Number.isFinite), text).toBe(true);
         expect(
           clips.every((clip) => clip.coords.every(Number.isFinite)),
