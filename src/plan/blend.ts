@@ -64,7 +64,7 @@ export class BlendPlanner {
     this.roundCorners(path, limits);
     this.lookAhead(path, limits.accel);
     out.reserve(2 * n, n);
-    this.writeBlocks(path, limits.accel, out);
+    this.writeBlocks(path, limits, out);
   }
 
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */
@@ -119,7 +119,7 @@ export class BlendPlanner {
   }
 
   /** Pieces last: one parabola a corner, a trapezoid on each straight between. */
-  private writeBlocks(path: RunPath, accel: number, out: BlockColumns): void {
+  private writeBlocks(path: RunPath, { accel, floorS }: RunLimits, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
     const { tangent, cosine, vIn, vOut, straight } = this;
     let along = path.startAlong;
@@ -141,7 +141,7 @@ export class BlendPlanner {
         straight.ux = ex;
         straight.uy = ey;
         straight.alongMm = along + used;
-        writeStraight(straight, vOut[i]!, v0, Math.sqrt(cap2[i]!), accel, out);
+        writeStraight(straight, vOut[i]!, v0, Math.sqrt(cap2[i]!), accel, floorS, out);
       }
       along += length[i]!;
       used = v1 * tau;

@@ -1,7 +1,8 @@
 /** One run from rest to rest, in the mode and with the fit that the settings ask for. */
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
-import { PieceFitter } from "./fit-pieces.js";
+import { AccelerationFitter } from "./fit-accelerations.js";
+import { JerkFitter } from "./fit-jerks.js";
 import { writeJunctionRun } from "./junction.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
@@ -11,7 +12,7 @@ import type { FitSettings, MotionMode } from "./settings.js";
 export class RunWriter {
   private readonly blend = new BlendPlanner();
   private readonly sCurve = new SCurvePlanner();
-  private readonly fitter: PieceFitter | null;
+  private readonly fitter: AccelerationFitter | JerkFitter | null;
   /** The run before fitting. */
   private readonly unfitted: BlockColumns;
 
@@ -19,7 +20,7 @@ export class RunWriter {
     private readonly mode: MotionMode,
     fit: FitSettings | null,
   ) {
-    this.fitter = fit ? new PieceFitter(fit, mode) : null;
+    this.fitter = fit && (mode === "scurve" ? new JerkFitter(fit) : new AccelerationFitter(fit, mode));
     this.unfitted = new BlockColumns(0, mode === "scurve");
   }
 
@@ -47,7 +48,7 @@ export class RunWriter {
 }
 
 /** Room that a dense curve's plan leaves for the fit: pieces longer than its own swing a little around it. */
-const ACCEL_MARGIN = 0.95;
+const ACCEL_MARGIN = 0.96;
 const SPEED_MARGIN = 0.985;
 
 /** A segment passed in less than this is a sample of a curve, s. */

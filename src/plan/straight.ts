@@ -5,6 +5,7 @@
  * The caller's look-ahead has made sure that |v1² − v0²| ≤ 2 A d.
  */
 import type { BlockColumns } from "./block-columns.js";
+import { keepFloor, type Phases } from "./floor-phases.js";
 
 /** A change of speed² below this share of it, or a cruise below this share of the piece, is rounding. */
 const NEGLIGIBLE = 1e-11;
@@ -19,13 +20,17 @@ export interface Straight {
   length: number;
 }
 
-/** Appends the blocks that take `piece` from speed `v0` to speed `v1` under `maxSpeed` and `accel`. */
+/**
+ * Appends the blocks that take `piece` from speed `v0` to speed `v1` under `maxSpeed` and `accel`, none of them
+ * shorter than `floorS` seconds where that can be helped.
+ */
 export function writeStraight(
   piece: Straight,
   v0: number,
   v1: number,
   maxSpeed: number,
   accel: number,
+  floorS: number,
   out: BlockColumns,
 ): void {
   const l = piece.length;
@@ -34,8 +39,21 @@ export function writeStraight(
   const least2 = NEGLIGIBLE * peak2;
   const rise = peak2 - v0 * v0 > least2 ? (peak2 - v0 * v0) / (2 * accel) : 0;
   const fall = peak2 - v1 * v1 > least2 ? (peak2 - v1 * v1) / (2 * accel) : 0;
+  phases.peak = rise > 0 || fall > 0 ? Math.sqrt(peak2) : Math.max(v0, v1);
+  phases.rise = rise;
+  phases.fall = fall;
+  if (floorS > 0 && (rise > 0 || fall > 0)) keepFloor(l, v0, v1, accel, floorS, phases);
+  writePhases(piece, v0, v1, out);
+}
+
+/** Filled anew for every piece. */
+const phases: Phases = { peak: 0, rise: 0, fall: 0 };
+
+/** Each phase ends where the next begins, and the last where the piece does: rounding opens no gap. */
+function writePhases(piece: Straight, v0: number, v1: number, out: BlockColumns): void {
+  const { peak, rise, fall } = phases;
+  const l = piece.length;
   const cruises = l - rise - fall > NEGLIGIBLE * l;
-  const peak = Math.sqrt(peak2);
   let done = 0;
   let w = v0;
   if (rise > 0 && (fall > 0 || cruises)) {

@@ -1,0 +1,434 @@
+/**
+ * Fewer, longer pieces of constant acceleration: the fit of `junction` and `blend` plans, so that the board gets a
+ * command every 50 to 400 ms on a curve instead of one every few ms.
+ *
+ *   plan     |--|-|--|-|-|--|------------------|--|-|-|--|-|            blocks
+ *   pieces   |------|-------|------------------|-----|-----|
+ *            steady … , pair   kept             pair
+ *
+ * steady  one piece from wherever the last one ended, found by least squares (steady-piece.ts), as long as ε allows.
+ *         It need not end on the plan; τ, the instant of the plan that it has come to, is where the plan is nearest.
+ * pair    two pieces that end in the plan's own state at the end of a block. With T the time they take and m the
+ *         velocity between them:  m = 2 Δp/T − (v0 + v1)/2,  a1 = 2 (m − v0)/T,  a2 = 2 (v1 − m)/T
+ * kept    a block as planned: long, or a sharp corner, or where nothing else holds. Only from a state of the plan's.
+ *
+ * Where nothing goes on from a state beside the plan's, pieces are taken back until a pair leads onto the plan.
+ *
+ * Two parabolas for an arc are slower in the middle of each than at their ends. At full speed pieces may
+ * therefore take up to LATER of the plan's time, so that V holds at their ends.
+ *
+ * Kept: wherever it is looked at (`isNear`) the pieces are within ε of the planned line, beside it; along the line
+ * they may run ahead or behind a little (`isBeside`). |a| ≤ A and |v| ≤ V within 0.1 %. Jumps of velocity at the
+ * vertices of `junction` plans stay at the ends of pieces only.
+ */
+import type { BlockColumns } from "./block-columns.js";
+import { FitSource, isBeside } from "./fit-source.js";
+import type { RunLimits } from "./limits.js";
+import type { FitSettings, MotionMode } from "./settings.js";
+import { SteadyPiece, type PieceStart } from "./steady-piece.js";
+import { SLACK } from "./three-jerks.js";
+
+/** Share of ε that the places looked at may use: between them the distance can be a little more. */
+const BETWEEN = 0.985;
+
+/** Share of ε that a steady piece aims at: it is looked at less closely there. */
+const AIM = 0.92;
+
+/** Longest piece, s: older boards cannot be stopped within one. */
+const LONGEST_S = 0.4;
+
+/** Longer blocks are kept as they are. */
+const KEPT_S = 0.2;
+
+/** So are blocks that turn the velocity by more than this, by its cosine. */
+const SHARP = 0.755;
+
+/** Pieces may take so much more time than the plan. */
+const LATER = 1.03;
+
+/** What knots may use of the slack that limits have. */
+const HARDLY = 1.0004;
+
+/** Trials for one steady piece's length, and the length of the first piece of a run, s. */
+const TRIALS = 8;
+const FIRST_S = 0.06;
+
+/** The distance is looked at so many times at least, for a piece or a pair. */
+const LOOKS = 16;
+
+/** A steady piece is long enough when it comes to this share of ε. */
+const ENOUGH = 0.85;
+
+/** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
+const PAIR_TRIALS = 8;
+const LONG_PAIRS = 4;
+
+interface Link extends PieceStart {
+  readonly isPlanned: boolean;
+  readonly count: number;
+  readonly clockS: number;
+}
+
+export class AccelerationFitter {
+  private readonly source = new FitSource();
+  private readonly steady: SteadyPiece;
+  private limits!: RunLimits;
+  private out!: BlockColumns;
+  /** v² times the line's bend is at most this; at a vertex of a `junction` plan it bends in no time. */
+  private bend = 0;
+  /** Where the next piece begins; whether that is the plan's own state at the beginning of block k. */
+  private readonly at: PieceStart = { k: 0, tau: 0, x: 0, y: 0, vx: 0, vy: 0 };
+  private isPlanned = true;
+  /** First block that is to be kept, at or after `at.k`. */
+  private anchor = 0;
+  private guess = FIRST_S;
+  /** Steady pieces since the last planned state. */
+  private readonly chain: Link[] = [];
+  /** The piece or pair that was found last: durations and accelerations. */
+  private h1 = 0;
+  private h2 = 0;
+  private a1x = 0;
+  private a1y = 0;
+  private a2x = 0;
+  private a2y = 0;
+
+  constructor(
+    private readonly settings: FitSettings,
+    private readonly mode: MotionMode,
+  ) {
+    this.steady = new SteadyPiece(mode !== "junction");
+  }
+
+  /** Appends the run in `from` (all of its blocks, ending at the given place) to `out` in fewer pieces. */
+  write(
+    from: BlockColumns,
+    limits: RunLimits,
+    endX: number,
+    endY: number,
+    endAlong: number,
+    segments: number,
+    out: BlockColumns,
+  ): void {
+    this.source.set(from, endX, endY, endAlong);
+    this.limits = limits;
+    this.bend = this.mode === "junction" ? Infinity : limits.accel;
+    this.out = out;
+    out.reserve(Math.min(from.count, segments), segments);
+    this.chain.length = 0;
+    this.anchor = 0;
+    this.guess = FIRST_S;
+    this.startPlanned(0);
+    // Up to here only pairs and kept blocks: steady pieces have led nowhere.
+    let calm = 0;
+    while (this.at.k < from.count) {
+      this.findAnchor();
+      if (this.isPlanned && this.at.k === this.anchor) this.keep();
+      else if (this.reachAnchor()) continue;
+      else if (!(this.at.k >= calm && this.advance()) && !this.join()) {
+        if (this.isPlanned) this.keep();
+        else calm = Math.max(calm, this.goBack());
+      }
+    }
+  }
+
+  /** Writes a pair to the block that is kept next, where that is no farther than two pieces like the last one. */
+  private reachAnchor(): boolean {
+    const left = this.source.startOf(this.anchor) - this.at.tau;
+    if (left > 2.1 * this.guess || (this.isPlanned && this.anchor < this.at.k + 2)) return false;
+    if (!this.tryPair(this.anchor)) return false;
+    this.writePair(this.anchor);
+    return true;
+  }
+
+  /** The next block to be kept whatever happens: a long one or a sharp corner. */
+  private findAnchor(): void {
+    const { durationS, vx, vy, ax, ay, count } = this.source.blocks;
+    let k = Math.max(this.anchor, this.at.k);
+    for (; k < count; k++) {
+      const d = durationS[k]!;
+      if (d >= KEPT_S) break;
+      const wx = vx[k]! + d * ax[k]!;
+      const wy = vy[k]! + d * ay[k]!;
+      const along = vx[k]! * wx + vy[k]! * wy;
+      const both2 = (vx[k]! * vx[k]! + vy[k]! * vy[k]!) * (wx * wx + wy * wy);
+      if (along < 0 || along * along < SHARP * SHARP * both2) break;
+    }
+    this.anchor = k;
+  }
+
+  /** Writes the longest steady piece that is found; false where there is none worth it. */
+  private advance(): boolean {
+    const { at, source } = this;
+    const left = source.startOf(this.anchor) - at.tau;
+    const floor = this.settings.floorMs / 1000;
+    const least = Math.max(floor, source.startOf(at.k + 1) - at.tau);
+    let most = Math.min(LONGEST_S, left > 3 * this.guess ? left / 2 : left / 3);
+    while (most >= least) {
+      const h = this.longest(Math.min(this.guess, most), least, most);
+      if (h === 0) return false;
+      this.h1 = h;
+      if (this.isNear(Infinity)) {
+        this.guess = h;
+        this.writeSteady();
+        return true;
+      }
+      most = 0.88 * h;
+    }
+    return false;
+  }
+
+  /** Duration of the longest steady piece found between `least` and `most`, its acceleration left in a1; or 0. */
+  private longest(first: number, least: number, most: number): number {
+    let h = Math.max(first, least);
+    let best = 0;
+    let [bestX, bestY] = [0, 0];
+    for (let trial = 0; trial < TRIALS; trial++) {
+      const share = this.tryPiece(h);
+      const change = 1 / Math.cbrt(Math.max(share, 0.01));
+      if (share <= 1) {
+        best = h;
+        bestX = this.a1x;
+        bestY = this.a1y;
+        if (share > ENOUGH || h >= most) break;
+        h = Math.min(most, h * Math.min(2, Math.max(1.1, 0.9 * change)));
+      } else {
+        if (best > 0 || h <= least) break;
+        h = Math.max(least, h * Math.max(0.4, Math.min(0.8, 0.85 * change)));
+      }
+    }
+    this.a1x = bestX;
+    this.a1y = bestY;
+    return best;
+  }
+
+  /** One trial: the distance from the line as a share of what is allowed; 2 where a limit is broken. */
+  private tryPiece(h: number): number {
+    const { at, steady, limits } = this;
+    steady.solve(this.source.blocks, at, h);
+    let vx = at.vx + h * steady.ax;
+    let vy = at.vy + h * steady.ay;
+    const v = Math.sqrt(vx * vx + vy * vy);
+    if (!(v < Infinity)) return 8;
+    const less = v > limits.speed * HARDLY ? (limits.speed * HARDLY) / v : 1;
+    vx *= less;
+    vy *= less;
+    this.a1x = (vx - at.vx) / h;
+    this.a1y = (vy - at.vy) / h;
+    if (this.a1x * this.a1x + this.a1y * this.a1y > (limits.accel * SLACK) ** 2) return 2;
+    if (!this.keepsSpeed(vx, vy)) return 2;
+    return steady.beside / (AIM * this.settings.toleranceMm);
+  }
+
+  private writeSteady(): void {
+    const { at, h1: h, source } = this;
+    this.chain.push({ ...at, isPlanned: this.isPlanned, count: this.out.count, clockS: this.out.clockS });
+    this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
+    this.isPlanned = false;
+    // τ goes to where the plan is nearest.
+    const { x, y, vx, vy, ax, ay, startS } = source.blocks;
+    const end = source.startOf(this.anchor);
+    let tau = at.tau + h;
+    let k = at.k;
+    while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
+    const d = tau - startS[k]!;
+    const wx = vx[k]! + d * ax[k]!;
+    const wy = vy[k]! + d * ay[k]!;
+    const px = x[k]! + (d * (vx[k]! + wx)) / 2;
+    const py = y[k]! + (d * (vy[k]! + wy)) / 2;
+    const w2 = wx * wx + wy * wy;
+    if (w2 > 0) tau += ((at.x - px) * wx + (at.y - py) * wy) / w2;
+    tau = Math.min(Math.max(tau, at.tau + h / 2), end - h / 2);
+    while (k > at.k && startS[k]! > tau) k--;
+    while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
+    at.tau = tau;
+    at.k = k;
+  }
+
+  /** Writes a pair that ends as planned, at the anchor or before it; false where none holds. */
+  private join(): boolean {
+    const { at, source } = this;
+    const floor = this.settings.floorMs / 1000;
+    const reach = at.tau + 2 * Math.min(LONGEST_S, 1.5 * this.guess);
+    let m = at.k + 1;
+    while (m < this.anchor && source.startOf(m) <= reach) m++;
+    const least = at.k + (this.isPlanned ? 2 : 1);
+    for (let trial = 0; trial < PAIR_TRIALS && m >= least; trial++) {
+      if (source.startOf(m) - at.tau < 2 * floor) break;
+      if (this.tryPair(m)) {
+        this.writePair(m);
+        return true;
+      }
+      m = Math.min(m - 1, at.k + Math.floor(0.7 * (m - at.k)));
+    }
+    return false;
+  }
+
+  private tryPair(m: number): boolean {
+    const { at, source, limits } = this;
+    const { durationS, vx, vy, ax, ay } = source.blocks;
+    const length = source.startOf(m) - at.tau;
+    if (!(length > 0) || length > 2 * LONGEST_S) return false;
+    const d = durationS[m - 1]!;
+    const vx1 = vx[m - 1]! + d * ax[m - 1]!;
+    const vy1 = vy[m - 1]! + d * ay[m - 1]!;
+    const dx = source.xOf(m) - at.x;
+    const dy = source.yOf(m) - at.y;
+    const sx = (at.vx + vx1) / 2;
+    const sy = (at.vy + vy1) / 2;
+    let T = length;
+    let mx = (2 * dx) / T - sx;
+    let my = (2 * dy) / T - sy;
+    const most2 = (limits.speed * HARDLY) ** 2;
+    if (mx * mx + my * my > most2) {
+      // The latest T for which |2 Δp / T − s| = V.
+      const d2 = dx * dx + dy * dy;
+      const along = dx * sx + dy * sy;
+      const root = along * along - d2 * (sx * sx + sy * sy - most2);
+      if (!(root >= 0)) return false;
+      T = (2 * d2) / (along + Math.sqrt(root));
+      if (!(T <= length * LATER)) return false;
+      mx = (2 * dx) / T - sx;
+      my = (2 * dy) / T - sy;
+    }
+    if (!this.keepsSpeed(mx, my)) return false;
+    const h = T / 2;
+    this.h1 = this.h2 = h;
+    this.a1x = (mx - at.vx) / h;
+    this.a1y = (my - at.vy) / h;
+    this.a2x = (vx1 - mx) / h;
+    this.a2y = (vy1 - my) / h;
+    const most = (limits.accel * SLACK) ** 2;
+    if (this.a1x * this.a1x + this.a1y * this.a1y > most) return false;
+    if (this.a2x * this.a2x + this.a2y * this.a2y > most) return false;
+    return this.isNear(length);
+  }
+
+  private writePair(m: number): void {
+    const { at, out, source, chain } = this;
+    const first = chain[0] ?? { k: at.k, count: out.count, clockS: out.clockS };
+    if (this.isWorth(first.k, m, out.count + 2 - first.count)) {
+      const length = source.startOf(m) - at.tau;
+      this.push(this.h1, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
+      const half = at.tau + length / 2;
+      let k = at.k;
+      while (k + 1 < m && source.startOf(k + 1) <= half) k++;
+      this.push(this.h2, this.a2x, this.a2y, source.alongAt(k, half));
+    } else {
+      out.count = first.count;
+      out.clockS = first.clockS;
+      for (let k = first.k; k < m; k++) source.copy(k, out);
+    }
+    this.startPlanned(m);
+  }
+
+  /** Whether so many pieces for blocks [k, m) are fewer; or as many, where that leaves fewer short ones. */
+  private isWorth(k: number, m: number, pieces: number): boolean {
+    if (pieces !== m - k) return pieces < m - k;
+    const { durationS } = this.source.blocks;
+    const floor = this.settings.floorMs / 1000;
+    for (let i = k; i < m; i++) if (durationS[i]! < floor) return true;
+    return false;
+  }
+
+  /** Takes back steady pieces until a pair leads onto the plan; returns up to where that has been tried. */
+  private goBack(): number {
+    const { at, out, chain, source } = this;
+    const floor = this.settings.floorMs / 1000;
+    const tried = at.k + 1;
+    let far = Math.min(tried, this.anchor);
+    for (let taken = 0; chain.length > 0; taken++) {
+      const { count, clockS, isPlanned, ...state } = chain.pop()!;
+      Object.assign(at, state);
+      out.count = count;
+      out.clockS = clockS;
+      this.isPlanned = isPlanned;
+      while (source.startOf(far) > at.tau + 2 * LONGEST_S) far--;
+      for (let m = far; m > at.k + 1; m--) {
+        if (taken < LONG_PAIRS && source.startOf(m) - at.tau < 2 * floor) break;
+        if (!this.tryPair(m)) continue;
+        this.writePair(m);
+        return at.k;
+      }
+    }
+    return tried;
+  }
+
+  private keep(): void {
+    this.source.copy(this.at.k, this.out);
+    this.startPlanned(this.at.k + 1);
+  }
+
+  private startPlanned(k: number): void {
+    const { at, source } = this;
+    const { blocks } = source;
+    this.chain.length = 0;
+    this.isPlanned = true;
+    at.k = k;
+    at.tau = source.startOf(k);
+    at.x = source.xOf(k);
+    at.y = source.yOf(k);
+    at.vx = k < blocks.count ? blocks.vx[k]! : 0;
+    at.vy = k < blocks.count ? blocks.vy[k]! : 0;
+  }
+
+  /** Writes one piece and goes to its end. */
+  private push(h: number, ax: number, ay: number, along: number): void {
+    const { at } = this;
+    this.out.push(h, at.x, at.y, at.vx, at.vy, ax, ay, along);
+    at.x += h * (at.vx + (h * ax) / 2);
+    at.y += h * (at.vy + (h * ay) / 2);
+    at.vx += h * ax;
+    at.vy += h * ay;
+  }
+
+  /** Speed runs straight between a piece's ends, and both limits are convex: the ends tell. */
+  private keepsSpeed(vx: number, vy: number): boolean {
+    const { speed, motorSpeed, mixed } = this.limits;
+    const ax = Math.abs(vx);
+    const ay = Math.abs(vy);
+    const motor = mixed ? ax + ay : ax > ay ? ax : ay;
+    return vx * vx + vy * vy <= (speed * SLACK) ** 2 && motor <= motorSpeed * SLACK;
+  }
+
+  /**
+   * Compares the pieces with the plan: twice in every block that they replace, and about LOOKS times at least.
+   *
+   * @param length how much of the plan's time the pair stands for; Infinity: one steady piece of h1 seconds
+   */
+  private isNear(length: number): boolean {
+    const { at, source } = this;
+    const { blocks } = source;
+    const isPair = length < Infinity;
+    const end = at.tau + (isPair ? length : this.h1);
+    const stretch = isPair ? (this.h1 + this.h2) / length : 1;
+    const most = BETWEEN * this.settings.toleranceMm;
+    const often = LOOKS / (end - at.tau);
+    for (let i = at.k; i < blocks.count; i++) {
+      const start = blocks.startS[i]!;
+      if (start >= end) break;
+      const d = blocks.durationS[i]!;
+      const looks = d * often > 2.5 ? Math.round(d * often) : 2;
+      for (let look = 0; look < looks; look++) {
+        const u = (d * look) / looks;
+        const t = start + u - at.tau;
+        if (t <= 0) continue;
+        if (start + u >= end) break;
+        const vx = blocks.vx[i]! + u * blocks.ax[i]!;
+        const vy = blocks.vy[i]! + u * blocks.ay[i]!;
+        const x = blocks.x[i]! + (u * (blocks.vx[i]! + vx)) / 2;
+        const y = blocks.y[i]! + (u * (blocks.vy[i]! + vy)) / 2;
+        if (!this.isNearTo(t * stretch, x, y, vx, vy, most)) return false;
+      }
+    }
+    return true;
+  }
+
+  /** Whether the pieces `t` seconds after their start are near enough to (x, y), which moves at (vx, vy). */
+  private isNearTo(t: number, x: number, y: number, vx: number, vy: number, most: number): boolean {
+    const { at } = this;
+    const u = t > this.h1 ? t - this.h1 : 0;
+    const dx = at.x + t * at.vx + (this.a1x * t * t + (this.a2x - this.a1x) * u * u) / 2 - x;
+    const dy = at.y + t * at.vy + (this.a1y * t * t + (this.a2y - this.a1y) * u * u) / 2 - y;
+    return isBeside(dx, dy, vx, vy, most, this.bend);
+  }
+}

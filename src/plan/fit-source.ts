@@ -1,0 +1,79 @@
+/** A planned run as the fit reads it: its blocks in columns, and where it ends at rest. */
+import type { BlockColumns } from "./block-columns.js";
+
+export class FitSource {
+  blocks!: BlockColumns;
+  private endX = 0;
+  private endY = 0;
+  private endAlong = 0;
+
+  /** All blocks in `blocks`, which starts its clock at 0, ending at the given place. */
+  set(blocks: BlockColumns, endX: number, endY: number, endAlong: number): void {
+    this.blocks = blocks;
+    this.endX = endX;
+    this.endY = endY;
+    this.endAlong = endAlong;
+  }
+
+  /** Start of block k, s; of the one after the last: the run's end. */
+  startOf(k: number): number {
+    return k < this.blocks.count ? this.blocks.startS[k]! : this.blocks.clockS;
+  }
+
+  xOf(k: number): number {
+    return k < this.blocks.count ? this.blocks.x[k]! : this.endX;
+  }
+
+  yOf(k: number): number {
+    return k < this.blocks.count ? this.blocks.y[k]! : this.endY;
+  }
+
+  /** mm along the source polyline at an instant of block k. */
+  alongAt(k: number, clock: number): number {
+    const { blocks } = this;
+    const next = k + 1 < blocks.count ? blocks.alongMm[k + 1]! : this.endAlong;
+    const share = (clock - this.startOf(k)) / blocks.durationS[k]!;
+    return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * Math.min(1, Math.max(0, share));
+  }
+
+  /** Appends block k as it is. */
+  copy(k: number, out: BlockColumns): void {
+    const { blocks: f } = this;
+    const jx = f.jx ? f.jx[k]! : 0;
+    const jy = f.jy ? f.jy[k]! : 0;
+    out.pushJerk(
+      f.durationS[k]!,
+      f.x[k]!,
+      f.y[k]!,
+      f.vx[k]!,
+      f.vy[k]!,
+      f.ax[k]!,
+      f.ay[k]!,
+      jx,
+      jy,
+      f.alongMm[k]!,
+    );
+  }
+}
+
+/** Pieces may run ahead or behind by so much that the line's bend on that way is within half of this share of ε. */
+const AHEAD = 0.3;
+
+/**
+ * Whether a place (dx, dy) away from one on the line, which is passed at (vx, vy) under at most `accel`, is within
+ * `most` mm of the line: at once, or early or late on it, where the line bends by no more than A/v² a mm.
+ */
+export function isBeside(
+  dx: number,
+  dy: number,
+  vx: number,
+  vy: number,
+  most: number,
+  accel: number,
+): boolean {
+  const d2 = dx * dx + dy * dy;
+  if (d2 <= most * most) return true;
+  const v2 = vx * vx + vy * vy;
+  const across = dx * vy - dy * vx;
+  return d2 * accel <= AHEAD * most * v2 && across * across <= most * most * v2;
+}

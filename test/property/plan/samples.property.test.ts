@@ -1,0 +1,44 @@
+/** What holds for random drawings, on the real ones that come with plotwright: looked at every few milliseconds. */
+import { readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_FIT,
+  DEFAULT_PEN,
+  DEFAULT_PREPARE,
+  importSvg,
+  MOTION_MODES,
+  plan,
+  prepare,
+} from "../../../src/index.js";
+import { worstOf } from "../../support/trajectory-checks.js";
+
+const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
+const samples = readdirSync(FOLDER).filter((name) => name.endsWith(".svg"));
+const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
+const travel = { speedMmPerS: 150, accelMmPerS2: 1_000, cornerMm: 0.5, jerkMmPerS3: 20_000 };
+const WAYS = MOTION_MODES.flatMap((mode) => [
+  { name: mode, mode, fit: null },
+  { name: `${mode}, fitted`, mode, fit: DEFAULT_FIT },
+]);
+
+describe.each(samples)("the sample %s", (file) => {
+  const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
+
+  it.each(WAYS)("is drawn within all limits and without a gap in mode $name", ({ mode, fit }) => {
+    const trajectory = plan(strokes, { mode, draw, travel, fit }, DEFAULT_PEN);
+    const allowed = (mode === "junction" ? 0 : draw.cornerMm) + (fit ? fit.toleranceMm : 0);
+    const worst = worstOf(trajectory, strokes, draw, travel, allowed);
+    expect(worst.finite).toBe(true);
+    expect(worst.speed).toBeLessThanOrEqual(1.001);
+    expect(worst.accel).toBeLessThanOrEqual(1.001);
+    expect(worst.restSpeed).toBeLessThan(1e-6);
+    expect(worst.gap).toBeLessThanOrEqual(1e-9);
+    expect(worst.clock).toBeLessThanOrEqual(1e-9 * trajectory.totalS);
+    expect(worst.distance).toBeLessThanOrEqual(allowed + 2e-6);
+    if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(1e-6);
+    if (mode !== "scurve") return;
+    expect(worst.jerk).toBeLessThanOrEqual(1.001);
+    expect(worst.accelJump).toBeLessThan(1e-2);
+  });
+});
