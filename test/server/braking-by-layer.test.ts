@@ -1,0 +1,76 @@
+/** A stop in the middle of a stroke is made with the acceleration of that stroke's layer, whatever the others have. */
+import { describe, expect, it } from "vitest";
+import { comeToRest, DEFAULT_PEN, plan, stateAt, type StrokeSet, type Trajectory } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { RunSettings } from "../../server/plotter/run-settings.js";
+
+const ACCEL = { slow: 90, plain: 500, quick: 2_000 } as const;
+const LAYERS = ["slow", "plain", "quick"] as const;
+
+/** A long line and a circle in each layer. */
+const SHAPES = LAYERS.flatMap((_, layer) => {
+  const circle = Array.from({ length: 181 }, (_unused, i) => {
+    const angle = (i / 90) * Math.PI;
+    return [60 + 20 * Math.cos(angle), 40 + 45 * layer + 20 * Math.sin(angle)];
+  });
+  return [
+    { layer, xy: [10, 20 + 45 * layer, 130, 20 + 45 * layer] },
+    { layer, xy: circle.flat() },
+  ];
+});
+const STROKES: StrokeSet = {
+  xy: Float64Array.from(SHAPES.flatMap(({ xy }) => xy)),
+  offsets: Uint32Array.from([
+    0,
+    ...SHAPES.map((_, i) => SHAPES.slice(0, i + 1).flatMap((s) => s.xy).length / 2),
+  ]),
+  layer: Uint16Array.from(SHAPES, ({ layer }) => layer),
+  layers: LAYERS.map((id) => ({ id, name: id, color: null })),
+};
+const MOTION = {
+  ...DEFAULT_PLOT_SETTINGS.motion,
+  draw: { ...DEFAULT_PLOT_SETTINGS.motion.draw, speedMmPerS: 120, accelMmPerS2: ACCEL.plain },
+  layers: { slow: { accelMmPerS2: ACCEL.slow }, quick: { accelMmPerS2: ACCEL.quick } },
+};
+
+const mostAccel = ({ blockCount, ax, ay }: Trajectory): number => {
+  let most = 0;
+  for (let k = 0; k < blockCount; k++) most = Math.max(most, Math.hypot(ax[k]!, ay[k]!));
+  return most;
+};
+
+describe("a stop in the middle of a stroke", () => {
+  const settings = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES);
+  const trajectory = plan(STROKES, MOTION, DEFAULT_PEN);
+  const { runs } = trajectory;
+
+  it.each(SHAPES.map(({ layer }, stroke) => [stroke, LAYERS[layer]!] as const))(
+    "uses the acceleration of stroke %i's layer (%s), all of it and no more",
+    (stroke, layer) => {
+      const run = [...runs.stroke].indexOf(stroke);
+      const lastBlock = runs.firstBlock[run + 1]! - 1;
+      const fromS = runs.startS[run]!;
+      const untilS = trajectory.startS[lastBlock]! + trajectory.durationS[lastBlock]!;
+      let most = 0;
+      for (let i = 1; i < 60; i++) {
+        const tS = fromS + ((untilS - fromS) * i) / 60;
+        const { alongMm } = stateAt(trajectory, tS);
+        const { limits } = settings.at({ stroke, alongMm });
+        const stop = comeToRest(trajectory, tS, limits, null);
+        most = Math.max(most, mostAccel(stop.trajectory));
+        const end = stateAt(trajectory, stop.planS);
+        expect(Math.hypot(stop.trajectory.endX - end.x, stop.trajectory.endY - end.y)).toBeLessThan(1e-9);
+      }
+      expect(most).toBeLessThanOrEqual(1.001 * ACCEL[layer]);
+      expect(most).toBeGreaterThan(0.95 * ACCEL[layer]);
+    },
+  );
+
+  it("on the way between strokes uses that of travel", () => {
+    expect(settings.at(null).limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);
+    const travel = [...runs.stroke].findIndex((stroke, run) => stroke < 0 && run > 0);
+    const tS = runs.startS[travel]! + 0.1;
+    const stop = comeToRest(trajectory, tS, settings.at(null).limits, null);
+    expect(mostAccel(stop.trajectory)).toBeLessThanOrEqual(1.001 * MOTION.travel.accelMmPerS2);
+  });
+});
