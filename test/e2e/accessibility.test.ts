@@ -1,9 +1,10 @@
 /** The page under axe's rules (WCAG 2.2 A and AA), in each state that looks different, light and dark, desk and phone. */
-import axe from "axe-core";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
 import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import { PAGE_STATES, inState, type Look } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("accessibility");
@@ -27,21 +28,6 @@ async function openPage(width: number, height: number, colorScheme: "light" | "d
   await page.goto(server.url);
   await waitForPlan(page);
   return page;
-}
-
-/** Serious and critical findings, one line each: rule, and the elements it is about. */
-async function findingsOn(page: Page): Promise<string[]> {
-  await page.evaluate(axe.source);
-  const { violations } = await page.evaluate(() =>
-    (window as unknown as { axe: typeof axe }).axe.run(document, {
-      runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
-    }),
-  );
-  return violations
-    .filter(({ impact }) => impact === "serious" || impact === "critical")
-    .map(
-      ({ id, help, nodes }) => `${id}: ${help} (${nodes.map(({ target }) => target.join(" ")).join(", ")})`,
-    );
 }
 
 /** Opens every folded group of settings, so that what is in it is looked at too. */
@@ -85,7 +71,7 @@ describe("axe finds nothing serious", () => {
   ] as const)("on the first visit at %i × %i, %s", async (width, height, scheme) => {
     const page = await openPage(width, height, scheme);
     await unfold(page);
-    expect(await findingsOn(page)).toEqual([]);
+    expect(await seriousFindings(page)).toEqual([]);
     await page.context().close();
   });
 
@@ -99,9 +85,20 @@ describe("axe finds nothing serious", () => {
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await dropFile(page, "torn.svg", "<svg><path");
     await page.getByText(/torn/).first().waitFor();
-    expect(await findingsOn(page)).toEqual([]);
+    expect(await seriousFindings(page)).toEqual([]);
     await queuePanel(page).getByRole("button", { name: "Cancel" }).click();
-    expect(await findingsOn(page)).toEqual([]);
+    expect(await seriousFindings(page)).toEqual([]);
     await page.context().close();
+  });
+});
+
+describe("axe finds nothing serious in any state of the page", () => {
+  const look: Look = { name: "phone", width: 390, height: 844, colorScheme: "light" };
+  it.each(PAGE_STATES.map((state) => [state.name, state] as const))("%s", async (_name, state) => {
+    await inState(browser, state, look, async (page) => {
+      expect(await seriousFindings(page)).toEqual([]);
+      const widthPx = await page.evaluate(() => document.documentElement.scrollWidth);
+      expect(widthPx).toBeLessThanOrEqual(look.width);
+    });
   });
 });

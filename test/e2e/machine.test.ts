@@ -15,7 +15,7 @@ let page: Page;
 
 beforeAll(async () => {
   browser = await launchBrowser();
-  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 4 });
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2 });
   page = await (await browser.newContext({ viewport: { width: 1280, height: 720 } })).newPage();
   page.setDefaultTimeout(20_000);
   await page.goto(server.url);

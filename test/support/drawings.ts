@@ -108,7 +108,7 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
 }
 
 /** A sheet of ruled lines: little to draw on a screen, minutes to plot. */
-export const ruledSheet = (lineCount = 40): string => {
+export const ruledSheet = (lineCount = 120): string => {
   const lines = Array.from(
     { length: lineCount },
     (_, i) => `<path d="M5 ${5 + (i * 130) / lineCount}h190"/>`,

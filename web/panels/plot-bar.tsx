@@ -4,6 +4,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
+import { NumberField } from "../ui/number-field.js";
 
 const words = text.plot;
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
@@ -76,25 +77,23 @@ const Buttons = () => {
       >
         {words.plot}
       </button>
-      <span className="queue-buttons">
-        <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing(copies)}>
-          {words.addToQueue}
-        </button>
-        <select
-          aria-label={words.copies}
-          title={words.copies}
-          value={copies}
-          disabled={isOff}
-          onChange={(event) => setCopies(Number(event.target.value))}
-        >
-          {Array.from({ length: MAX_COPIES }, (_, index) => (
-            <option key={index} value={index + 1}>
-              × {index + 1}
-            </option>
-          ))}
-        </select>
-      </span>
+      <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing(copies)}>
+        {copies === 1 ? words.addToQueue : words.addCopies(copies)}
+      </button>
       <SaveToJob isOff={isOff} />
+      <div className="copies">
+        <NumberField
+          label={words.copies}
+          value={copies}
+          unit="×"
+          min={1}
+          max={MAX_COPIES}
+          step={1}
+          digits={0}
+          disabled={isOff}
+          onChange={(count) => setCopies(Math.round(count))}
+        />
+      </div>
       <Words isSending={isSending} isBusy={isActive && isLinked} />
     </div>
   );

@@ -159,6 +159,7 @@ export const en = {
     addToQueue: "Add to queue",
     queueBusy: "The plotter is busy: this drawing goes to the end of the queue.",
     copies: "Copies",
+    addCopies: (count: number) => `Add ${count} to queue`,
     sending: "Sending it; the server works out every move. A large drawing takes a while.",
     saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
     saved: (name: string) => `${name} has the new settings.`,

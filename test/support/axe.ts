@@ -1,0 +1,18 @@
+/** axe's rules (WCAG 2.2 A and AA, and its best practices) on the page as it stands. */
+import axe from "axe-core";
+import type { Page } from "playwright-core";
+
+/** Serious and critical findings, one line each: rule, and the elements it is about. */
+export async function seriousFindings(page: Page): Promise<string[]> {
+  await page.evaluate(axe.source);
+  const { violations } = await page.evaluate(() =>
+    (window as unknown as { axe: typeof axe }).axe.run(document, {
+      runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+    }),
+  );
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(
+      ({ id, help, nodes }) => `${id}: ${help} (${nodes.map(({ target }) => target.join(" ")).join(", ")})`,
+    );
+}

@@ -1,0 +1,252 @@
+/** Every state that the page can be seen in, and how a user gets it there: for screenshots and accessibility checks. */
+import { readFileSync } from "node:fs";
+import path from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { ROOT } from "../../scripts/setup.mjs";
+import { ruledSheet } from "./drawings.js";
+import { dropFile, historyPanel, openTab, plotBar, queuePanel, waitForPlan } from "./page-actions.js";
+import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
+
+export interface Look {
+  readonly name: string;
+  readonly width: number;
+  readonly height: number;
+  readonly colorScheme: "light" | "dark";
+}
+
+interface Stand {
+  readonly page: Page;
+  readonly server: ServerProcess;
+  /** Another server in the place of one that ended. */
+  restart(): Promise<void>;
+}
+
+export interface PageState {
+  readonly name: string;
+  readonly virtualSpeed?: number;
+  /** Instead of the virtual board. */
+  readonly device?: string;
+  reach(stand: Stand): Promise<void>;
+}
+
+export const sampleText = (name: string): string =>
+  readFileSync(path.join(ROOT, "samples", `${name}.svg`), "utf8");
+
+const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="120mm" viewBox="0 0 200 120">
+  <image href="photo.png" x="100" y="20" width="60" height="60"/>
+  <path filter="url(#blur)" d="M20 100h150" stroke="#000"/>
+  <circle cx="60" cy="60" r="40" fill="none" stroke="#c00"/></svg>`;
+
+const TWO_PENS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
+  width="200mm" height="120mm" viewBox="0 0 200 120"><g fill="none">
+  <g inkscape:groupmode="layer" inkscape:label="Outline" stroke="#222"><path d="M20 20h20v20h-20z"/></g>
+  <g inkscape:groupmode="layer" inkscape:label="!Red circle" stroke="#c8102e"><circle cx="90" cy="60" r="30"/></g>
+  </g></svg>`;
+
+/** Enough strokes that planning them takes long enough to be seen. */
+function manyStrokes(): string {
+  const lines = Array.from({ length: 60_000 }, (_, i) => `M${(i * 7919) % 290} ${(i * 104_729) % 205}l3 2`);
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path fill="none" stroke="#000" d="${lines.join("")}"/></svg>`;
+}
+
+async function lay(page: Page, name: string, text: string): Promise<void> {
+  await dropFile(page, `${name}.svg`, text);
+  await page.getByText(name).first().waitFor();
+  await waitForPlan(page);
+}
+
+async function start(page: Page, name: string, text: string): Promise<void> {
+  await lay(page, name, text);
+  await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
+  await openTab(page, "Queue");
+  await queuePanel(page).getByRole("progressbar").waitFor();
+}
+
+const button = (page: Page, name: string | RegExp) => queuePanel(page).getByRole("button", { name });
+
+export const PAGE_STATES: readonly PageState[] = [
+  { name: "01-first-visit", reach: async () => undefined },
+  { name: "02-loaded", reach: ({ page }) => lay(page, "hills", sampleText("three-colour-hills")) },
+  { name: "03-report", reach: ({ page }) => lay(page, "poster", WITH_WARNINGS) },
+  {
+    name: "04-not-a-drawing",
+    reach: async ({ page }) => {
+      await dropFile(page, "torn.svg", sampleText("hello-paper").slice(0, 2_000));
+      await page.getByText("torn can’t be drawn").waitFor();
+    },
+  },
+  {
+    name: "05-planning",
+    reach: async ({ page }) => {
+      await dropFile(page, "many.svg", manyStrokes());
+      await plotBar(page).getByText("Planning…").waitFor();
+    },
+  },
+  {
+    name: "06-queued",
+    reach: async ({ page }) => {
+      await lay(page, "hello", sampleText("hello-paper"));
+      for (let copy = 0; copy < 2; copy++) {
+        await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      }
+      await openTab(page, "Queue");
+      await button(page, /^Start /)
+        .nth(1)
+        .waitFor();
+    },
+  },
+  {
+    name: "07-plotting",
+    virtualSpeed: 5,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await queuePanel(page).getByText(/left/).first().waitFor();
+    },
+  },
+  {
+    name: "08-asking-to-cancel",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await button(page, "Cancel").click();
+      await page.getByRole("alertdialog").first().waitFor();
+    },
+  },
+  {
+    name: "09-held",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await button(page, "Pause").click();
+      await button(page, "Resume").waitFor();
+    },
+  },
+  {
+    name: "10-waiting-for-pen",
+    reach: async ({ page }) => {
+      await start(page, "two-pens", TWO_PENS);
+      await button(page, "Continue").waitFor();
+    },
+  },
+  {
+    name: "11-interrupted",
+    virtualSpeed: 2,
+    reach: async (stand) => {
+      await start(stand.page, "lines", ruledSheet());
+      await queuePanel(stand.page).getByText("1 %").first().waitFor();
+      await stand.restart();
+      await button(stand.page, "Go on from there").waitFor();
+    },
+  },
+  {
+    name: "12-done",
+    reach: async ({ page }) => {
+      await start(page, "few lines", ruledSheet(3));
+      await historyPanel(page).getByText("Done").first().waitFor();
+    },
+  },
+  {
+    name: "13-by-hand",
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByRole("button", { name: "Move by hand" }).click();
+      await page.getByRole("group", { name: "Jog pad" }).waitFor();
+      await page.getByRole("group", { name: "Jog pad" }).scrollIntoViewIfNeeded();
+    },
+  },
+  {
+    name: "14-set-up",
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByRole("button", { name: "Set up a plotter…" }).click();
+      await page.getByRole("button", { name: "Next" }).click();
+      await page.getByRole("button", { name: "It is in the middle" }).click();
+      await page.getByText("Which way did it go?").waitFor();
+    },
+  },
+  {
+    name: "15-machines",
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByRole("button", { name: "Machines…" }).click();
+      await page
+        .getByRole("button", { name: "Make a machine of your own from AxiDraw V3", exact: true })
+        .click();
+      await page.getByText("Pen servo").waitFor();
+    },
+  },
+  {
+    name: "16-console",
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByRole("button", { name: "Console" }).click();
+      await page.getByLabel("Command", { exact: true }).fill("V");
+      await page.getByRole("button", { name: "Send" }).click();
+      await page.getByText(/EBBv/).waitFor();
+    },
+  },
+  ...(["Share", "Access", "Plotters", "Webhooks", "Camera"] as const).map((section, index) => ({
+    name: `${17 + index}-studio-${section.toLowerCase()}`,
+    reach: async ({ page }: Stand): Promise<void> => {
+      await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
+      await page.getByText(section, { exact: true }).click();
+      await page.waitForLoadState("networkidle").catch(() => undefined);
+    },
+  })),
+  {
+    name: "22-no-board",
+    device: "/dev/no-such-plotter",
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByText("Not connected").first().waitFor();
+    },
+  },
+  {
+    name: "23-server-gone",
+    reach: async ({ page, server }) => {
+      await server.stop();
+      await page.getByText("server can’t be reached").first().waitFor();
+    },
+  },
+];
+
+/** Opens the page on a server of its own, brings it into the state, and gives it to `look at it`. */
+export async function inState(
+  browser: Browser,
+  state: PageState,
+  look: Look,
+  lookAtIt: (page: Page) => Promise<void>,
+): Promise<void> {
+  const data = temporaryFolder("page-state");
+  const args = state.device === undefined ? [] : ["--device", state.device];
+  const open = (port: string): Promise<ServerProcess> =>
+    startServerProcess({
+      dataDir: data.path,
+      virtualSpeed: state.virtualSpeed ?? 20,
+      args: [...args, "--port", port],
+    });
+  let server = await open("0");
+  const { width, height, colorScheme } = look;
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme,
+    hasTouch: width < 760,
+  });
+  const page = await context.newPage();
+  try {
+    await page.goto(server.url);
+    await waitForPlan(page);
+    const restart = async (): Promise<void> => {
+      const { port } = new URL(server.url);
+      server.process.kill("SIGKILL");
+      await server.stop();
+      server = await open(port);
+    };
+    await state.reach({ page, server, restart });
+    await lookAtIt(page);
+  } finally {
+    await context.close();
+    await server.stop();
+    data.remove();
+  }
+}
