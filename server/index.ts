@@ -24,6 +24,9 @@ import { findBoards } from "./serial/find-boards.js";
 import { WatchFolder } from "./watch-folder.js";
 import { Webhooks } from "./webhooks/webhooks.js";
 
+export type { HandMove } from "./plotter/hand-moves.js";
+export { PlotterDriver, type PlotterOptions, type PlotterState } from "./plotter/plotter.js";
+
 export interface ServerOptions {
   /** 9080 unless told; 0 takes any free one. */
   readonly port?: number;
