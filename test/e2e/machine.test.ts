@@ -80,7 +80,7 @@ describe("moving by hand", () => {
   });
 
   it("nudges the pen to a height that the settings keep", async () => {
-    await move(() => button("Down: a little higher").click());
+    await move(() => button("Height down: a little higher").click());
     expect((await plotter()).penUp).toBe(false);
     await move(() => button("Pen up", machinePanel()).click());
   });

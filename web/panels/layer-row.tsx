@@ -46,13 +46,15 @@ export const LayerRow = (props: LayerRowProps) => {
         <button
           type="button"
           className="layer-open"
-          aria-label={words.details(name)}
           title={row.name}
           aria-expanded={isOpen}
           onClick={props.onToggle}
         >
           <span className="layer-words">
-            <span className="layer-name">{name}</span>
+            <span className="layer-name">
+              <span className="visually-hidden">{words.detailsOf} </span>
+              {name}
+            </span>
             <Facts row={row} />
           </span>
           <Icon name="chevron" />
@@ -96,13 +98,15 @@ const Facts = ({ row }: { row: PreparedLayer }) => {
   const pen = usePageState(({ settings }) => penOf(settings, row)?.name);
   const { penDownPct, drawSpeedPct, delayMs, skip } = parseLayerName(row.name);
   const isCoded = penDownPct !== null || drawSpeedPct !== null || delayMs !== null;
-  const facts = [
-    ...(pen === undefined ? [] : [pen]),
-    words.strokes(formatCount(row.strokeCount), row.strokeCount === 1),
-    ...(times > 1 ? [words.times(times)] : []),
-    ...(hasOwn || isCoded ? [words.own] : []),
-    ...(skip && !row.visible ? [words.offByName] : []),
-  ];
+  const facts =
+    skip && !row.visible
+      ? [words.offByName]
+      : [
+          ...(pen === undefined ? [] : [pen]),
+          words.strokes(formatCount(row.strokeCount), row.strokeCount === 1),
+          ...(times > 1 ? [words.times(times)] : []),
+          ...(hasOwn || isCoded ? [words.own] : []),
+        ];
   return <span className="layer-count">{facts.join(" · ")}</span>;
 };
 

@@ -253,8 +253,8 @@ export const enLater = {
 
   nudge: {
     title: "Pen heights now",
-    up: "Up",
-    down: "Down",
+    up: "Height up",
+    down: "Height down",
     less: (label: string) => `${label}: a little lower`,
     more: (label: string) => `${label}: a little higher`,
   },

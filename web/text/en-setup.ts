@@ -10,7 +10,7 @@ export const enSetup = {
     show: (name: string) => `Draw ${name}`,
     drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
     dragHint: "Drag to change the order, or arrow up and down",
-    details: (name: string) => `Settings of ${name}`,
+    detailsOf: "Settings of",
     everything: "All on",
     onlyThis: "Draw only this layer",
     earlier: "Draw it earlier",
@@ -36,7 +36,7 @@ export const enSetup = {
     hatch: "Fill areas every",
     hatchAngle: "Angle of the lines",
     stopBefore: "Stop before it",
-    stops: { auto: "As its pen needs", yes: "Always", no: "Never" },
+    stops: { auto: "By its pen", yes: "Always", no: "Never" },
     reset: (label: string) => `${label} as for all`,
     codes: (codes: string) => `Its name asks for ${codes}. What you set here goes before.`,
     code: {

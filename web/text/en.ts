@@ -194,7 +194,7 @@ export const en = {
     profiles: "Machines…",
     console: "Console",
     log: "Save the log of the connection",
-    held: "Held",
+    held: "Paused",
     moving: "Moving",
     waitsForPen: (pen: string) => `Waits for the pen “${pen}”`,
     waitsForLayer: (layer: string) => `Waits for the pen for “${layer}”`,
