@@ -15,7 +15,7 @@ import { Browsers, requireBaton } from "./browser.js";
 import { errorResponder, notFound, parseWith } from "./errors.js";
 import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
-import { guardHosts } from "./guard.js";
+import { guardHosts, guardPaths } from "./guard.js";
 import { handMovesRoutes, type HandMoveParts } from "./hand-moves-routes.js";
 import { jobsRoutes } from "./jobs-routes.js";
 import { machinesRoutes } from "./machines-routes.js";
@@ -57,6 +57,7 @@ export function createApp(parts: AppParts): Express {
   app.disable("x-powered-by");
   app.use(securityHeaders());
   app.use(guardHosts(parts.allowedHosts, log));
+  app.use(guardPaths(log));
   app.use(limitRequests(access));
   app.use(pairRoutes(access, log));
   app.use(browsers.routes());

@@ -22,6 +22,7 @@ export function errorResponder(log: (line: string) => void): ErrorRequestHandler
     if (request.destroyed && !request.complete) return;
     const { code, message, status } = describe(error);
     if (code === "internal") log(`${request.method} ${request.path}: ${detail(error)}`);
+    if (code === "too-large") log(`refused ${request.method} ${request.path}: ${message}`);
     if (response.headersSent) {
       next(error);
       return;

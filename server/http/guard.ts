@@ -11,6 +11,28 @@ import type { RequestHandler } from "express";
 import { isIP } from "node:net";
 import { PlotwrightError } from "../../src/index.js";
 
+/** Paths that try to climb out of a folder, however they are written, name nothing here. */
+export function guardPaths(log: (line: string) => void): RequestHandler {
+  return (request, _response, next) => {
+    const path = request.url.split("?", 1)[0] ?? "";
+    if (/(^|[/\\])\.\.+([/\\]|$)|\0/.test(decoded(decoded(path)))) {
+      log(
+        `refused ${request.method} ${JSON.stringify(path.slice(0, 200))} from ${request.socket.remoteAddress ?? "?"}`,
+      );
+      throw new PlotwrightError("not-found", "There is nothing at this path.");
+    }
+    next();
+  };
+}
+
+function decoded(path: string): string {
+  try {
+    return decodeURIComponent(path);
+  } catch {
+    return path;
+  }
+}
+
 export function guardHosts(extraNames: readonly string[], log: (line: string) => void): RequestHandler {
   const names = new Set(["localhost", ...extraNames.map((name) => name.toLowerCase())]);
   return (request, _response, next) => {

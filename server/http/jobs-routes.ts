@@ -40,7 +40,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   // As an attachment of plain text: a browser must never run what is in an uploaded SVG.
   router.get("/:id/drawing", (request, response, next) => {
     const { id } = request.params;
-    response.attachment(svgName(queue.get(id).name));
+    response.attachment(fileName(queue.get(id).name));
     response.type("text/plain; charset=utf-8");
     response.sendFile(queue.drawingPath(id), { dotfiles: "allow" }, (error) => {
       if (error !== undefined && error !== null) next(error);
@@ -171,4 +171,8 @@ function asJson(value: unknown): unknown {
   }
 }
 
-const svgName = (name: string): string => (/\.svg$/i.test(name) ? name : `${name}.svg`);
+/** A name that every system can save under. */
+function fileName(name: string): string {
+  const safe = name.replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
+  return /\.(svg|dxf|hpgl|hpg|plt|json)$/i.test(safe) ? safe : `${safe}.svg`;
+}

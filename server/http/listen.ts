@@ -11,7 +11,8 @@ export interface TlsFiles {
 }
 
 /** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
-const TIMES = { headersTimeout: 20_000, requestTimeout: 10 * 60_000 };
+const TIMES = { headersTimeout: 20_000, requestTimeout: 10 * 60_000, connectionsCheckingInterval: 10_000 };
+const MOST_CONNECTIONS = 1_000;
 
 /** Throws `bad-setting` when the certificate can't be used. */
 export function httpServer(
@@ -22,6 +23,7 @@ export function httpServer(
 ): Server {
   const server =
     tls === undefined ? createHttpServer({ ...TIMES, ...times }, app) : secureServer(tls, app, times);
+  server.maxConnections = MOST_CONNECTIONS;
   // Nothing here speaks another protocol: whoever asks for one (a WebSocket, of another site perhaps) is refused.
   server.on("upgrade", (request, socket) => {
     log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);

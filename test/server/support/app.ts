@@ -48,7 +48,11 @@ export async function startApp(
     readonly lapseMs?: number;
     readonly boards?: readonly FoundBoard[];
     readonly tls?: TlsFiles;
-    readonly times?: { readonly headersTimeout?: number; readonly requestTimeout?: number };
+    readonly times?: {
+      readonly headersTimeout?: number;
+      readonly requestTimeout?: number;
+      readonly connectionsCheckingInterval?: number;
+    };
   } = {},
 ): Promise<TestApp> {
   const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
