@@ -105,7 +105,13 @@ const MAX_LAYERS = 2_048;
 interface Loaded {
   readonly pieces: Pieces;
   readonly buffer: WebGLBuffer;
+  /** Bytes that the card has. */
+  loadedBytes: number;
 }
+
+/** Bytes handed to the card at a time, and how long that may take of one frame, ms. */
+const CHUNK_BYTES = 1 << 20;
+const LOADING_MS = 6;
 
 /** Null where the browser has no WebGL2. */
 export const createGlRenderer = (canvas: HTMLCanvasElement): SceneRenderer | null => {
@@ -156,7 +162,7 @@ class GlRenderer implements SceneRenderer {
   }
 
   draw(frame: Frame): boolean {
-    if (!this.#isIdle()) return false;
+    if (!this.#isLoaded() || !this.#isIdle()) return false;
     const gl = this.#gl;
     const width = Math.max(1, Math.round(frame.width * frame.ratio));
     const height = Math.max(1, Math.round(frame.height * frame.ratio));
@@ -196,8 +202,30 @@ class GlRenderer implements SceneRenderer {
     const gl = this.#gl;
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, pieces.bytes, gl.STATIC_DRAW);
-    return { pieces, buffer };
+    gl.bufferData(gl.ARRAY_BUFFER, pieces.bytes.byteLength, gl.STATIC_DRAW);
+    return { pieces, buffer, loadedBytes: 0 };
+  }
+
+  /** Brings a little more of a new scene to the card; true once all of it is there. */
+  #isLoaded(): boolean {
+    const gl = this.#gl;
+    const untilMs = performance.now() + LOADING_MS;
+    for (const loaded of [this.#draw, this.#travel]) {
+      if (!loaded) continue;
+      const { bytes } = loaded.pieces;
+      gl.bindBuffer(gl.ARRAY_BUFFER, loaded.buffer);
+      while (loaded.loadedBytes < bytes.byteLength) {
+        if (performance.now() > untilMs) return false;
+        const length = Math.min(CHUNK_BYTES, bytes.byteLength - loaded.loadedBytes);
+        gl.bufferSubData(
+          gl.ARRAY_BUFFER,
+          loaded.loadedBytes,
+          new Uint8Array(bytes, loaded.loadedBytes, length),
+        );
+        loaded.loadedBytes += length;
+      }
+    }
+    return true;
   }
 
   #setView({ view, ratio }: Frame, width: number, height: number): void {

@@ -26,7 +26,7 @@ export interface Frame {
 export interface SceneRenderer {
   readonly kind: "webgl" | "canvas";
   setScene(scene: Scene | null): void;
-  /** False where the last frame is still being drawn and this one was not begun. */
+  /** False where the scene is still on its way to the card or the last frame is still being drawn: not begun. */
   draw(frame: Frame): boolean;
   close(): void;
 }

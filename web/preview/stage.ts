@@ -6,6 +6,7 @@
  * scaled as a picture until the next is ready: the paper stays under the finger whatever the drawing's size.
  */
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
+import { markMoment } from "../ui/moments.js";
 import { createCanvasRenderer } from "./canvas-renderer.js";
 import { createGlRenderer } from "./gl-renderer.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
@@ -47,6 +48,8 @@ export class Stage {
   /** Until the user pans or zooms, the paper is kept whole in sight. */
   #isFitted = true;
   #areStrokesStale = true;
+  /** Not drawn yet. */
+  #isSceneNew = true;
   /** The 2D canvases are drawn again only when something on them has changed. */
   #areSheetsStale = true;
   #restTimer: ReturnType<typeof setTimeout> | null = null;
@@ -102,6 +105,7 @@ export class Stage {
   setScene(scene: Scene | null): void {
     if (scene === this.#scene) return;
     this.#scene = scene;
+    this.#isSceneNew = true;
     this.#renderer?.setScene(scene);
     this.#refresh(true);
   }
@@ -236,6 +240,8 @@ export class Stage {
     strokes.style.height = `${this.#size.height}px`;
     this.#drawnView = this.#view;
     this.#areStrokesStale = false;
+    if (this.#isSceneNew && this.#scene) markMoment("plotwright-picture");
+    this.#isSceneNew = false;
   }
 }
 

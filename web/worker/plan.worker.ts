@@ -24,10 +24,12 @@ import {
 } from "../../src/index.js";
 import { buildScene, shiftsOf } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
+import { penColumnsOf } from "./pen-columns.js";
 import type {
   ExportRequest,
   PlanSettings,
   Planned,
+  PlannedReply,
   PlanFault,
   PlanRequest,
   WorkerReply,
@@ -61,7 +63,7 @@ async function run(): Promise<void> {
     newest = null;
     scope.postMessage({ type: "started", id: request.id }, []);
     const reply = await answer(request);
-    if (reply) scope.postMessage(reply, reply.type === "planned" ? transferables(reply.planned) : []);
+    if (reply) scope.postMessage(reply, reply.type === "planned" ? transferables(reply) : []);
   }
   isRunning = false;
 }
@@ -106,7 +108,13 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       scene,
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
-    return { type: "planned", id, planned };
+    const pens = penColumnsOf(trajectory.penMoves);
+    return {
+      type: "planned",
+      id,
+      planned: { ...planned, trajectory: { ...trajectory, penMoves: [] } },
+      pens,
+    };
   } catch (error) {
     return { type: "fault", id, fault: faultOf(error, stage) };
   }
@@ -172,7 +180,7 @@ const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
 });
 
 /** The trajectory's columns and the scene's buffers, each once. */
-function transferables({ trajectory, scene }: Planned): Transferable[] {
+function transferables({ planned: { trajectory, scene }, pens }: PlannedReply): Transferable[] {
   const buffers = new Set<ArrayBufferLike>([
     scene.draw.bytes,
     scene.travel.bytes,
@@ -180,6 +188,7 @@ function transferables({ trajectory, scene }: Planned): Transferable[] {
     scene.grid.items.buffer,
   ]);
   for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
+  for (const column of Object.values(pens ?? {}) as ArrayBufferView[]) buffers.add(column.buffer);
   return [...buffers] as ArrayBuffer[];
 }
 

@@ -9,10 +9,13 @@ import type {
   ExportFormat,
   PlanFault,
   Planned,
+  PlannedReply,
   PlanSettings,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
+import { markMoment } from "../ui/moments.js";
+import { penMovesOf } from "./pen-columns.js";
 
 const PATIENCE_MS = 1_500;
 
@@ -113,8 +116,10 @@ export class Planner {
     this.#stopWaiting = null;
     if (reply.type === "started") return;
     this.#isBusy = false;
-    if (reply.type === "planned") this.#listener.onPlanned(reply.planned);
-    else this.#listener.onFault(reply.fault);
+    if (reply.type === "planned") {
+      markMoment("plotwright-planned");
+      this.#listener.onPlanned(unpacked(reply));
+    } else this.#listener.onFault(reply.fault);
   }
 
   #restart(): void {
@@ -122,3 +127,6 @@ export class Planner {
     if (this.#latest) this.#send(this.#latest.drawing, this.#latest.settings);
   }
 }
+
+const unpacked = ({ planned, pens }: PlannedReply): Planned =>
+  pens ? { ...planned, trajectory: { ...planned.trajectory, penMoves: penMovesOf(pens) } } : planned;

@@ -11,6 +11,7 @@ import type {
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Scene } from "../preview/scene.js";
+import type { PenColumns } from "./pen-columns.js";
 
 /** The machine's motors bound the plan, so it is part of what is planned with. */
 export type PlanSettings = PlotSettings;
@@ -78,9 +79,17 @@ export interface PlanFault {
   readonly stage: "import" | "plan";
 }
 
+export interface PlannedReply {
+  readonly type: "planned";
+  readonly id: number;
+  /** With `pens`, its trajectory comes without pen moves. */
+  readonly planned: Planned;
+  readonly pens?: PenColumns;
+}
+
 export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
-  | { readonly type: "planned"; readonly id: number; readonly planned: Planned }
+  | PlannedReply
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
