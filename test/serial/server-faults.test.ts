@@ -1,0 +1,114 @@
+/**
+ * The board's faults as the user meets them: the server lives, the job is interrupted with words to act on within
+ * 3 s, goes on from its place when the fault is mended, and can be cancelled at any time.
+ */
+import { afterEach, describe, expect, it } from "vitest";
+import { createServer, type PlotwrightServer } from "../../server/index.js";
+import { jobSchema, snapshotSchema, type Job, type Snapshot } from "../../src/schema/index.js";
+import { EventStream } from "../server/support/event-stream.js";
+import { PtyBoard, type ToBoard } from "../support/pty-board.js";
+import { temporaryFolder } from "../support/server-process.js";
+
+const WITHIN_MS = 3_000;
+const SVG =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="260mm" height="100mm" viewBox="0 0 260 100" stroke="black">' +
+  '<path d="M10 20H250M250 40H10"/></svg>';
+
+const undo: (() => unknown)[] = [];
+afterEach(async () => {
+  for (const step of undo.splice(0).reverse()) await step();
+});
+
+/** A server whose job is just drawing on a board of real speed. */
+async function drawing(firmware: string) {
+  const data = temporaryFolder("faults");
+  undo.push(data.remove);
+  const board = await PtyBoard.open({ firmware });
+  undo.push(() => board.close());
+  const server: PlotwrightServer = await createServer({ port: 0, device: board.path, dataDir: data.path });
+  undo.push(() => server.close());
+  const events = await EventStream.open(server.url);
+  undo.push(() => events.close());
+  const added = await fetch(`${server.url}/api/v1/jobs?name=lines.svg`, { method: "POST", body: SVG });
+  const { id } = jobSchema.parse(await added.json());
+  const post = async (action: string): Promise<void> => {
+    const response = await fetch(`${server.url}/api/v1/jobs/${id}/${action}`, { method: "POST" });
+    expect([action, response.status, response.ok ? "" : await response.text()]).toEqual([action, 200, ""]);
+  };
+  /** The next of the job's announcements in that state, of those from now on. */
+  const reaches = async (state: Job["state"]): Promise<Job> => {
+    const before = new Set(events.seen);
+    const { job } = await events.find("job", (event) => !before.has(event) && event.job.state === state);
+    return job;
+  };
+  await post("start");
+  await events.find("progress", (event) => !event.penUp && event.progress > 0.05);
+  const state = async (): Promise<Snapshot> =>
+    snapshotSchema.parse(await (await fetch(`${server.url}/api/v1/state`)).json());
+  return { board, events, post, reaches, state };
+}
+
+const FAULTS: readonly (readonly [
+  name: string,
+  firmware: string,
+  fault: ToBoard,
+  words: RegExp,
+  mend: ToBoard,
+])[] = [
+  [
+    "stands still",
+    "3.0.3",
+    { type: "frozen", frozen: true },
+    /does not finish/,
+    { type: "frozen", frozen: false },
+  ],
+  ["is silent", "2.8.1", { type: "mute", mute: true }, /stopped answering/, { type: "mute", mute: false }],
+  [
+    "has USB power alone",
+    "2.8.1",
+    { type: "volts", volts: 5 },
+    /no power, or too little/,
+    { type: "volts", volts: 9.1 },
+  ],
+];
+
+describe("a job whose board", () => {
+  it.each(FAULTS)(
+    "%s (%s) is interrupted in time, taken up when that is mended, and cancelled",
+    async (_, firmware, fault, words, mend) => {
+      const { board, events, post, reaches, state } = await drawing(firmware);
+      const interrupted = reaches("interrupted");
+      board.tell(fault);
+      const from = Date.now();
+      const { message, place } = await interrupted;
+      expect(Date.now() - from).toBeLessThan(WITHIN_MS);
+      expect(message).toMatch(words);
+      expect(place?.strokeIndex).toBe(0);
+      board.tell(mend);
+      for (;;) {
+        const before = new Set(events.seen);
+        if ((await state()).plotters[0]!.connection === "idle") break;
+        await events.find("plotter", (event) => !before.has(event));
+      }
+      const paused = reaches("paused");
+      await post("recover");
+      await paused;
+      const cancelled = reaches("cancelled");
+      await post("cancel");
+      await cancelled;
+      expect((await board.report()).state.penUp).toBe(true);
+    },
+  );
+
+  it("stands still is cancelled in time, before anybody has noticed", async () => {
+    const { board, post, reaches, state } = await drawing("2.8.1");
+    board.tell({ type: "frozen", frozen: true });
+    const ended = Promise.race([reaches("cancelled"), reaches("interrupted")]);
+    const from = Date.now();
+    await post("cancel");
+    const { state: end } = await ended;
+    if (end === "interrupted") await post("cancel");
+    expect(Date.now() - from).toBeLessThan(WITHIN_MS);
+    expect((await state()).jobs[0]!.state).toBe("cancelled");
+  });
+});
