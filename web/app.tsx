@@ -47,9 +47,11 @@ export const App = ({ player, shortcuts }: AppProps) => {
         <TopBar />
         <main className="centre">
           <Strips />
-          <Preview />
+          <div className="paper-area">
+            <Preview />
+            <Notices />
+          </div>
           <TimeLine player={player} />
-          <Notices />
         </main>
         <Tabs tab={tab} onChange={setTab} />
         <aside className="column column-setup" aria-label={text.tabs.setup}>

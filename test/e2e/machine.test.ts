@@ -16,7 +16,7 @@ let page: Page;
 beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2 });
-  page = await (await browser.newContext({ viewport: { width: 1280, height: 720 } })).newPage();
+  page = await (await browser.newContext({ viewport: { width: 900, height: 600 } })).newPage();
   page.setDefaultTimeout(20_000);
   await page.goto(server.url);
   await waitForPlan(page);
@@ -41,7 +41,8 @@ async function plotter(): Promise<Plotter> {
 async function move(press: () => Promise<void>): Promise<[xMm: number | null, yMm: number | null]> {
   const answered = page.waitForResponse((response) => response.request().method() === "POST");
   await press();
-  expect((await answered).ok()).toBe(true);
+  const answer = await answered;
+  expect([answer.status(), answer.ok() ? "" : await answer.text()]).toEqual([200, ""]);
   const { xMm, yMm } = await plotter();
   return [xMm, yMm];
 }

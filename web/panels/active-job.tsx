@@ -27,8 +27,10 @@ export const ActiveJob = ({ job }: { job: Job }) => {
       {job.state === "interrupted" && <p className="note">{words.recoverHint}</p>}
       {isWaiting && job.wait ? <PenWait job={job} wait={job.wait} /> : <JobButtons job={job} />}
       {isMine && job.state !== "interrupted" && <NudgeJob job={job} />}
-      {isMine && job.state === "paused" && job.place && <PlaceControls job={job} place={job.place} />}
-      {isMine && job.state !== "interrupted" && <LiveChanges job={job} />}
+      {isMine && job.state === "paused" && !isWaiting && job.place && (
+        <PlaceControls job={job} place={job.place} />
+      )}
+      {isMine && job.state !== "interrupted" && !isWaiting && <LiveChanges job={job} />}
     </article>
   );
 };

@@ -19,7 +19,7 @@ export const JobHead = ({ job }: { job: Job }) => {
         {job.name}
       </button>
       <span className="badge" data-state={job.state}>
-        {words.states[job.state]}
+        {job.wait !== null && job.state === "paused" ? words.waitsForPen : words.states[job.state]}
       </span>
     </header>
   );

@@ -240,6 +240,7 @@ export const en = {
     progress: (name: string) => `Progress of ${name}`,
     total: (count: number, duration: string, clock: string) =>
       `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}: done at ${clock}`,
+    waitsForPen: "Pen change",
     states: {
       queued: "Waiting",
       plotting: "Plotting",
