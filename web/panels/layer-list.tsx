@@ -1,7 +1,7 @@
 import "../styles/setup.css";
 import { useRef, useState } from "react";
 import type { Planned } from "../worker/protocol.js";
-import { moveLayer, showAll } from "../state/layer-settings.js";
+import { inWantedOrder, isLayerShown, moveLayer, showAll } from "../state/layer-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Segments } from "../ui/choice.js";
@@ -15,14 +15,15 @@ type PenStop = Planned["penStops"][number];
 /** The layers in the order of drawing, each with its switch and pen, and the stops between them. */
 export const LayerList = () => {
   const planned = usePageState((state) => state.planned);
-  const { layers: mode, layerOrder } = usePageState((state) => state.settings.prepare);
   const change = useChange();
   const list = useRef<HTMLUListElement>(null);
   const [openId, setOpenId] = useState<string | null>(null);
-  const rows = planned?.layers ?? [];
-  const hasHidden = rows.some(({ visible }) => !visible);
+  const settings = usePageState((state) => state.settings);
+  const { layers: mode, layerOrder } = settings.prepare;
+  const rows = inWantedOrder(settings, planned?.layers ?? []);
+  const hasHidden = rows.some((row) => !isLayerShown(settings, row));
   const move = (id: string, place: number): void =>
-    change(`order of ${id}`, (settings) => moveLayer(settings, rows, id, place));
+    change(`order of ${id}`, (now) => moveLayer(now, rows, id, place));
 
   return (
     <>
@@ -35,7 +36,7 @@ export const LayerList = () => {
           { value: "all", label: words.all },
         ]}
         onChange={(layers) =>
-          change("layers from", (settings) => ({ ...settings, prepare: { ...settings.prepare, layers } }))
+          change("layers from", (now) => ({ ...now, prepare: { ...now.prepare, layers } }))
         }
       />
       {planned && rows.length === 0 && <p className="note">{words.none}</p>}
@@ -61,7 +62,7 @@ export const LayerList = () => {
             <button
               type="button"
               className="link"
-              onClick={() => change("all layers", (settings) => showAll(settings, rows))}
+              onClick={() => change("all layers", (now) => showAll(now, rows))}
             >
               {words.everything}
             </button>
@@ -71,9 +72,9 @@ export const LayerList = () => {
               type="button"
               className="link"
               onClick={() =>
-                change("file order", (settings) => ({
-                  ...settings,
-                  prepare: { ...settings.prepare, layerOrder: [] },
+                change("file order", (now) => ({
+                  ...now,
+                  prepare: { ...now.prepare, layerOrder: [] },
                 }))
               }
             >

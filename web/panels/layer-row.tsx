@@ -1,7 +1,7 @@
 import type { RefObject } from "react";
 import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/index.js";
 import { layerColor } from "../preview/color-map.js";
-import { setLayerPen, showLayer } from "../state/layer-settings.js";
+import { isLayerShown, setLayerPen, showLayer } from "../state/layer-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { formatCount } from "../ui/format.js";
@@ -27,14 +27,15 @@ export const LayerRow = (props: LayerRowProps) => {
   const { row, index, rows, isOpen } = props;
   const change = useChange();
   const name = shownLayerName(row.name);
+  const isShown = usePageState(({ settings }) => isLayerShown(settings, row));
   return (
-    <div className="layer-card" data-off={!row.visible || undefined} data-open={isOpen || undefined}>
+    <div className="layer-card" data-off={!isShown || undefined} data-open={isOpen || undefined}>
       <div className="layer-head">
         {rows.length > 1 && <DragHandle {...props} name={name} />}
         <label className="layer">
           <input
             type="checkbox"
-            checked={row.visible}
+            checked={isShown}
             aria-label={words.show(name)}
             onChange={(event) => {
               const isOn = event.target.checked;
@@ -55,7 +56,7 @@ export const LayerRow = (props: LayerRowProps) => {
               <span className="visually-hidden">{words.detailsOf} </span>
               {name}
             </span>
-            <Facts row={row} />
+            <Facts row={row} isShown={isShown} />
           </span>
           <Icon name="chevron" />
         </button>
@@ -87,7 +88,7 @@ const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readon
 };
 
 /** How much there is to draw, and what of it is out of the ordinary. */
-const Facts = ({ row }: { row: PreparedLayer }) => {
+const Facts = ({ row, isShown }: { readonly row: PreparedLayer; readonly isShown: boolean }) => {
   const times = usePageState(({ settings }) => settings.prepare.layerRepeats[row.id] ?? 1);
   const hasOwn = usePageState(
     ({ settings }) =>
@@ -99,7 +100,7 @@ const Facts = ({ row }: { row: PreparedLayer }) => {
   const { penDownPct, drawSpeedPct, delayMs, skip } = parseLayerName(row.name);
   const isCoded = penDownPct !== null || drawSpeedPct !== null || delayMs !== null;
   const facts =
-    skip && !row.visible
+    skip && !isShown
       ? [words.offByName]
       : [
           ...(pen === undefined ? [] : [pen]),

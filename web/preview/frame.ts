@@ -23,6 +23,7 @@ const HANDLE_PX = 10;
 const REACH_PX = 20;
 const KNOB_PX = 30;
 const SNAP_PX = 7;
+const BELOW_LABEL_PX = 88;
 
 /** Where the drawing is to stand: as last planned, or as the settings say since. */
 export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
@@ -165,7 +166,9 @@ const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm
   context.font = "12px Helvetica, Arial, sans-serif";
   const width = context.measureText(words).width + 14;
   const x = view.offsetX + ((x0 + x1) / 2) * view.scale;
-  const y = view.offsetY + y1 * view.scale + 12;
+  // Within the picture, above the tools at its lower edge.
+  const heightPx = context.canvas.height / context.getTransform().d;
+  const y = Math.min(view.offsetY + y1 * view.scale + 12, heightPx - BELOW_LABEL_PX);
   context.fillStyle = FRAME_COLOR;
   context.beginPath();
   context.roundRect(x - width / 2, y, width, 21, 4);

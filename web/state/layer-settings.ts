@@ -56,6 +56,16 @@ export const moveLayer = (
   return withPrepare(settings, { layerOrder: [...others.slice(0, at), id, ...others.slice(at)] });
 };
 
+/** The rows as the settings want them, which the plan may not have come to yet. */
+export const inWantedOrder = <Row extends LayerRow>(
+  { prepare: { layerOrder } }: PlotSettings,
+  rows: readonly Row[],
+): readonly Row[] => {
+  const rank = ({ id }: Row): number =>
+    layerOrder.includes(id) ? layerOrder.indexOf(id) : layerOrder.length;
+  return [...rows].sort((a, b) => rank(a) - rank(b));
+};
+
 export const repeatLayer = (settings: PlotSettings, id: string, times: number | null): PlotSettings => {
   const others = withoutLayer(settings.prepare.layerRepeats, id);
   const isOnce = times === null || times <= 1;

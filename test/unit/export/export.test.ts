@@ -4,6 +4,7 @@ import {
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   NO_PENS,
+  importDrawing,
   importSvg,
   plan,
   prepare,
@@ -82,6 +83,17 @@ describe("toJson", () => {
     expect(json.layers[0].strokesMm[0]).toEqual([10, 10, 20, 10, 20, 20, 10, 10]);
     expect(json.layers[0].strokesMm[1]).toEqual([30, 30]);
     expect(JSON.parse(JSON.stringify(json))).toEqual(json);
+  });
+
+  it("is read back as the same strokes in the same layers", () => {
+    const { strokes } = prepare(drawing, SETTINGS);
+    const back = prepare(
+      importDrawing("plot.json", JSON.stringify(toJson(strokes, PAPER))),
+      SETTINGS,
+    ).strokes;
+    expect(rounded(back)).toEqual(rounded(strokes));
+    expect([...back.layer]).toEqual([...strokes.layer]);
+    expect(back.layers.map(({ id }) => id)).toEqual(strokes.layers.map(({ id }) => id));
   });
 });
 

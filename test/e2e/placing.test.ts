@@ -1,0 +1,193 @@
+/** The drawing on the paper: by hand, by numbers, by keys. What counts is where the queued job would draw. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { PageTest } from "../support/page-test.js";
+
+/** 60 × 40 mm of red, and nothing else: its box on the screen can be measured. */
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
+  <path d="M0 0H60V40H0ZM0 0L30 20" fill="none" stroke="#e00000"/></svg>`;
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("placing");
+  await test.drop("flag", SVG);
+  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.group("Paper");
+});
+
+afterAll(async () => test.close());
+
+interface Box {
+  readonly left: number;
+  readonly top: number;
+  readonly right: number;
+  readonly bottom: number;
+}
+
+/** Where on the screen the drawing's lines are, CSS px of the page: the darkest pixels of the canvas. */
+async function inkOnScreen(): Promise<Box> {
+  const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
+  const at = (await canvas.boundingBox())!;
+  const png = (await canvas.screenshot()).toString("base64");
+  const found = await test.page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+    context.drawImage(bitmap, 0, 0);
+    const { data, width } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    const box = { left: Infinity, top: Infinity, right: -Infinity, bottom: -Infinity };
+    for (let i = 0; i < data.length; i += 4) {
+      const x = (i / 4) % width;
+      const y = Math.floor(i / 4 / width);
+      // Rulers have dark numbers, and the legend lies at the lower edge.
+      if (x < 26 || y < 26 || y > bitmap.height - 120) continue;
+      if (Math.max(data[i]!, data[i + 1]!, data[i + 2]!) > 90) continue;
+      box.left = Math.min(box.left, x);
+      box.top = Math.min(box.top, y);
+      box.right = Math.max(box.right, x + 1);
+      box.bottom = Math.max(box.bottom, y + 1);
+    }
+    return box;
+  }, png);
+  return {
+    left: found.left + at.x,
+    top: found.top + at.y,
+    right: found.right + at.x,
+    bottom: found.bottom + at.y,
+  };
+}
+
+async function drag(from: [number, number], to: [number, number], isFree = false): Promise<void> {
+  const { mouse, keyboard } = test.page;
+  await mouse.move(...from);
+  if (isFree) await keyboard.down("Alt");
+  await mouse.down();
+  await mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, { steps: 4 });
+  await mouse.move(...to, { steps: 4 });
+  await mouse.up();
+  if (isFree) await keyboard.up("Alt");
+  await test.planned();
+}
+
+async function type(label: string, value: number): Promise<void> {
+  await test.field(label).fill(String(value));
+  await test.field(label).press("Enter");
+  await test.planned();
+}
+
+async function placeAt(x: number, y: number, width: number, angle = 0): Promise<void> {
+  await type("From the left", x);
+  await type("From the top", y);
+  await type("Width", width);
+  await type("Rotate", angle);
+  await test.page.waitForTimeout(300);
+}
+
+const rounded = (values: object): number[] =>
+  Object.values(values).map((mm: number) => Math.round(mm * 100) / 100);
+
+describe("placing the drawing", () => {
+  it("puts handles round it at the press of a button, without moving it", async () => {
+    const before = await test.queuedBox();
+    await test.page.getByRole("button", { name: "Place the drawing by hand" }).click();
+    await test.field("From the left").waitFor();
+    const after = await test.queuedBox();
+    for (const [k, mm] of Object.values(after).entries())
+      expect(mm).toBeCloseTo(Object.values(before)[k]!, 1);
+  });
+
+  it("goes where the numbers say, at the size they say", async () => {
+    await placeAt(50, 60, 90);
+    expect(rounded(await test.queuedBox())).toEqual([50, 60, 140, 120]);
+    await type("Height", 30);
+    expect(rounded(await test.queuedBox())).toEqual([50, 60, 95, 90]);
+  });
+
+  it("follows the pointer, pixel for pixel on the screen and millimetre for millimetre on paper", async () => {
+    await placeAt(50, 60, 90);
+    const before = await inkOnScreen();
+    const scale = (before.right - before.left) / 90;
+    const from: [number, number] = [
+      (before.left + before.right) / 2 + 30,
+      (before.top + before.bottom) / 2 - 10,
+    ];
+    await drag(from, [from[0] + 103, from[1] - 41], true);
+    await test.page.waitForTimeout(300);
+    const after = await inkOnScreen();
+    expect(Math.abs(after.left - before.left - 103)).toBeLessThanOrEqual(1.5);
+    expect(Math.abs(after.top - before.top + 41)).toBeLessThanOrEqual(1.5);
+    const box = await test.queuedBox();
+    expect(Math.abs(box.x0 - 50 - 103 / scale)).toBeLessThan(0.4);
+    expect(Math.abs(box.y0 - 60 + 41 / scale)).toBeLessThan(0.4);
+    expect(box.x1 - box.x0).toBeCloseTo(90, 1);
+  });
+
+  it("grows by its corner, while the opposite corner stays", async () => {
+    await placeAt(50, 60, 90);
+    const { left, top, right, bottom } = await inkOnScreen();
+    await drag([right, bottom], [right + (right - left) / 2, bottom + (bottom - top) / 2], true);
+    const box = await test.queuedBox();
+    expect([box.x0, box.y0].map((mm) => Math.round(mm * 10) / 10)).toEqual([50, 60]);
+    expect(Math.abs(box.x1 - box.x0 - 135)).toBeLessThan(1);
+    expect((box.x1 - box.x0) / (box.y1 - box.y0)).toBeCloseTo(1.5, 2);
+  });
+
+  it("is turned by its knob, in steps of 15° when near one, about its middle", async () => {
+    await placeAt(50, 60, 90);
+    const { left, top, right, bottom } = await inkOnScreen();
+    const middle: [number, number] = [(left + right) / 2, (top + bottom) / 2];
+    const reach = middle[1] - top + 30;
+    await drag([middle[0], top - 30], [middle[0] + reach, middle[1] + 4]);
+    // 90 × 60 about (95, 90), a quarter turned.
+    expect(rounded(await test.queuedBox())).toEqual([65, 45, 125, 135]);
+    expect(await test.field("Rotate").inputValue()).toBe("90");
+  });
+
+  it("is drawn to a margin, to the hundredth", async () => {
+    await placeAt(18, 60, 90);
+    const { left, top, right, bottom } = await inkOnScreen();
+    const from: [number, number] = [(left + right) / 2 + 20, (top + bottom) / 2 - 9];
+    await drag(from, [from[0] - 5.5, from[1] + 30]);
+    expect(rounded(await test.queuedBox())[0]).toBe(15);
+  });
+
+  it("moves by arrow keys while the paper has the focus", async () => {
+    await placeAt(50, 60, 90);
+    await test.page.locator(".stage").focus();
+    for (const key of ["ArrowRight", "ArrowRight", "Shift+ArrowDown", "ArrowUp"]) {
+      await test.page.keyboard.press(key);
+    }
+    expect(rounded(await test.queuedBox())).toEqual([52, 69, 142, 129]);
+  });
+
+  it("fills four margins of one's own, stands in the middle, and is mirrored", async () => {
+    await test.page.getByText("Each margin by itself").click();
+    await type("Left", 40);
+    await type("Top", 20);
+    await test.page.getByRole("button", { name: "Fill margins" }).click();
+    await test.planned();
+    const filled = await test.queuedBox();
+    expect(filled.x0).toBeGreaterThanOrEqual(40 - 0.01);
+    expect(filled.y1).toBeLessThanOrEqual(210 - 15 + 0.01);
+    expect(Math.max(filled.x0 - 40, filled.y0 - 20)).toBeLessThan(10);
+    await test.page.getByRole("button", { name: "Centre across" }).click();
+    await test.page.getByRole("radio", { name: "Left–right" }).check();
+    const { xy } = await test.strokesOf(await test.queue());
+    const box = await test.queuedBox();
+    expect(box.x0 + box.x1).toBeCloseTo(297, 1);
+    // The line from the corner to the middle begins at the right now.
+    const corner = [...xy].findIndex((x, k) => k % 2 === 0 && Math.abs(x - (box.x0 + box.x1) / 2) < 0.01);
+    expect(corner).toBeGreaterThanOrEqual(0);
+  });
+
+  it("comes back to the place before with undo", async () => {
+    const before = await test.queuedBox();
+    await type("From the left", 77);
+    await test.page.getByRole("button", { name: "Undo" }).click();
+    expect(rounded(await test.queuedBox())).toEqual(rounded(before));
+  });
+
+  it("meets no error in the browser's console on the way", () => {
+    expect(test.complaints).toEqual([]);
+  });
+});

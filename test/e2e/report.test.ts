@@ -1,0 +1,85 @@
+/** What of a file is not drawn: said on the page, and shown on the paper where it is. */
+import type { Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { colorCounts, dropFile, openTab, waitForPlan } from "../support/page-actions.js";
+import { PageTest } from "../support/page-test.js";
+
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140">
+  <circle cx="60" cy="70" r="40" fill="none" stroke="#000"/>
+  <image href="photo.png" x="120" y="20" width="60" height="60"/>
+  <rect x="120" y="100" width="50" height="20" fill="url(#g)" stroke="none"/>
+  <linearGradient id="g"><stop stop-color="#f00"/></linearGradient></svg>`;
+/** The fill of a marked place on white, and as the overlay paints it at 14 %. */
+const isMarked = (rgb: number): boolean => {
+  const [r, g, b] = [(rgb >> 16) & 255, (rgb >> 8) & 255, rgb & 255];
+  return r > 225 && g > 210 && g < 242 && b > 195 && b < 225 && r - b > 20;
+};
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("report");
+  await test.drop("poster", SVG);
+});
+
+afterAll(async () => test.close());
+
+async function markedPixels(page: Page): Promise<number> {
+  await page.waitForTimeout(250);
+  const counts = await colorCounts(page.getByRole("img", { name: "Preview", exact: true }));
+  return [...counts].reduce((sum, [rgb, count]) => sum + (isMarked(rgb) ? count : 0), 0);
+}
+
+describe("the report", () => {
+  it("names what is not drawn, and what can be done about it", async () => {
+    const notes = await test.page.locator(".report li").allInnerTexts();
+    expect(notes.join("\n")).toMatch(/1 picture is not drawn[^\n]*Trace/);
+    expect(notes.length).toBeGreaterThanOrEqual(1);
+    for (const note of notes) expect(note).toMatch(/\.\s/);
+  });
+
+  it("shows on the paper where it is, and takes it away with the next press", async () => {
+    expect(await markedPixels(test.page)).toBeLessThan(50);
+    const show = test.page
+      .locator(".report li", { hasText: "picture" })
+      .getByRole("button", { name: "Show where" });
+    await show.click();
+    expect(await show.getAttribute("aria-pressed")).toBe("true");
+    const marked = await markedPixels(test.page);
+    // 60 × 60 mm of a paper that is shown at 2 px a mm and more.
+    expect(marked).toBeGreaterThan(10_000);
+    await show.click();
+    expect(await markedPixels(test.page)).toBeLessThan(50);
+  });
+
+  it("is gone with a drawing that is drawn whole", async () => {
+    await test.drop("ring", SVG.replace(/<(image|rect|linearGradient)[\s\S]*?(?=<\/svg>)/, ""));
+    expect(await test.page.locator(".report").count()).toBe(0);
+  });
+
+  it("works with a finger on a phone, with the paper in sight", async () => {
+    const context = await test.browser.newContext({
+      viewport: { width: 390, height: 844 },
+      hasTouch: true,
+      isMobile: true,
+    });
+    const phone = await context.newPage();
+    await phone.goto(test.server.url);
+    await waitForPlan(phone);
+    await dropFile(phone, "poster.svg", SVG);
+    await openTab(phone, "Set up");
+    const show = phone
+      .locator(".report li", { hasText: "picture" })
+      .getByRole("button", { name: "Show where" });
+    await show.scrollIntoViewIfNeeded();
+    const { height } = (await show.boundingBox())!;
+    expect(height).toBeGreaterThanOrEqual(40);
+    await show.tap();
+    expect(await markedPixels(phone)).toBeGreaterThan(2_000);
+    await context.close();
+  });
+
+  it("meets no error in the browser's console on the way", () => {
+    expect(test.complaints).toEqual([]);
+  });
+});
