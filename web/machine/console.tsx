@@ -21,7 +21,10 @@ export const Console = () => {
   const name = usePageState((state) => currentPlotter(state)?.name ?? "");
   const { lines, send } = useConversation();
   const end = useRef<HTMLLIElement>(null);
-  useEffect(() => end.current?.scrollIntoView({ block: "end" }), [lines]);
+  useEffect(() => {
+    // In braces: newer browsers answer with a promise, which is no clean-up.
+    void end.current?.scrollIntoView({ block: "end" });
+  }, [lines]);
   return (
     <Sheet title={words.title(name)}>
       <ol className="console" role="log" aria-label={words.log} tabIndex={0}>
