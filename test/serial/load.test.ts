@@ -1,0 +1,90 @@
+/**
+ * Many browsers and scripts at once while the plotter draws at real speed: 50 event streams and 20 requests a
+ * second cost the pen nothing.
+ */
+import { afterEach, expect, it } from "vitest";
+import { jobSchema } from "../../src/schema/index.js";
+import { EventStream } from "../server/support/event-stream.js";
+import { PtyBoard } from "../support/pty-board.js";
+import { startServerProcess, temporaryFolder } from "../support/server-process.js";
+
+const STREAM_COUNT = 50;
+const REQUESTS_PER_S = 20;
+const LEAST_PLOT_S = 20;
+
+/** One dense curve of some 1000 mm. */
+const CHORD_COUNT = 3_000;
+const CURVE = Array.from({ length: CHORD_COUNT + 1 }, (_, i) => {
+  const t = (i / CHORD_COUNT) * 1.35 * Math.PI;
+  return `${(130 + 70 * Math.sin(3 * t)).toFixed(3)} ${(100 + 60 * Math.cos(2 * t)).toFixed(3)}`;
+}).join("L");
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="260mm" height="200mm" viewBox="0 0 260 200" stroke="black" fill="none"><path d="M${CURVE}"/></svg>`;
+
+const undo: (() => unknown)[] = [];
+afterEach(async () => {
+  for (const step of undo.splice(0).reverse()) await step();
+});
+
+/** Reads a stream of events as bytes, as most of what a browser does with them is not ours. */
+async function countBytes(url: string, signal: AbortSignal): Promise<{ bytes: number }> {
+  const counted = { bytes: 0 };
+  const { body } = await fetch(`${url}/api/v1/events`, { signal });
+  const read = async (): Promise<void> => {
+    for await (const chunk of body!) counted.bytes += (chunk as Uint8Array).length;
+  };
+  read().catch(() => undefined);
+  return counted;
+}
+
+it("50 browsers and 20 requests a second never starve the board", { timeout: 240_000 }, async () => {
+  const data = temporaryFolder("load");
+  undo.push(data.remove);
+  const board = await PtyBoard.open({ wakeful: true });
+  undo.push(() => board.close());
+  const server = await startServerProcess({
+    dataDir: data.path,
+    virtualSpeed: 1,
+    args: ["--device", board.path],
+  });
+  undo.push(() => server.stop());
+  const added = await fetch(`${server.url}/api/v1/jobs?name=curve.svg`, { method: "POST", body: SVG });
+  const { id, stats } = jobSchema.parse(await added.json());
+  expect(stats!.durationS).toBeGreaterThan(LEAST_PLOT_S);
+
+  const stop = new AbortController();
+  undo.push(() => stop.abort());
+  const streams = await Promise.all(
+    Array.from({ length: STREAM_COUNT }, () => countBytes(server.url, stop.signal)),
+  );
+  const events = await EventStream.open(server.url);
+  undo.push(() => events.close());
+  const started = await fetch(`${server.url}/api/v1/jobs/${id}/start`, { method: "POST" });
+  expect(started.status).toBe(200);
+  await events.find("progress", (event) => !event.penUp);
+
+  const answers: Promise<number>[] = [];
+  const paths = ["/state", `/jobs/${id}`, "/openapi.json", `/jobs/${id}/drawing`, "/plotters/main"];
+  const asking = setInterval(() => {
+    const path = paths[answers.length % paths.length]!;
+    answers.push(
+      fetch(`${server.url}/api/v1${path}`).then(async (response) => {
+        await response.arrayBuffer();
+        return response.status;
+      }),
+    );
+  }, 1_000 / REQUESTS_PER_S);
+  undo.push(() => clearInterval(asking));
+  const { job } = await events.find(
+    "job",
+    (event) => event.job.state === "done" || event.job.state === "failed",
+  );
+  clearInterval(asking);
+
+  expect(job.state).toBe("done");
+  expect(answers.length).toBeGreaterThan(0.8 * LEAST_PLOT_S * REQUESTS_PER_S);
+  expect(new Set(await Promise.all(answers))).toEqual(new Set([200]));
+  for (const { bytes } of streams) expect(bytes).toBeGreaterThan(100 * 16 * 0.5 * LEAST_PLOT_S);
+  const { statistics, state } = await board.report();
+  expect([statistics.underrunCount, statistics.underrunS]).toEqual([0, 0]);
+  expect(state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+});
