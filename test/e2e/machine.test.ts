@@ -38,8 +38,13 @@ async function plotter(): Promise<Plotter> {
 }
 
 /** Presses, and waits until the server has answered with the plotter where it then stands. */
-async function move(press: () => Promise<void>): Promise<[xMm: number | null, yMm: number | null]> {
-  const answered = page.waitForResponse((response) => response.request().method() === "POST");
+async function move(
+  press: () => Promise<void>,
+  route = "",
+): Promise<[xMm: number | null, yMm: number | null]> {
+  const answered = page.waitForResponse(
+    (response) => response.request().method() === "POST" && response.url().endsWith(route),
+  );
   await press();
   const answer = await answered;
   expect([answer.status(), answer.ok() ? "" : await answer.text()]).toEqual([200, ""]);
@@ -126,18 +131,18 @@ describe("setting a plotter up", () => {
     await wizard().getByLabel("Most like").selectOption("axidraw-v3");
     await press("Next");
     await press("It is in the middle");
-    await move(() => press("Move 20 mm to the right"));
+    close(await move(() => press("Move 20 mm to the right"), "/jog"), 20, 0);
     await press("Away from me");
-    await move(() => press("Move 20 mm nearer"));
+    close(await move(() => press("Move 20 mm nearer"), "/jog"), 0, 20);
     await press("Left");
-    await move(() => press("Right"));
+    close(await move(() => press("Right"), "/jog"), 20, 0);
     await press("Yes, it goes there");
     await move(() => press("Draw the square"));
     await wizard().getByLabel("Measured width").fill("80");
     await wizard().getByLabel("Measured height").fill("80");
     await wizard().getByText("100 steps are one millimetre").waitFor();
     await press("Take this");
-    await wizard().getByText("B2 (brushless)").click();
+    await wizard().getByRole("radio", { name: "B2 (brushless)" }).check();
     await move(() => wizard().getByLabel("Highest").fill("20000"));
     await move(() => wizard().getByLabel("Lowest").fill("12000"));
     await press("Next");

@@ -189,7 +189,7 @@ export const PAGE_STATES: readonly PageState[] = [
     name: `${17 + index}-studio-${section.toLowerCase()}`,
     reach: async ({ page }: Stand): Promise<void> => {
       await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
-      await page.getByText(section, { exact: true }).click();
+      await page.getByRole("radio", { name: section }).check();
       await page.waitForLoadState("networkidle").catch(() => undefined);
     },
   })),

@@ -18,7 +18,13 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [fault, setFault] = useState<string | null>(null);
   const hand = useHand();
   const { motorsOff } = useActions();
-  const jog = (x: number, y: number): void => void hand.jog(x, y, settingsWith(draft));
+  const [isMoving, setMoving] = useState(false);
+  // From a home of its own each time: the profile may not know yet on which side of home the carriage stands.
+  const jog = async (x: number, y: number): Promise<void> => {
+    setMoving(true);
+    if (await hand.setHome()) await hand.jog(x, y, settingsWith(draft));
+    setMoving(false);
+  };
 
   const answer = (went: Direction): void => {
     if (asked === "x") {
@@ -63,10 +69,10 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       <>
         <p>{words.checkHint}</p>
         <div className="button-row">
-          <button type="button" className="button" onClick={() => jog(WAY_MM, 0)}>
+          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(WAY_MM, 0)}>
             {words.moveRight}
           </button>
-          <button type="button" className="button" onClick={() => jog(0, WAY_MM)}>
+          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(0, WAY_MM)}>
             {words.moveNearer}
           </button>
         </div>
@@ -91,7 +97,8 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       <button
         type="button"
         className="button button-primary"
-        onClick={() => (asked === "x" ? jog(WAY_MM, 0) : jog(0, WAY_MM))}
+        disabled={isMoving}
+        onClick={() => void (asked === "x" ? jog(WAY_MM, 0) : jog(0, WAY_MM))}
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </button>
