@@ -170,6 +170,12 @@ class Compiler {
       if (end === runEnd) k = last;
       else if (k > block && end === walk.endTick(k - 1)) k--;
     }
+    if (end < runEnd) {
+      const whole = tick + writer.longestWithin(end - tick);
+      // Later than the last cut at any rate, where that one came to nothing.
+      if (whole > notBefore - writer.minTicks) end = whole;
+      while (k > block && walk.endTick(k - 1) >= end) k--;
+    }
     this.cutTick = end;
     this.cutBlock = k;
     this.cutIsRunEnd = end >= runEnd;

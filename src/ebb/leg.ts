@@ -42,6 +42,8 @@ export interface LegWriter {
   readonly turnTicks: number;
   /** Ticks of every command in which the motors stand, and for which the rest of it runs faster. */
   readonly idleTicks: number;
+  /** The longest time of a command, rest included, that is no longer than this. */
+  longestWithin(ticks: number): number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
   /** Longest leg of a plan with this jerk (counts a tick³ of the faster motor); Infinity for none. */

@@ -27,6 +27,11 @@ export class SliceWriter implements LegWriter {
     private readonly features: FirmwareFeatures,
   ) {}
 
+  longestWithin(ticks: number): number {
+    const { idleTicks } = this.features;
+    return Math.max(1, Math.floor((ticks - idleTicks) / TICKS_PER_MS)) * TICKS_PER_MS + idleTicks;
+  }
+
   maxTicksForJerk(): number {
     return Infinity;
   }
