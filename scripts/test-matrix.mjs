@@ -1,0 +1,14 @@
+/**
+ * `npm run test:matrix`: every sample on every firmware in every mode, against the board's promises. Minutes.
+ * Prints the table of docs/ebb.md at the end.
+ */
+import { checkNode, ensureDependencies, nodeModule, run } from "./setup.mjs";
+
+checkNode();
+ensureDependencies();
+process.env.PLOTWRIGHT_MATRIX = "all";
+process.exitCode = run(process.execPath, [
+  nodeModule("vitest", "vitest.mjs"),
+  "run",
+  "test/board/plot-matrix.test.ts",
+]);

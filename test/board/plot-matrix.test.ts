@@ -1,0 +1,56 @@
+/**
+ * The samples × every generation of firmware × every mode, three plots in a row each without homing. The whole of
+ * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix). Otherwise a part in which each sample, and each
+ * firmware in each mode, comes at least once.
+ */
+import { afterAll, describe, expect, it } from "vitest";
+import {
+  ALLOWED_MM,
+  allowedJump,
+  FIRMWARE,
+  MODES,
+  plotOften,
+  SAMPLES,
+  worstTable,
+  type MatrixRow,
+  type Sample,
+} from "../support/plot-matrix.js";
+
+const isWhole = process.env["PLOTWRIGHT_MATRIX"] === "all";
+/** The quick ones stand in where any sample will do. */
+const QUICK: readonly Sample[] = ["hello-paper", "three-colour-hills"];
+const rows: MatrixRow[] = [];
+
+const combinations = FIRMWARE.flatMap((firmware, f) =>
+  MODES.flatMap((mode, m) => {
+    const often = QUICK[(f + m) % QUICK.length]!;
+    // Each of the others once: along the diagonal of newer firmware.
+    const others = SAMPLES.filter((sample) => !QUICK.includes(sample));
+    const once = m === f % MODES.length && f >= 2 ? others[f - 2]! : often;
+    return (isWhole ? SAMPLES : [once]).map((sample) => ({ sample, firmware, mode }));
+  }),
+);
+
+describe("a sample plotted three times in a row", () => {
+  it.each(combinations)("is $sample, true to the step on firmware $firmware in $mode", (combination) => {
+    const { sample, firmware, mode } = combination;
+    const row = plotOften(sample, firmware, mode);
+    rows.push(row);
+    expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
+    expect(row.timeShare).toBeLessThan(0.002);
+    expect(row.offMm).toBeLessThan(ALLOWED_MM);
+    expect(row.missedMm).toBeLessThan(ALLOWED_MM);
+    expect(row.jumpMmPerS).toBeLessThanOrEqual(allowedJump(mode, firmware) ?? Infinity);
+  });
+
+  it("covers each sample, and each firmware in each mode", () => {
+    expect(new Set(combinations.map(({ sample }) => sample)).size).toBe(SAMPLES.length);
+    const pairs = new Set(combinations.map(({ firmware, mode }) => `${firmware} ${mode}`));
+    expect(pairs.size).toBe(FIRMWARE.length * MODES.length);
+  });
+});
+
+afterAll(() => {
+  // The table of docs/ebb.md, for whoever runs the whole.
+  if (isWhole) process.stdout.write(`\n${worstTable(rows)}\n`);
+});
