@@ -8,8 +8,8 @@ import { pathToFileURL } from "node:url";
 import path from "node:path";
 
 export type Row = Readonly<Record<string, string | number>>;
-/** Called by a benchmark once for each table it has: a stable section name, and the rows. */
-export type Report = (section: string, rows: readonly Row[]) => void;
+/** Called by a benchmark once for each table it has: a stable section name, the rows, and what to know of this run. */
+export type Report = (section: string, rows: readonly Row[], note?: string) => void;
 export type Benchmark = (report: Report) => Promise<void>;
 
 const FOLDER = import.meta.dirname;
@@ -40,6 +40,8 @@ export function withSection(document: string, section: string, table: string): s
   return document.slice(0, from) + block + document.slice(until + end.length);
 }
 
+const date = (): string => new Date().toISOString().slice(0, 10);
+
 async function main(args: readonly string[]): Promise<void> {
   const isWriting = args.includes("--write");
   const names = args.filter((arg) => !arg.startsWith("--"));
@@ -58,8 +60,9 @@ async function main(args: readonly string[]): Promise<void> {
     const module = (await import(pathToFileURL(path.join(FOLDER, `${name}.bench.ts`)).href)) as {
       default: Benchmark;
     };
-    await module.default((section, rows) => {
-      const table = markdownTable(rows);
+    await module.default((section, rows, note) => {
+      const about = note === undefined ? "" : `${note} ${date()}, Node ${process.versions.node}.\n\n`;
+      const table = about + markdownTable(rows);
       console.log(`## ${section}\n\n${table}\n`);
       if (isWriting) writeFileSync(DOCUMENT, withSection(readFileSync(DOCUMENT, "utf8"), section, table));
     });

@@ -2,14 +2,16 @@
  * Does the board run dry when the host is stalled? A dense curve at real speed, through serialport and a
  * pseudo-terminal, to a virtual board in another process (firmware 2.8.1, queue of one), while the sending
  * process is stopped (SIGSTOP) for 150 ms in every second. The judge is the board, which counts the times
- * that its motors stood still for want of a command.
+ * that its motors stood still for want of a command. Time in which the machine does not run the board's own
+ * process is not board time (a real board is never descheduled); how much that was is told, and how long the
+ * sender was stopped in truth.
  */
 import { fork } from "node:child_process";
 import path from "node:path";
+import { cpus, loadavg } from "node:os";
 import { PtyBoard } from "../test/support/pty-board.js";
+import type { Report } from "./run.js";
 import type { SenderReport, SenderTask } from "./stream-sender.js";
-
-type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 
 const FIRMWARE = "2.8.1";
 const STALL_MS = 150;
@@ -23,12 +25,17 @@ const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
 
 export default async function streamBench(report: Report): Promise<void> {
   const rows: Record<string, string | number>[] = [];
-  for (const { what, task } of CASES) rows.push({ what, ...(await measure(task)) });
-  report("Streaming", rows);
+  const loads: number[] = [];
+  for (const { what, task } of CASES) {
+    rows.push({ what, ...(await measure(task)) });
+    loads.push(loadavg()[0]!);
+  }
+  const load = `${Math.min(...loads).toFixed(1)} to ${Math.max(...loads).toFixed(1)}`;
+  report("Streaming", rows, `Load while it ran: ${load} on ${cpus().length} cores.`);
 }
 
 async function measure(task: SenderTask): Promise<Record<string, string | number>> {
-  const board = await PtyBoard.open({ firmware: FIRMWARE });
+  const board = await PtyBoard.open({ firmware: FIRMWARE, wakeful: true });
   const sender = fork(
     path.join(import.meta.dirname, "stream-sender.ts"),
     [board.path, JSON.stringify(task)],
@@ -40,11 +47,11 @@ async function measure(task: SenderTask): Promise<Record<string, string | number
     sender.once("message", (message) => resolve(message as SenderReport));
     sender.once("exit", (code) => reject(new Error(`the sender ended with ${code}`)));
   });
-  const stopStalling = stallRegularly(sender.pid!);
+  const stalls = stallRegularly(sender.pid!);
   try {
     const result = await sent;
-    stopStalling();
-    const { statistics, state } = await board.report();
+    stalls.end();
+    const { statistics, state, sleptS } = await board.report();
     return {
       commands: result.commandCount,
       "planned s": Number(result.plannedS.toFixed(2)),
@@ -52,28 +59,51 @@ async function measure(task: SenderTask): Promise<Record<string, string | number
       underruns: statistics.underrunCount,
       "stood still s": Number(statistics.underrunS.toFixed(2)),
       "longest ms": Number((statistics.longestUnderrunS * 1000).toFixed(0)),
+      "longest stop ms": Number(stalls.longestMs().toFixed(0)),
+      "board asleep s": Number(sleptS.toFixed(2)),
       "ends exactly": state.steps1 === result.steps1 && state.steps2 === result.steps2 ? "yes" : "NO",
     };
   } finally {
-    stopStalling();
+    stalls.end();
     sender.kill("SIGKILL");
     await board.close();
   }
 }
 
-function stallRegularly(pid: number): () => void {
+interface Stalls {
+  /** How long the longest stop came to be. */
+  longestMs(): number;
+  end(): void;
+}
+
+function stallRegularly(pid: number): Stalls {
+  let longestMs = 0;
+  let stoppedAt: number | null = null;
   let wake: NodeJS.Timeout | undefined;
-  const stall = setInterval(() => {
-    process.kill(pid, "SIGSTOP");
-    wake = setTimeout(() => process.kill(pid, "SIGCONT"), STALL_MS);
-  }, EVERY_MS);
-  return () => {
-    clearInterval(stall);
-    clearTimeout(wake);
-    try {
-      process.kill(pid, "SIGCONT");
-    } catch {
-      // It has ended by itself.
-    }
+  const goOn = (): void => {
+    signal(pid, "SIGCONT");
+    if (stoppedAt !== null) longestMs = Math.max(longestMs, performance.now() - stoppedAt);
+    stoppedAt = null;
   };
+  const stall = setInterval(() => {
+    stoppedAt = performance.now();
+    signal(pid, "SIGSTOP");
+    wake = setTimeout(goOn, STALL_MS);
+  }, EVERY_MS);
+  return {
+    longestMs: () => longestMs,
+    end: () => {
+      clearInterval(stall);
+      clearTimeout(wake);
+      goOn();
+    },
+  };
+}
+
+function signal(pid: number, name: "SIGSTOP" | "SIGCONT"): void {
+  try {
+    process.kill(pid, name);
+  } catch {
+    // It has ended by itself.
+  }
 }

@@ -5,14 +5,17 @@
 import { spawn } from "@lydell/node-pty";
 import { VirtualBoard } from "../../src/index.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
+import { wakefulClock } from "./wakeful-clock.js";
 import type { FromBoard, ToBoard } from "./pty-board.js";
 
-const { firmware, speed, futureSyntax } = JSON.parse(process.argv[2]!) as {
+const { firmware, speed, futureSyntax, wakeful } = JSON.parse(process.argv[2]!) as {
   firmware: string;
   speed: number;
   futureSyntax: boolean;
+  wakeful: boolean;
 };
-const board = new VirtualBoard({ clock: nodeClock, firmware, speed });
+const ownClock = wakeful ? wakefulClock() : null;
+const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed });
 const say = (message: FromBoard): void => void process.send!(message);
 
 // A shell holds the terminal open and makes it pass bytes as they are; its first line is the terminal's name.
@@ -85,6 +88,7 @@ process.on("message", (message: ToBoard) => {
         type: "report",
         state: board.state(),
         statistics: board.statistics(),
+        sleptS: ownClock?.sleptS() ?? 0,
         drawn: board.drawn().map(({ penDown, xy }) => ({ penDown, xy: [...xy] })),
       });
       break;

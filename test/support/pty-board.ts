@@ -22,12 +22,15 @@ export interface BoardReport {
   readonly type: "report";
   readonly state: VirtualBoardState;
   readonly statistics: BoardStatistics;
+  /** Seconds that a wakeful board's clock stood still. */
+  readonly sleptS: number;
   /** mm from home: x, y, x, y … */
   readonly drawn: readonly { readonly penDown: boolean; readonly xy: readonly number[] }[];
 }
 
 export type FromBoard = { readonly type: "open"; readonly path: string } | BoardReport;
 
+/** `wakeful`: its clock stands still while the machine does not run its process. */
 export class PtyBoard {
   private constructor(
     /** The terminal that a driver opens. */
@@ -36,11 +39,11 @@ export class PtyBoard {
   ) {}
 
   static async open(
-    options: { firmware?: string; speed?: number; futureSyntax?: boolean } = {},
+    options: { firmware?: string; speed?: number; futureSyntax?: boolean; wakeful?: boolean } = {},
   ): Promise<PtyBoard> {
-    const { firmware = "2.8.1", speed = 1, futureSyntax = false } = options;
+    const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false } = options;
     const file = fileURLToPath(new URL("./pty-board-child.ts", import.meta.url));
-    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax })], {
+    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax, wakeful })], {
       execArgv: ["--import", "tsx"],
     });
     const opened = await answer(child, "open");

@@ -1,0 +1,168 @@
+/**
+ * What the page's own thread does with large drawings, in real Chromium: the longest task while a file of 25 MB is
+ * opened and planned, how soon a million segments are to be seen once they are planned, and the work of a frame
+ * while they are panned and zoomed. Needs the built product (`npm run build`).
+ */
+import type { Page } from "playwright-core";
+import { PageTest } from "../test/support/page-test.js";
+import type { Report, Row } from "./run.js";
+
+const FILES = [
+  { what: "25 MB, 40 000 polylines", strokes: 40_000, points: 43 },
+  { what: "1 000 000 segments in 1 000 strokes", strokes: 1_000, points: 1_001 },
+] as const;
+const FRAMES = 120;
+
+/** Kept by the page for us. */
+interface Watched {
+  longestTaskMs: number;
+  frameMs: number[];
+  file: File | null;
+}
+
+export default async function pageBench(report: Report): Promise<void> {
+  const rows: Row[] = [];
+  for (const { what, strokes, points } of FILES) {
+    const test = await PageTest.open("bench");
+    try {
+      rows.push({ what, ...(await measure(test.page, strokes, points)) });
+    } finally {
+      await test.close();
+    }
+  }
+  report(
+    "The page and large drawings",
+    rows,
+    "Milliseconds of the page's thread, in Chromium without a graphics card.",
+  );
+}
+
+async function measure(page: Page, strokes: number, points: number): Promise<Row> {
+  // The runner that compiles this wraps named functions in a helper that the page does not have.
+  await page.evaluate("window.__name = (named) => named");
+  await page.evaluate(watch);
+  const bytes = await page.evaluate(makeFile, { strokes, points });
+  await page.evaluate(forget);
+  const openedAt = await page.evaluate(open);
+  const moments = await page.evaluate(pictureAfter, openedAt);
+  const opening = await page.evaluate(watched);
+  await page.evaluate(forget);
+  const mean = await moveAbout(page);
+  const moving = await page.evaluate(watched);
+  return {
+    MB: Number((bytes / 1e6).toFixed(1)),
+    "opened to planned s": Number(((moments.plannedMs - openedAt) / 1_000).toFixed(1)),
+    "longest task ms": Math.round(opening.longestTaskMs),
+    "planned to picture ms": Math.round(moments.pictureMs - moments.plannedMs),
+    "a frame, mean ms": Number(mean.toFixed(1)),
+    "a frame, worst ms": Number(Math.max(...moving.frameMs).toFixed(1)),
+  };
+}
+
+/** Drags the paper and turns the wheel; returns the page's work in ms a step. */
+async function moveAbout(page: Page): Promise<number> {
+  const box = await page.locator(".preview canvas").first().boundingBox();
+  if (box === null) throw new Error("no preview on the page");
+  const x = box.x + box.width / 2;
+  const y = box.y + box.height / 2;
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable");
+  const workS = async (): Promise<number> => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return metrics.find(({ name }) => name === "TaskDuration")!.value;
+  };
+  const before = await workS();
+  await page.mouse.move(x, y);
+  await page.mouse.down({ button: "middle" });
+  for (let i = 0; i < FRAMES / 2; i++) await page.mouse.move(x + 3 * i, y + 2 * i);
+  await page.mouse.up({ button: "middle" });
+  for (let i = 0; i < FRAMES / 2; i++) await page.mouse.wheel(0, i < FRAMES / 4 ? -40 : 40);
+  return ((await workS()) - before) * (1_000 / FRAMES);
+}
+
+// What follows runs in the page.
+
+function watch(): void {
+  const watched: Watched = { longestTaskMs: 0, frameMs: [], file: null };
+  (window as unknown as { watched: Watched }).watched = watched;
+  new PerformanceObserver((list) => {
+    for (const { duration } of list.getEntries())
+      watched.longestTaskMs = Math.max(watched.longestTaskMs, duration);
+  }).observe({ type: "longtask" });
+  const request = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (callback) =>
+    request((time) => {
+      const from = performance.now();
+      callback(time);
+      watched.frameMs.push(performance.now() - from);
+    });
+}
+
+/** A scribble of so many strokes: writes the file in parts, since one text of it would be a long task. */
+async function makeFile({ strokes, points }: { strokes: number; points: number }): Promise<number> {
+  const parts = [
+    '<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" viewBox="0 0 210 297">',
+  ];
+  parts.push('<g fill="none" stroke="#000">\n');
+  let seed = 7;
+  const next = (): number => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;
+  for (let s = 0; s < strokes; s++) {
+    let x = 10 + 190 * next();
+    let y = 10 + 270 * next();
+    let angle = 6.3 * next();
+    let d = `M${x.toFixed(3)} ${y.toFixed(3)}`;
+    for (let k = 1; k < points; k++) {
+      angle += 0.6 * (next() - 0.5);
+      if (x < 6 || x > 204 || y < 6 || y > 291) angle = Math.atan2(148 - y, 105 - x);
+      x += 0.4 * Math.cos(angle);
+      y += 0.4 * Math.sin(angle);
+      d += `L${x.toFixed(3)} ${y.toFixed(3)}`;
+    }
+    parts.push(`<path d="${d}"/>\n`);
+    if (s % 500 === 0) await new Promise((resolve) => setTimeout(resolve, 0));
+  }
+  parts.push("</g></svg>");
+  const file = new File(parts, "scribble.svg", { type: "image/svg+xml" });
+  (window as unknown as { watched: Watched }).watched.file = file;
+  return file.size;
+}
+
+async function forget(): Promise<void> {
+  await new Promise((resolve) => setTimeout(resolve, 1_000));
+  const { watched } = window as unknown as { watched: Watched };
+  watched.longestTaskMs = 0;
+  watched.frameMs.length = 0;
+  performance.clearMarks();
+}
+
+/** Drops the file on the page; returns when, on the page's clock. */
+function open(): number {
+  const { file } = (window as unknown as { watched: Watched }).watched;
+  const data = new DataTransfer();
+  data.items.add(file!);
+  const openedAt = performance.now();
+  for (const type of ["dragenter", "dragover", "drop"]) {
+    document.body.dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+  }
+  return openedAt;
+}
+
+/** When the plan of what was opened then came, and when the preview first showed it. */
+async function pictureAfter(openedAt: number): Promise<{ plannedMs: number; pictureMs: number }> {
+  const markAfter = async (name: string, fromMs: number): Promise<number> => {
+    for (;;) {
+      const mark = performance.getEntriesByName(name).find(({ startTime }) => startTime >= fromMs);
+      if (mark) return mark.startTime;
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  };
+  const plannedMs = await markAfter("plotwright-planned", openedAt);
+  return { plannedMs, pictureMs: await markAfter("plotwright-picture", plannedMs) };
+}
+
+/** What has been seen; long tasks are told a little later. */
+async function watched(): Promise<{ longestTaskMs: number; frameMs: number[] }> {
+  await new Promise((resolve) => setTimeout(resolve, 1_000));
+  const { longestTaskMs, frameMs } = (window as unknown as { watched: Watched }).watched;
+  return { longestTaskMs, frameMs: [...frameMs] };
+}
