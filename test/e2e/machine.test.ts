@@ -147,7 +147,7 @@ describe("setting a plotter up", () => {
     await move(() => wizard().getByLabel("Lowest").fill("12000"));
     await press("Next");
     await wizard().getByLabel("Name").fill("Old Friend");
-    await wizard().getByLabel("Right", { exact: true }).fill("250");
+    await wizard().getByLabel("Right", { exact: true }).fill("290");
     await press("Save and use it");
     await wizard().waitFor({ state: "detached" });
 
@@ -165,7 +165,7 @@ describe("setting a plotter up", () => {
       servoPin: 5,
       servoPosAt0Pct: 12_000,
       servoPosAt100Pct: 20_000,
-      widthMm: 250,
+      widthMm: 290,
     } satisfies Partial<MachineProfile>);
     expect(await machinePanel().getByLabel("Model").inputValue()).toBe("old-friend");
   });
