@@ -70,6 +70,8 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--ebb <out>", "write the board's commands, one a line, to a file or - for stdout")
     .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
     .option("--preview <out.svg>", "write a picture coloured by speed")
+    .option("--svg <out.svg>", "write the prepared drawing, its layers' settings as codes in their names")
+    .option("--strokes <out.json>", "write the prepared drawing as polylines in mm")
     .action((file: string, options: PlanCommandOptions & OptionValues) =>
       runPlan(file, settingsFromOptions(options), options, io),
     );
@@ -188,6 +190,11 @@ function addServe(command: Command): Command {
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
     .option("--data <folder>", "folder for jobs and settings")
     .option("--watch <folder>", "queue the drawings that are put there")
+    .addOption(
+      new Option("--shared-queue <url>", "share jobs with other servers by a PostgreSQL database").env(
+        "PLOTWRIGHT_SHARED_QUEUE",
+      ),
+    )
     .option("--max-upload-mb <number>", "largest drawing taken", positive, 200)
     .option("--open", "open the page in the browser");
 }

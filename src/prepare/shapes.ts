@@ -38,7 +38,11 @@ export function shapesOnPaper(
     else wanted[shape] = 1;
   }
   if (far > 0) warnings.push(`${shapes(far)} much too far from the paper (over 1000 km) and not drawn.`);
-  if (outside > 0) warnings.push(`${shapes(outside)} wholly outside the margins and not drawn.`);
+  if (outside > 0) {
+    warnings.push(
+      `${shapes(outside)} wholly outside the margins and not drawn. Fit the drawing to the paper, or place it.`,
+    );
+  }
   return wanted;
 }
 
@@ -66,7 +70,9 @@ export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): 
   const kept = clipLinesToBox(lines, limit);
   const lost = totalLength(lines) - totalLength(kept);
   if (lost > UNNOTICED_CROP) {
-    warnings.push(`${Math.ceil(lost)} mm of line lie outside the margins and are cut off.`);
+    warnings.push(
+      `${Math.ceil(lost)} mm of line lie outside the margins and are cut off. Make the margins smaller, or the drawing.`,
+    );
   }
   return kept;
 }

@@ -110,6 +110,47 @@ describe("plotwright plan", () => {
     expect(new Set(svg.match(/#[0-9a-f]{6}/g)).size).toBeGreaterThan(4);
   });
 
+  it("writes the prepared drawing as SVG and as polylines, which can be plotted again to the same length", async () => {
+    const svg = join(dir, "out.svg");
+    const strokes = join(dir, "out.json");
+    const { code, out } = await cli(
+      "plan",
+      sample(firstSample),
+      "--json",
+      "--svg",
+      svg,
+      "--strokes",
+      strokes,
+    );
+    expect(code).toBe(0);
+    const { drawMm } = JSON.parse(out) as { drawMm: number };
+    for (const file of [svg, strokes]) {
+      const again = await cli("plan", file, "--json", "--no-fit", "--join", "0");
+      expect(Math.abs((JSON.parse(again.out) as { drawMm: number }).drawMm - drawMm)).toBeLessThan(
+        0.002 * drawMm,
+      );
+    }
+  });
+
+  it("obeys the codes in layer names, but draws what is asked for by name", async () => {
+    const file = join(dir, "coded.svg");
+    const layer = (name: string, y: number): string =>
+      `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="M10 ${y}H110" stroke="#000"/></g>`;
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="150mm" height="100mm" viewBox="0 0 150 100">${layer("%off", 20)}${layer("+s5 slow", 40)}</svg>`,
+    );
+    const report = async (
+      ...args: string[]
+    ): Promise<{ drawMm: number; durationS: number; strokes: number }> =>
+      JSON.parse((await cli("plan", file, "--json", "--no-fit", ...args)).out) as never;
+    const slow = await report();
+    // 100 mm at 5/110 of 8.6979 inches a second.
+    expect([slow.strokes, slow.durationS > 9]).toEqual([1, true]);
+    const off = await report("--only", "%off");
+    expect([off.strokes, off.durationS < 6]).toEqual([1, true]);
+  });
+
   it("draws only the layers that are named, and says which there are", async () => {
     const file = join(dir, "layers.svg");
     writeFileSync(
