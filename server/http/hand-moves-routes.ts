@@ -1,7 +1,6 @@
 /** /api/v1/plotters/:id/…: moves by hand and the board's console, while no job is plotting. */
 import express, { Router, type Request } from "express";
 import type { ZodType } from "zod";
-import { PlotwrightError } from "../../src/index.js";
 import {
   commandRequestSchema,
   frameRequestSchema,
@@ -17,6 +16,7 @@ import type { HandMove } from "../plotter/hand-moves.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { parseWith } from "./errors.js";
+import { findFreePlotter } from "./find-plotter.js";
 
 export interface HandMoveParts {
   readonly plotters: ReadonlyMap<string, PlotterPort>;
@@ -36,14 +36,7 @@ export function handMovesRoutes(parts: HandMoveParts): Router {
   const router = Router();
   router.use(express.json({ limit: "1mb" }));
 
-  const findFree = (id: string): PlotterPort => {
-    const plotter = parts.plotters.get(id);
-    if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
-    if (parts.queue.isPlotterBusy(id)) {
-      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
-    }
-    return plotter;
-  };
+  const findFree = (id: string): PlotterPort => findFreePlotter(parts.plotters, parts.queue, id);
 
   for (const [name, wantedOf] of Object.entries(MOVES)) {
     router.post(`/:id/${name}`, async (request, response) => {

@@ -1,27 +1,17 @@
-/** /api/v1/plotters: moves by hand, while no job is plotting. */
+/** /api/v1/plotters: a plotter, its log, its pen and motors; moves are in hand-moves-routes.ts. */
 import express, { Router } from "express";
-import { PlotwrightError } from "../../src/index.js";
 import { penRequestSchema } from "../../src/schema/index.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { parseWith } from "./errors.js";
+import { findFreePlotter, findPlotter } from "./find-plotter.js";
 
 export function plottersRoutes(plotters: ReadonlyMap<string, PlotterPort>, queue: JobQueue): Router {
   const router = Router();
   router.use(express.json({ limit: "100kb" }));
 
-  const find = (id: string): PlotterPort => {
-    const plotter = plotters.get(id);
-    if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
-    return plotter;
-  };
-  const findFree = (id: string): PlotterPort => {
-    const plotter = find(id);
-    if (queue.isPlotterBusy(id)) {
-      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
-    }
-    return plotter;
-  };
+  const find = (id: string): PlotterPort => findPlotter(plotters, id);
+  const findFree = (id: string): PlotterPort => findFreePlotter(plotters, queue, id);
 
   router.get("/:id", (request, response) => {
     response.json(find(request.params.id).snapshot());

@@ -215,7 +215,7 @@ describe("machines of the user's own", { timeout: 60_000 }, () => {
       message: expect.stringMatching(/^id/) as string,
     });
     expect(await put("mine", { ...MINE, stepsPerMm: 0 })).toMatchObject({ status: 400 });
-    expect(await put("..%2Fmine", { ...MINE, id: "../mine" })).toMatchObject({ status: 400 });
+    expect(await put("mine", { ...MINE, id: "../mine" })).toMatchObject({ status: 400 });
     expect(await put("mine", { ...MINE, servoPosAt100Pct: MINE.servoPosAt0Pct })).toMatchObject({
       status: 400,
     });

@@ -1,0 +1,22 @@
+/** The plotter of a path, for whoever looks at it and for whoever moves it. */
+import { PlotwrightError } from "../../src/index.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { PlotterPort } from "../queue/plotter-port.js";
+
+type Plotters = ReadonlyMap<string, PlotterPort>;
+
+/** Throws `not-found`. */
+export function findPlotter(plotters: Plotters, id: string): PlotterPort {
+  const plotter = plotters.get(id);
+  if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+  return plotter;
+}
+
+/** Throws `not-found`, or `busy` while a job is on it. */
+export function findFreePlotter(plotters: Plotters, queue: JobQueue, id: string): PlotterPort {
+  const plotter = findPlotter(plotters, id);
+  if (queue.isPlotterBusy(id)) {
+    throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
+  }
+  return plotter;
+}
