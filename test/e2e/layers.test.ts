@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { machineOf, VirtualBoard } from "../../src/index.js";
 import type { Job } from "../../src/schema/index.js";
-import { colorCounts, plotBar } from "../support/page-actions.js";
+import { colorCounts, dropFile, plotBar, waitForPlan } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 import { ascii } from "../support/virtual-plots.js";
 
@@ -59,10 +59,13 @@ async function plottedOrder(): Promise<string[]> {
     speed: Infinity,
   });
   for (const [, line] of log.matchAll(/^[\d.]+ > (.*)$/gm)) board.receive(ascii(`${line}\r`));
-  return board
-    .drawn()
-    .filter(({ penDown, xy }) => penDown && xy.length > 2)
-    .map(({ xy }) => LAYER_AT[Math.round(xy[1]!)] ?? `at ${xy[1]}`);
+  return (
+    board
+      .drawn()
+      .filter(({ penDown, xy }) => penDown && xy.length > 2)
+      // Within the offset of a pen.
+      .map(({ xy }) => LAYER_AT[20 * Math.round(xy[1]! / 20)] ?? `at ${xy[1]}`)
+  );
 }
 
 describe("layers on the page", () => {
@@ -253,10 +256,9 @@ describe("layers on a phone", () => {
     });
     const page = await context.newPage();
     await page.goto(test.server.url);
-    await page
-      .getByRole("button", { name: /^Drag / })
-      .first()
-      .waitFor({ state: "attached" });
+    await waitForPlan(page);
+    await dropFile(page, "beach.svg", SVG);
+    await page.getByRole("button", { name: /^Drag sun/ }).waitFor({ state: "attached" });
     const before = await namesOn(page);
     expect(before.length).toBeGreaterThan(1);
     const grips = page.getByRole("button", { name: /^Drag / });
