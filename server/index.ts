@@ -1,4 +1,5 @@
 /** Entry "plotwright/server": the whole server, to be embedded. */
+import { randomUUID } from "node:crypto";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
@@ -15,6 +16,8 @@ import { JobQueue } from "./queue/job-queue.js";
 import { Notices } from "./queue/notices.js";
 import { packagePath, packageVersion } from "./package-files.js";
 import { Store } from "./queue/store.js";
+import { SharedQueue, type SharedParts } from "./shared/shared-queue.js";
+import { SharedStore } from "./shared/shared-store.js";
 import { Access } from "./security/access.js";
 import { Baton } from "./security/baton.js";
 import { MDNS_NAME, announceOnLan, lanAddresses, pairingLinks } from "./security/network.js";
@@ -52,6 +55,10 @@ export interface ServerOptions {
   readonly allowedHosts?: readonly string[];
   /** Folder whose new drawings become queued jobs. */
   readonly watchDir?: string;
+  /** postgres://… of a database that several servers share jobs by; needs the packages pg and pg-boss. */
+  readonly sharedQueue?: string;
+  /** How often a free plotter looks there; 2000 unless told. */
+  readonly sharedPollMs?: number;
   /** Gets one line for each thing worth knowing; silent unless given. */
   readonly log?: (line: string) => void;
 }
@@ -142,6 +149,7 @@ async function openParts(
   const plotterName = (id: string): string => plotters.get(id)?.snapshot().name ?? id;
   const webhooks = new Webhooks({ store: store.webhooks, plotterName, log });
   undo.push(() => webhooks.close());
+  let shared: SharedQueue | null = null;
   const queue = new JobQueue({
     store,
     files,
@@ -150,7 +158,10 @@ async function openParts(
     announce,
     nowIso,
     withChange: (before, after) => webhooks.note(before, after),
-    afterChange: () => webhooks.wake(),
+    afterChange: () => {
+      webhooks.wake();
+      shared?.wake();
+    },
   });
   undo.push(() => queue.close());
   webhooks.start();
@@ -167,6 +178,8 @@ async function openParts(
     undo.push(() => folder.close());
   }
 
+  shared = await openShared(options, { store, queue, files, plotters, notices, log });
+  undo.push(() => shared?.close());
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
   access.onRevoke(() => hub.dropAll());
   const baton = new Baton({ store, log, announce: (operator) => announce({ type: "operator", operator }) });
@@ -181,11 +194,35 @@ async function openParts(
     baton,
     webhooks,
     notices,
+    shared,
     access,
     allowedHosts: allowedHosts(options),
     webDir: packagePath("dist/web"),
     samplesDir: packagePath("samples"),
   };
+}
+
+/** Only a server that shares its queue loads what it takes for that. */
+async function openShared(
+  { sharedQueue, sharedPollMs }: ServerOptions,
+  parts: Pick<SharedParts, "queue" | "files" | "plotters" | "log"> & {
+    readonly store: Store;
+    readonly notices: Notices;
+  },
+): Promise<SharedQueue | null> {
+  if (sharedQueue === undefined) return null;
+  const { store, notices, log } = parts;
+  const kept = store.setting("server-id");
+  const serverId = typeof kept === "string" ? kept : randomUUID();
+  if (serverId !== kept) store.saveSetting("server-id", serverId);
+  return new SharedQueue({
+    ...parts,
+    shared: await SharedStore.open(sharedQueue, log),
+    serverId,
+    serverName: hostname(),
+    notice: (message) => notices.add(message),
+    ...(sharedPollMs === undefined ? {} : { pollMs: sharedPollMs }),
+  });
 }
 
 function allowedHosts({ allowedHosts = [], host, lan }: ServerOptions): string[] {

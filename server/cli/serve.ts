@@ -14,6 +14,7 @@ export interface ServeCommandOptions {
   readonly virtualSpeed?: number;
   readonly data?: string;
   readonly watch?: string;
+  readonly sharedQueue?: string;
   readonly maxUploadMb: number;
   readonly open?: boolean;
   readonly lan?: boolean;
@@ -38,6 +39,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.virtualSpeed === undefined ? {} : { virtualSpeed: options.virtualSpeed }),
     ...(options.data === undefined ? {} : { dataDir: options.data }),
     ...(options.watch === undefined ? {} : { watchDir: options.watch }),
+    ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),
     log: (line) => io.err(`${line}\n`),
   });
   io.out(`plotwright is at ${server.url}\n`);

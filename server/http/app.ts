@@ -10,6 +10,7 @@ import type { Access } from "../security/access.js";
 import type { Baton } from "../security/baton.js";
 import type { Notices } from "../queue/notices.js";
 import type { PlotterRegistry } from "../plotter-registry.js";
+import type { SharedQueue } from "../shared/shared-queue.js";
 import type { Webhooks } from "../webhooks/webhooks.js";
 import { Browsers, requireBaton } from "./browser.js";
 import { errorResponder, notFound, parseWith } from "./errors.js";
@@ -19,9 +20,10 @@ import { guardHosts, guardPaths } from "./guard.js";
 import { handMovesRoutes, type HandMoveParts } from "./hand-moves-routes.js";
 import { jobsRoutes } from "./jobs-routes.js";
 import { machinesRoutes } from "./machines-routes.js";
-import { openApiDocument } from "./openapi.js";
+import { openApiText } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
 import { plotterListRoutes } from "./plotter-list-routes.js";
+import { sharedRoutes } from "./shared-routes.js";
 import { samplesRoutes } from "./samples.js";
 import { studioRoutes } from "./studio-routes.js";
 
@@ -34,6 +36,8 @@ export interface AppParts {
   readonly baton: Baton;
   readonly webhooks: Webhooks;
   readonly notices: Notices;
+  /** With other servers; null without. */
+  readonly shared: SharedQueue | null;
   /** Links that pair a device. */
   readonly pairing: () => Promise<Pairing>;
   /** What the server has said so far. */
@@ -87,6 +91,7 @@ export function apiMounts(
     ["/machines", machinesRoutes(parts.machines)],
     ["/plotters", plottersRoutes(plotters, queue)],
     ["/plotters", handMovesRoutes(handMoveParts(parts))],
+    ["/shared-jobs", sharedRoutes(parts.shared)],
     ["/samples", samplesRoutes(parts.samplesDir)],
   ];
 }
@@ -122,8 +127,8 @@ function stateRoutes(parts: AppParts, browsers: Browsers): Router {
     serverNotices: parts.notices.list(),
     jobs: queue.list(),
   });
-  router.get("/openapi.json", (_request, response) => {
-    response.json(openApiDocument(parts.version));
+  router.get("/openapi.json", async (_request, response) => {
+    response.type("json").send(await openApiText(parts.version));
   });
   router.get("/state", (_request, response) => {
     response.json(snapshot());

@@ -3,12 +3,14 @@ import { z } from "zod";
 import {
   deviceSchema,
   newPlotterSchema,
+  newSharedJobSchema,
   newWebhookSchema,
   operatorSchema,
   pairingSchema,
   plotterPatchSchema,
   plotterSchema,
   queueSettingsSchema,
+  sharedJobSchema,
   webhookSchema,
 } from "../../src/schema/index.js";
 import type { ApiRoute } from "./openapi.js";
@@ -74,5 +76,20 @@ export const STUDIO_ROUTES: readonly ApiRoute[] = [
     about: "Links that pair a device; from this computer only",
     answer: pairingSchema,
   },
+  {
+    method: "get",
+    path: "/shared-jobs",
+    about: "Jobs that several servers share, newest first",
+    answer: z.object({ jobs: z.array(sharedJobSchema) }),
+  },
+  {
+    method: "post",
+    path: "/shared-jobs",
+    about: "Adds one, for a plotter by name or a machine",
+    body: newSharedJobSchema,
+    answer: z.object({ id: z.string() }),
+    status: 201,
+  },
+  { method: "delete", path: "/shared-jobs/:id", about: "Withdraws one that still waits", answer: okSchema },
   { method: "get", path: "/logs", about: "What happened, to be sent to whoever helps", answer: "text" },
 ];

@@ -13,6 +13,13 @@ import type { WatchedFile } from "./store.js";
 
 type BookParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
+/** Where a job comes from, and where it goes in the queue. */
+export interface Origin {
+  readonly beforeId?: string | null;
+  readonly watched?: WatchedFile | undefined;
+  readonly sharedId?: string | undefined;
+}
+
 export class JobBook {
   readonly #parts: BookParts;
   readonly #jobs = new Map<string, Job>();
@@ -39,18 +46,12 @@ export class JobBook {
   }
 
   /** Last in the queue, or before another job of it. */
-  insert(
-    job: Job,
-    drawing: StoredDrawing,
-    {
-      beforeId = null,
-      watched,
-    }: { readonly beforeId?: string | null; readonly watched?: WatchedFile | undefined } = {},
-  ): Job {
+  insert(job: Job, drawing: StoredDrawing, { beforeId = null, watched, sharedId }: Origin = {}): Job {
     const { store } = this.#parts;
     store.together(() => {
       store.addJob(job, drawing, beforeId);
       if (watched !== undefined) store.saveSeen(watched);
+      if (sharedId !== undefined) store.saveShared(sharedId);
     });
     this.#jobs.set(job.id, job);
     this.#parts.announce({ type: "job", job });

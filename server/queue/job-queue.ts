@@ -77,7 +77,7 @@ export class JobQueue {
   }
 
   async #add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
-    const { name, settings, drawing, watched, plotterId = this.#firstPlotter() } = wanted;
+    const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, signal);
     // It may have been removed meanwhile.
@@ -85,7 +85,7 @@ export class JobQueue {
     return this.#book.insert(
       this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] }),
       drawing,
-      { watched },
+      { watched, sharedId },
     );
   }
 

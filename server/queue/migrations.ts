@@ -70,6 +70,9 @@ const MIGRATIONS: readonly string[] = [
      sha256     TEXT NOT NULL,
      PRIMARY KEY (name, sha256)
    );`,
+  `CREATE TABLE shared (               -- jobs of the shared queue that have come in
+     id         TEXT PRIMARY KEY
+   );`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

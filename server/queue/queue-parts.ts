@@ -35,4 +35,6 @@ export interface NewQueueJob {
   readonly plotterId?: string | undefined;
   /** Where it comes from: seen to as soon as the job is there. */
   readonly watched?: WatchedFile | undefined;
+  /** Its id in the shared queue, kept in the same step. */
+  readonly sharedId?: string | undefined;
 }

@@ -122,6 +122,15 @@ export class Store {
     this.#run("INSERT OR IGNORE INTO watched (name, sha256) VALUES (?, ?)", [name, sha256]);
   }
 
+  /** Whether a job of the shared queue has come in. */
+  isShared(id: string): boolean {
+    return this.#db.get("SELECT 1 FROM shared WHERE id = ?", [id]) !== null;
+  }
+
+  saveShared(id: string): void {
+    this.#run("INSERT INTO shared (id) VALUES (?)", [id]);
+  }
+
   /** Last in the queue, or before another job of it. */
   addJob(job: Job, drawing: StoredDrawing, beforeId: string | null = null): void {
     this.#transaction(() => {

@@ -6,3 +6,4 @@ export * from "./access.js";
 export * from "./studio.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";
+export * from "./shared.js";

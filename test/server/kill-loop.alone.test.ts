@@ -60,6 +60,14 @@ class Client {
     return snapshotSchema.parse(await (await fetch(`${this.url}/api/v1/state`)).json()).jobs;
   }
 
+  /** Waits, not for ever, until nothing is being plotted. */
+  async plotted(): Promise<void> {
+    for (let look = 0; look < 50; look++) {
+      if (!(await this.state()).some(({ state }) => state === "plotting")) return;
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+  }
+
   /** Something that a user may do, given how the jobs stand. */
   choose(jobs: readonly Job[]): Action {
     const queued = jobs.filter(({ state }) => state === "queued");
@@ -68,7 +76,7 @@ class Client {
     const held = jobs.find(({ state }) => state === "paused");
     const choice = this.below(10);
     if (held !== undefined) return this.#simple(held.id, "resume");
-    if (broken !== undefined && choice < 6) return this.#simple(broken.id, "recover");
+    if (broken !== undefined && choice < 9) return this.#simple(broken.id, "recover");
     if (any === undefined || (choice < 4 && queued.length < 8)) return this.#add();
     if (choice === 4) return this.#remove(any.id);
     if (choice < 7) return this.#simple(any.id, "start");
@@ -196,6 +204,8 @@ describe("a server that is killed without warning", () => {
         for (let step = client.below(7); step > 0; step--) {
           expect(await client.carryOut(client.choose(await client.state()))).toBe(true);
         }
+        // Every other time what is being plotted is given the time to end.
+        if (kill % 2 === 0) await client.plotted();
         // The last request is under way when the server goes: at once, or somewhere in the middle of it.
         const last = client.carryOut(client.choose(await client.state()));
         await new Promise((resolve) =>

@@ -109,6 +109,7 @@ export async function startApp(
     baton,
     webhooks,
     notices,
+    shared: null,
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
     serverLog: () => logged.join("\n"),

@@ -1,0 +1,29 @@
+/** /api/v1/shared-jobs: the queue that several servers have in common. */
+import express, { Router } from "express";
+import { PlotwrightError } from "../../src/index.js";
+import { newSharedJobSchema } from "../../src/schema/index.js";
+import type { SharedQueue } from "../shared/shared-queue.js";
+import { parseWith } from "./errors.js";
+
+export function sharedRoutes(shared: SharedQueue | null): Router {
+  const router = Router();
+  const present = (): SharedQueue => {
+    if (shared !== null) return shared;
+    throw new PlotwrightError(
+      "not-found",
+      "This server has no shared queue: it begins with serve --shared-queue.",
+    );
+  };
+  router.get("/", async (_request, response) => {
+    response.json({ jobs: await present().list() });
+  });
+  router.post("/", express.json({ limit: "50mb" }), async (request, response) => {
+    const id = await present().send(parseWith(newSharedJobSchema, request.body));
+    response.status(201).json({ id });
+  });
+  router.delete("/:id", async (request, response) => {
+    await present().withdraw(request.params.id);
+    response.json({ ok: true });
+  });
+  return router;
+}

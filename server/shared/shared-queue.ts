@@ -1,0 +1,153 @@
+/**
+ * One server's part in the shared queue: when a plotter of its has nothing to do, takes the next job that is meant
+ * for that plotter (by name, or by machine) into its own queue. From there it is a job like any other: durable,
+ * interrupted and recovered where it was taken. The own queue knows a shared job's id, so that one which was
+ * taken just before a crash comes in once.
+ */
+import { PlotwrightError } from "../../src/index.js";
+import {
+  newSharedJobSchema,
+  type NewSharedJob,
+  type SharedJob,
+  type SharedTarget,
+} from "../../src/schema/index.js";
+import type { PlotterPort } from "../queue/plotter-port.js";
+import type { DrawingFiles } from "../queue/drawing-files.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { Store } from "../queue/store.js";
+import type { SharedStore, TakenJob } from "./shared-store.js";
+
+export interface SharedParts {
+  readonly shared: SharedStore;
+  /** Kept with the data folder: it finds what it had taken again. */
+  readonly serverId: string;
+  /** For people. */
+  readonly serverName: string;
+  readonly store: Pick<Store, "isShared">;
+  readonly queue: JobQueue;
+  readonly files: DrawingFiles;
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly log: (line: string) => void;
+  readonly notice: (message: string) => void;
+  /** 2 s unless told. */
+  readonly pollMs?: number;
+}
+
+const POLL_MS = 2_000;
+const payloadSchema = newSharedJobSchema.omit({ target: true });
+
+export class SharedQueue {
+  readonly #parts: SharedParts;
+  #timer: NodeJS.Timeout | null = null;
+  #running: Promise<void>;
+  #isClosed = false;
+  /** What this server had taken is in its queue. */
+  #isCaughtUp = false;
+  #lastTrouble: string | null = null;
+
+  constructor(parts: SharedParts) {
+    this.#parts = parts;
+    this.#running = this.#round();
+  }
+
+  async send({ name, drawing, settings, target }: NewSharedJob): Promise<string> {
+    return this.#parts.shared.send(name, targetText(target), JSON.stringify({ name, drawing, settings }));
+  }
+
+  list(): Promise<SharedJob[]> {
+    return this.#parts.shared.list();
+  }
+
+  withdraw(id: string): Promise<void> {
+    return this.#parts.shared.withdraw(id);
+  }
+
+  /** Looks for work at once, unless it does already: to be called when a plotter may have become free. */
+  wake(): void {
+    if (this.#timer === null || this.#isClosed) return;
+    clearTimeout(this.#timer);
+    this.#timer = null;
+    this.#running = this.#round();
+  }
+
+  async close(): Promise<void> {
+    this.#isClosed = true;
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    await this.#running;
+    await this.#parts.shared.close();
+  }
+
+  /** Never rejects: without its database a server goes on with its own queue. */
+  async #round(): Promise<void> {
+    const { shared, serverId, log } = this.#parts;
+    try {
+      if (!this.#isCaughtUp) {
+        for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
+        this.#isCaughtUp = true;
+      }
+      for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
+      if (this.#lastTrouble !== null) log("shared queue: it works again");
+      this.#lastTrouble = null;
+    } catch (error) {
+      this.#isCaughtUp = false;
+      const trouble = error instanceof Error ? error.message : String(error);
+      if (trouble !== this.#lastTrouble) log(`shared queue: ${trouble}`);
+      this.#lastTrouble = trouble;
+    }
+    if (this.#isClosed) return;
+    this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
+    this.#timer.unref();
+  }
+
+  /** Only a plotter that is there and has nothing to do takes work, or it would keep it from one that is free. */
+  async #feed(plotter: PlotterPort): Promise<void> {
+    const { shared, serverId, serverName, queue } = this.#parts;
+    const { name, machine, connection } = plotter.snapshot();
+    if (this.#isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
+    const targets: SharedTarget[] = [{ plotter: name }, ...(machine === null ? [] : [{ machine }])];
+    for (const target of targets) {
+      const taker = { serverId, server: serverName, plotterId: plotter.id };
+      const job = await shared.take(targetText(target), taker);
+      if (job === null) continue;
+      await this.#bringIn(job);
+      return;
+    }
+  }
+
+  async #bringIn({ id, plotterId, payload }: TakenJob): Promise<void> {
+    const { shared, store, queue, files, log, notice } = this.#parts;
+    if (store.isShared(id)) {
+      await shared.finish(id, "stored", null);
+      return;
+    }
+    const parsed = payloadSchema.safeParse(JSON.parse(payload));
+    try {
+      if (!parsed.success)
+        throw new PlotwrightError("bad-setting", "It is of another version of plotwright.");
+      const { name, drawing, settings } = parsed.data;
+      const stored = await files.add([Buffer.from(drawing, "utf8")]);
+      const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
+      log(`shared queue: took "${name}" as ${job.id}`);
+      await shared.finish(id, "stored", null);
+      if (queue.settings(job.plotterId).runOn) startIfFree(queue, job.id);
+    } catch (error) {
+      if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
+      const message = `A job of the shared queue can't be plotted: ${error.message}`;
+      log(message);
+      notice(message);
+      await shared.finish(id, "refused", error.message);
+    }
+  }
+}
+
+const targetText = (target: SharedTarget): string =>
+  "plotter" in target ? `plotter ${target.plotter.toLowerCase()}` : `machine ${target.machine}`;
+
+/** It may have been started, or the plotter taken, by somebody meanwhile. */
+function startIfFree(queue: JobQueue, id: string): void {
+  try {
+    queue.start(id);
+  } catch (error) {
+    if (!(error instanceof PlotwrightError)) throw error;
+  }
+}

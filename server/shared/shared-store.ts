@@ -1,0 +1,197 @@
+/**
+ * The shared queue in PostgreSQL: pg-boss hands each job to one server, a table beside it says what has become of
+ * it. Both change in one transaction, so that a server that dies at any instant has either taken a job, and finds
+ * it again when it comes back, or has not, and another one gets it.
+ */
+import type { Pool, PoolClient } from "pg";
+import type PgBoss from "pg-boss";
+import { createHash, randomUUID } from "node:crypto";
+import { PlotwrightError } from "../../src/index.js";
+import { sharedJobSchema, type SharedJob } from "../../src/schema/index.js";
+
+/** What a server needs to make a job of its own of it: JSON text. */
+export interface TakenJob {
+  readonly id: string;
+  /** Of the taker, for which it took it. */
+  readonly plotterId: string;
+  readonly payload: string;
+}
+
+export interface Taker {
+  readonly serverId: string;
+  /** For people. */
+  readonly server: string;
+  readonly plotterId: string;
+}
+
+const TABLE = `CREATE TABLE IF NOT EXISTS plotwright_jobs (
+  id         text PRIMARY KEY,
+  name       text NOT NULL,
+  target     text NOT NULL,
+  state      text NOT NULL DEFAULT 'waiting',
+  server_id  text,
+  server     text,
+  plotter_id text,
+  message    text,
+  payload    text,
+  created_at timestamptz NOT NULL DEFAULT now()
+)`;
+/** Unfetched jobs are never thrown away: somebody's plotter may be on holiday. */
+const RETENTION_DAYS = 3_650;
+const MOST_LISTED = 500;
+
+type Row = Record<string, unknown>;
+
+export class SharedStore {
+  readonly #boss: PgBoss;
+  readonly #pool: Pool;
+  readonly #queues = new Set<string>();
+
+  private constructor(boss: PgBoss, pool: Pool) {
+    this.#boss = boss;
+    this.#pool = pool;
+  }
+
+  /** Loads pg and pg-boss, which nothing else needs. Throws `bad-setting` when the database can't be used. */
+  static async open(url: string, log: (line: string) => void): Promise<SharedStore> {
+    const failed = (cause: unknown): PlotwrightError =>
+      new PlotwrightError("bad-setting", `The shared queue's database can't be used: ${words(cause)}.`, {
+        cause,
+      });
+    let pool: Pool | null = null;
+    try {
+      const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
+      pool = new pg.Pool({ connectionString: url, max: 3 });
+      const tell = (error: Error): void => log(`shared queue: ${words(error)}`);
+      pool.on("error", tell);
+      await pool.query(TABLE);
+      const boss = new Boss({ db: plainDb(pool), schedule: false });
+      boss.on("error", tell);
+      await boss.start();
+      return new SharedStore(boss, pool);
+    } catch (cause) {
+      await pool?.end().catch(() => undefined);
+      throw failed(cause);
+    }
+  }
+
+  /** Returns the job's id. */
+  async send(name: string, target: string, payload: string): Promise<string> {
+    const id = randomUUID();
+    const queue = await this.#queueOf(target);
+    await this.#transaction(async (client) => {
+      await client.query("INSERT INTO plotwright_jobs (id, name, target, payload) VALUES ($1, $2, $3, $4)", [
+        id,
+        name,
+        target,
+        payload,
+      ]);
+      await this.#boss.send(queue, { id }, { db: plainDb(client), retentionDays: RETENTION_DAYS });
+    });
+    return id;
+  }
+
+  /** The next job for the target, which is this server's from then on; null when there is none. */
+  async take(target: string, taker: Taker): Promise<TakenJob | null> {
+    const { serverId, server, plotterId } = taker;
+    const queue = await this.#queueOf(target);
+    return this.#transaction(async (client) => {
+      const db = plainDb(client);
+      const [next] = await this.#boss.fetch<{ id: string }>(queue, { db });
+      if (next === undefined) return null;
+      const { rows } = await client.query<Row>(
+        `UPDATE plotwright_jobs SET state = 'taken', server_id = $2, server = $3, plotter_id = $4
+         WHERE id = $1 AND state = 'waiting' RETURNING id, plotter_id, payload`,
+        [next.data.id, serverId, server, plotterId],
+      );
+      await this.#boss.complete(queue, next.id, { server }, { db });
+      return rows[0] === undefined ? null : takenFrom(rows[0]);
+    });
+  }
+
+  /** Taken by this server, but perhaps not in its queue: it may have died between. */
+  async unfinished(serverId: string): Promise<TakenJob[]> {
+    const { rows } = await this.#pool.query<Row>(
+      "SELECT id, plotter_id, payload FROM plotwright_jobs WHERE server_id = $1 AND state = 'taken' ORDER BY created_at",
+      [serverId],
+    );
+    return rows.map(takenFrom);
+  }
+
+  /** It is in the taker's queue now, or can't be: the drawing is not needed here any more. */
+  async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
+    await this.#pool.query(
+      "UPDATE plotwright_jobs SET state = $2, message = $3, payload = NULL WHERE id = $1",
+      [id, state, message],
+    );
+  }
+
+  /** Takes back a job that waits; throws `conflict` for one that a server has taken. */
+  async withdraw(id: string): Promise<void> {
+    const { rowCount } = await this.#pool.query(
+      "UPDATE plotwright_jobs SET state = 'withdrawn', payload = NULL WHERE id = $1 AND state = 'waiting'",
+      [id],
+    );
+    if (rowCount === 0) {
+      throw new PlotwrightError("conflict", "A server has taken this job already, or there is none.");
+    }
+  }
+
+  /** Newest first. */
+  async list(): Promise<SharedJob[]> {
+    const { rows } = await this.#pool.query<Row>(
+      `SELECT id, name, target, state, server, message, created_at FROM plotwright_jobs
+       ORDER BY created_at DESC LIMIT ${MOST_LISTED}`,
+    );
+    return rows.map(({ created_at: createdAt, ...row }) =>
+      sharedJobSchema.parse({ ...row, createdAt: new Date(createdAt as Date).toISOString() }),
+    );
+  }
+
+  async close(): Promise<void> {
+    await this.#boss.stop({ graceful: false, wait: true }).catch(() => undefined);
+    await this.#pool.end();
+  }
+
+  async #queueOf(target: string): Promise<string> {
+    // Names of plotters have spaces and letters of all kinds; those of queues have not.
+    const queue = `plotwright_${createHash("sha256").update(target).digest("hex").slice(0, 24)}`;
+    if (!this.#queues.has(queue)) {
+      await this.#boss.createQueue(queue);
+      this.#queues.add(queue);
+    }
+    return queue;
+  }
+
+  async #transaction<T>(work: (client: PoolClient) => Promise<T>): Promise<T> {
+    const client = await this.#pool.connect();
+    try {
+      await client.query("BEGIN");
+      const result = await work(client);
+      await client.query("COMMIT");
+      client.release();
+      return result;
+    } catch (error) {
+      // The connection itself, so that nothing half done is left on it.
+      client.release(true);
+      throw error;
+    }
+  }
+}
+
+const plainDb = (on: Pool | PoolClient): PgBoss.Db => ({
+  executeSql: (text, values) => on.query<Row>(text, values),
+});
+
+const takenFrom = ({ id, plotter_id: plotterId, payload }: Row): TakenJob => ({
+  id: String(id),
+  plotterId: String(plotterId),
+  payload: String(payload),
+});
+
+/** Never the address: it has a password in it. */
+function words(error: unknown): string {
+  const { code, message } = error as { code?: unknown; message?: unknown };
+  const text = typeof message === "string" && message !== "" ? message : String(code ?? error);
+  return text.replace(/\/\/[^\s@]*@/g, "//…@");
+}

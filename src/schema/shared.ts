@@ -1,0 +1,31 @@
+/** Jobs that several servers share: whichever has the plotter for one takes it. */
+import { z } from "zod";
+import { plotSettingsSchema } from "./settings.js";
+
+/** A plotter by its name, or any plotter that is one machine. */
+export const sharedTargetSchema = z.union([
+  z.object({ plotter: z.string().trim().min(1).max(100) }),
+  z.object({ machine: z.string().min(1).max(100) }),
+]);
+export type SharedTarget = z.infer<typeof sharedTargetSchema>;
+
+export const newSharedJobSchema = z.object({
+  name: z.string().trim().min(1).max(200),
+  drawing: z.string().min(1),
+  settings: plotSettingsSchema,
+  target: sharedTargetSchema,
+});
+export type NewSharedJob = z.infer<typeof newSharedJobSchema>;
+
+/** waiting ──> taken ──> stored (in the queue of `server`) | refused (it can't be plotted); waiting ──> withdrawn */
+export const sharedJobSchema = z.object({
+  id: z.string(),
+  name: z.string(),
+  target: z.string(),
+  state: z.enum(["waiting", "taken", "stored", "refused", "withdrawn"]),
+  /** Name of the server that has taken it. */
+  server: z.string().nullable(),
+  message: z.string().nullable(),
+  createdAt: z.string(),
+});
+export type SharedJob = z.infer<typeof sharedJobSchema>;
