@@ -120,13 +120,25 @@ export const API_ROUTES: readonly ApiRoute[] = [
   ...STUDIO_ROUTES,
 ];
 
-export function openApiDocument(version: string): object {
+/**
+ * As JSON. Made once, route by route: all at once it would take so long that a plot under way, which the same
+ * thread streams to the board, would run dry.
+ */
+export function openApiText(version: string): Promise<string> {
+  text ??= makeText(version);
+  return text;
+}
+
+let text: Promise<string> | null = null;
+
+async function makeText(version: string): Promise<string> {
   const paths: Record<string, Record<string, object>> = {};
   for (const one of API_ROUTES) {
     const path = `/api/v1${one.path.replace(/:(\w+)/g, "{$1}")}`;
     paths[path] = { ...paths[path], [one.method]: operation(one) };
+    await new Promise((resolve) => setImmediate(resolve));
   }
-  return { openapi: "3.1.0", info: { title: "plotwright", version }, paths };
+  return JSON.stringify({ openapi: "3.1.0", info: { title: "plotwright", version }, paths });
 }
 
 function operation({ path, about, body, answer, status = 200 }: ApiRoute): object {
