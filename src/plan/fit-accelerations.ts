@@ -25,6 +25,7 @@ import type { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { FitSettings, MotionMode } from "./settings.js";
+import { PieceChain } from "./piece-chain.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
 import { SLACK } from "./three-jerks.js";
 
@@ -57,17 +58,11 @@ const FIRST_S = 0.06;
 const LOOKS = 16;
 
 /** A steady piece is long enough when it comes to this share of ε. */
-const ENOUGH = 0.85;
+const ENOUGH = 0.6;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
 const LONG_PAIRS = 4;
-
-interface Link extends PieceStart {
-  readonly isPlanned: boolean;
-  readonly count: number;
-  readonly clockS: number;
-}
 
 export class AccelerationFitter {
   private readonly source = new FitSource();
@@ -82,8 +77,10 @@ export class AccelerationFitter {
   /** First block that is to be kept, at or after `at.k`. */
   private anchor = 0;
   private guess = FIRST_S;
-  /** Steady pieces since the last planned state. */
-  private readonly chain: Link[] = [];
+  /** What the next piece's length may be by that of the last one, by how near it came to ε. */
+  private next = 1;
+  /** Steady pieces since the last planned state: what `at`, and the count and clock of `out`, were before each. */
+  private readonly chain = new PieceChain();
   /** The piece or pair that was found last: durations and accelerations. */
   private h1 = 0;
   private h2 = 0;
@@ -114,7 +111,7 @@ export class AccelerationFitter {
     this.bend = this.mode === "junction" ? Infinity : limits.accel;
     this.out = out;
     out.reserve(Math.min(from.count, segments), segments);
-    this.chain.length = 0;
+    this.chain.count = 0;
     this.anchor = 0;
     this.guess = FIRST_S;
     this.startPlanned(0);
@@ -168,7 +165,7 @@ export class AccelerationFitter {
       if (h === 0) return false;
       this.h1 = h;
       if (this.isNear(Infinity)) {
-        this.guess = h;
+        this.guess = Math.min(h * this.next, LONGEST_S);
         this.writeSteady();
         return true;
       }
@@ -187,6 +184,7 @@ export class AccelerationFitter {
       const change = 1 / Math.cbrt(Math.max(share, 0.01));
       if (share <= 1) {
         best = h;
+        this.next = Math.min(1.5, Math.max(0.8, 0.95 * change));
         bestX = this.a1x;
         bestY = this.a1y;
         if (share > ENOUGH || h >= most) break;
@@ -221,7 +219,7 @@ export class AccelerationFitter {
 
   private writeSteady(): void {
     const { at, h1: h, source } = this;
-    this.chain.push({ ...at, isPlanned: this.isPlanned, count: this.out.count, clockS: this.out.clockS });
+    this.chain.push(at, this.out);
     this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
     this.isPlanned = false;
     // τ goes to where the plan is nearest.
@@ -305,8 +303,8 @@ export class AccelerationFitter {
 
   private writePair(m: number): void {
     const { at, out, source, chain } = this;
-    const first = chain[0] ?? { k: at.k, count: out.count, clockS: out.clockS };
-    if (this.isWorth(first.k, m, out.count + 2 - first.count)) {
+    // Steady pieces and the pair are one way from planned state to planned state.
+    if (this.isWorth(this.chain.firstBlock(at.k), m, this.chain.count + 2)) {
       const length = source.startOf(m) - at.tau;
       this.push(this.h1, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
       const half = at.tau + length / 2;
@@ -314,9 +312,8 @@ export class AccelerationFitter {
       while (k + 1 < m && source.startOf(k + 1) <= half) k++;
       this.push(this.h2, this.a2x, this.a2y, source.alongAt(k, half));
     } else {
-      out.count = first.count;
-      out.clockS = first.clockS;
-      for (let k = first.k; k < m; k++) source.copy(k, out);
+      while (chain.count > 0) chain.pop(at, out);
+      for (let k = at.k; k < m; k++) source.copy(k, out);
     }
     this.startPlanned(m);
   }
@@ -336,12 +333,9 @@ export class AccelerationFitter {
     const floor = this.settings.floorMs / 1000;
     const tried = at.k + 1;
     let far = Math.min(tried, this.anchor);
-    for (let taken = 0; chain.length > 0; taken++) {
-      const { count, clockS, isPlanned, ...state } = chain.pop()!;
-      Object.assign(at, state);
-      out.count = count;
-      out.clockS = clockS;
-      this.isPlanned = isPlanned;
+    for (let taken = 0; chain.count > 0; taken++) {
+      chain.pop(at, out);
+      this.isPlanned = chain.count === 0;
       while (source.startOf(far) > at.tau + 2 * LONGEST_S) far--;
       for (let m = far; m > at.k + 1; m--) {
         if (taken < LONG_PAIRS && source.startOf(m) - at.tau < 2 * floor) break;
@@ -361,7 +355,7 @@ export class AccelerationFitter {
   private startPlanned(k: number): void {
     const { at, source } = this;
     const { blocks } = source;
-    this.chain.length = 0;
+    this.chain.count = 0;
     this.isPlanned = true;
     at.k = k;
     at.tau = source.startOf(k);

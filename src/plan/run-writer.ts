@@ -34,9 +34,9 @@ export class RunWriter {
   }
 
   private withMargin(limits: RunLimits): RunLimits {
-    // Pieces of constant acceleration slow down for V where they must, on their own.
+    // Pieces of constant acceleration slow down for V where they must, on their own; and they keep the floor.
     const speed = this.mode === "scurve" ? limits.speed * SPEED_MARGIN : limits.speed;
-    return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed };
+    return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed, floorS: 0 };
   }
 
   private writeMode(path: RunPath, limits: RunLimits, out: BlockColumns): void {

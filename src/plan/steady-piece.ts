@@ -5,7 +5,7 @@
  *   from place X, velocity W:   q(u) = X + W u + a₁ φ₁(u) + a₂ φ₂(u)       0 ≤ u ≤ 2 h
  *   φ₁ = u²/2, after h: h u − h²/2          φ₂ = 0, after h: (u − h)²/2
  *
- *   minimise  Σ ‖q(uᵢ) − p(τ + uᵢ)‖²  over twelve instants of the plan p, where being beside the line counts fully
+ *   minimise  Σ ‖q(uᵢ) − p(τ + uᵢ)‖²  over ten instants of the plan p, where being beside the line counts fully
  *   and being early or late on it by ALONG² of that:   ‖d‖² = (d·n)² + ALONG² (d·t)²
  *
  * With N = n nᵀ + ALONG² t tᵀ that is a symmetric system of 2 × 2 blocks
@@ -16,7 +16,7 @@
 import type { BlockColumns } from "./block-columns.js";
 
 /** Instants looked at, in each of the two pieces. */
-const LOOKS = 6;
+const LOOKS = 5;
 
 /** How much being early or late on the line weighs against being beside it. */
 const ALONG = 0.06;
@@ -59,8 +59,19 @@ export class SteadyPiece {
     const { startS, x, y, vx, vy, ax, ay } = from;
     const last = from.count - 1;
     let i = start.k;
-    let [p1, p2, p3, q1, q2, q3, r1, r2, r3] = ZEROS;
-    let [bx, by, cx, cy] = ZEROS;
+    let p1 = 0;
+    let p2 = 0;
+    let p3 = 0;
+    let q1 = 0;
+    let q2 = 0;
+    let q3 = 0;
+    let r1 = 0;
+    let r2 = 0;
+    let r3 = 0;
+    let bx = 0;
+    let by = 0;
+    let cx = 0;
+    let cy = 0;
     for (let s = 0; s < 2 * LOOKS; s++) {
       const u = U[s]! * h;
       const t = start.tau + u;
@@ -134,5 +145,3 @@ export class SteadyPiece {
     this.beside = beside;
   }
 }
-
-const ZEROS = [0, 0, 0, 0, 0, 0, 0, 0, 0] as const;

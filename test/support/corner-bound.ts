@@ -1,0 +1,83 @@
+/**
+ * What an isolated corner costs: seconds lost against a pen that goes round it at V as if direction were free, for each
+ * rule, and the least that any motion can lose that stays within δ of the drawing.
+ *
+ *   y ^  \   φ turn         s = sin(φ/2), c = cos(φ/2); both sides are long, the pen comes and goes at V
+ *     |   \     /           y along the bisector, into the corner's inside; x across it
+ *     |    \ • /  apex at   A point of the bisector is y c from the sides: whoever passes within δ
+ *     +-----V----> x        crosses it at y ≤ δ/c.
+ *
+ * The bound keeps only that, |a| ≤ A and |v| ≤ V, and forgets the rest of the corridor, so nothing can be faster. Two
+ * motions averaged keep the same convex limits; so a symmetric one is among the best, with velocity along x at the
+ * bisector. With u the direction of coming and n the one square to it, towards the inside, the half before it loses
+ *
+ *     V λ = ∫ (V − v·u) dt − s y        c y = ∫ v·n dt ≤ δ
+ *
+ * For any μ ≥ 0 a lower bound (Lagrange's duality) is the least of ∫ ℓ(v) dt − μ δ, ℓ = V − v·u + (μ − s/c) v·n. Since
+ * dt ≥ |dv|/A and, for μ ≥ s/c, ℓ ≥ 0, that is a shortest way through the disc of velocities from V u to the x axis
+ * with the weight ℓ/A: found on a polar grid, for the best of many μ.
+ */
+export interface CornerCase {
+  /** V mm/s, A mm/s², δ mm, φ rad. */
+  readonly speed: number;
+  readonly accel: number;
+  readonly deviation: number;
+  readonly turn: number;
+}
+
+/** Brake to the corner's speed, jump, speed up again. */
+export function junctionLoss({ speed, accel, deviation, turn }: CornerCase): number {
+  const c = Math.cos(turn / 2);
+  const v = Math.min(speed, Math.sqrt((accel * deviation * c) / (1 - c)));
+  return (speed - v) ** 2 / (accel * speed);
+}
+
+/** Brake to the parabola's speed; the parabola takes 2 v s/A and stands for 2 v² s/A mm; speed up again. */
+export function blendLoss({ speed, accel, deviation, turn }: CornerCase): number {
+  const s = Math.sin(turn / 2);
+  const v = Math.min(speed, Math.sqrt(2 * accel * deviation) / s);
+  return (speed - v) ** 2 / (accel * speed) + ((2 * v * s) / accel) * (1 - v / speed);
+}
+
+const RADII = 160;
+const ANGLES = 40;
+
+/** The least that can be lost, s, within about 1 %; below 0 where the short cut saves more than the turn costs. */
+export function leastLoss(corner: CornerCase): number {
+  const { speed, accel, deviation, turn } = corner;
+  const least = Math.tan(turn / 2);
+  const scale = (speed * speed) / (accel * deviation);
+  const bound = (share: number): number => dualBound(corner, least + scale * share * share);
+  // Concave in μ: narrowed down by thirds.
+  let [low, high] = [0, 2];
+  for (let i = 0; i < 24; i++) {
+    const [a, b] = [low + (high - low) / 3, high - (high - low) / 3];
+    if (bound(a) < bound(b)) low = a;
+    else high = b;
+  }
+  return bound((low + high) / 2);
+}
+
+/** For one μ, both halves. */
+function dualBound({ speed, accel, deviation, turn }: CornerCase, mu: number): number {
+  const weight = mu - Math.tan(turn / 2);
+  const step = turn / 2 / ANGLES;
+  const cost = (rho: number, angle: number): number =>
+    speed - rho * Math.cos(angle) + weight * rho * Math.sin(angle);
+  const radius = (i: number): number => (speed * i) / RADII;
+  let at = Float64Array.from({ length: RADII + 1 }, (_, i) => (speed - radius(i)) ** 2 / 2 / accel);
+  for (let k = 0; k < ANGLES; k++) {
+    const next = new Float64Array(RADII + 1).fill(Infinity);
+    for (let j = 0; j <= RADII; j++) {
+      // Between neighbouring angles speed changes by less than this.
+      for (let i = Math.max(0, j - 24); i <= Math.min(RADII, j + 24); i++) {
+        const [r0, r1] = [radius(i), radius(j)];
+        const way = Math.sqrt(r0 * r0 + r1 * r1 - 2 * r0 * r1 * Math.cos(step));
+        const middle = cost((r0 + r1) / 2, (k + 0.5) * step);
+        next[j] = Math.min(next[j]!, at[i]! + (way * middle) / accel);
+      }
+    }
+    at = next;
+  }
+  return (2 * (Math.min(...at) - mu * deviation)) / speed;
+}
