@@ -92,9 +92,23 @@ describe("axe finds nothing serious", () => {
   });
 });
 
-describe("axe finds nothing serious in any state of the page", () => {
+/** Those that look like no other; `npm run screenshots` puts all of them before axe. */
+const CHECKED = [
+  "03-report",
+  "10-waiting-for-pen",
+  "11-interrupted",
+  "13-by-hand",
+  "14-set-up",
+  "15-machines",
+  "17-studio-share",
+  "19-studio-plotters",
+  "23-server-gone",
+];
+
+describe("axe finds nothing serious on a phone", () => {
   const look: Look = { name: "phone", width: 390, height: 844, colorScheme: "light" };
-  it.each(PAGE_STATES.map((state) => [state.name, state] as const))("%s", async (_name, state) => {
+  const checked = PAGE_STATES.filter(({ name }) => CHECKED.includes(name));
+  it.each(checked.map((state) => [state.name, state] as const))("%s", async (_name, state) => {
     await inState(browser, state, look, async (page) => {
       expect(await seriousFindings(page)).toEqual([]);
       const widthPx = await page.evaluate(() => document.documentElement.scrollWidth);
