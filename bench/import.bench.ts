@@ -4,7 +4,7 @@
  */
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { cpus, loadavg, tmpdir } from "node:os";
 import path from "node:path";
 import { ensureBuild } from "../scripts/setup.mjs";
 import type { Report, Row } from "./run.js";
@@ -24,7 +24,7 @@ export default function importBench(report: Report): Promise<void> {
   ensureBuild();
   const folder = mkdtempSync(path.join(tmpdir(), "plotwright-import-"));
   try {
-    report("Text to plan, 20 000 lines of two points", [textToPlan(folder)]);
+    report("Text to plan, 20 000 lines of two points", [textToPlan(folder)], load());
     const rows = BIG_FILES.map(([what, element]) => {
       const text = fileOf(BIG_BYTES, element);
       const best = bestOf(folder, text, "");
@@ -35,7 +35,7 @@ export default function importBench(report: Report): Promise<void> {
         "memory, × file": Number((best.timesFile ?? NaN).toFixed(1)),
       };
     });
-    report("Import of 25 MB", rows);
+    report("Import of 25 MB", rows, load());
   } finally {
     rmSync(folder, { recursive: true });
   }
@@ -112,5 +112,7 @@ function generator(): () => number {
   let seed = 1;
   return () => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;
 }
+
+const load = (): string => `Load while it ran: ${loadavg()[0]!.toFixed(1)} on ${cpus().length} cores.`;
 
 const seconds = (ms: number): number => Number((ms / 1000).toFixed(2));
