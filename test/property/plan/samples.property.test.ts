@@ -10,6 +10,7 @@ import {
   MOTION_MODES,
   plan,
   prepare,
+  type Trajectory,
 } from "../../../src/index.js";
 import { worstOf } from "../../support/trajectory-checks.js";
 
@@ -42,3 +43,32 @@ describe.each(samples)("the sample %s", (file) => {
     expect(worst.accelJump).toBeLessThan(1e-2);
   });
 });
+
+describe.each([
+  { file: "harmonograph.svg", fewer: 8 },
+  { file: "three-colour-hills.svg", fewer: 4.5 },
+  { file: "flower-meadow.svg", fewer: 1.8 },
+])("fitting $file", ({ file, fewer }) => {
+  it("leaves fewer pieces than planned blocks, hardly any shorter than the floor, and little more time", () => {
+    const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
+    const plain = drawnDurations(plan(strokes, { mode: "blend", draw, travel, fit: null }, DEFAULT_PEN));
+    const fitted = drawnDurations(
+      plan(strokes, { mode: "blend", draw, travel, fit: DEFAULT_FIT }, DEFAULT_PEN),
+    );
+    expect(plain.length / fitted.length).toBeGreaterThan(fewer);
+    const short = fitted.filter((s) => s < DEFAULT_FIT.floorMs / 1000 - 1e-9);
+    expect(short.length / fitted.length).toBeLessThan(0.01);
+    const sum = (durations: readonly number[]) => durations.reduce((total, s) => total + s, 0);
+    expect(sum(fitted) / sum(plain)).toBeLessThan(1.02);
+  });
+});
+
+/** Seconds of every block drawn with the pen down. */
+function drawnDurations({ runs, durationS }: Trajectory): number[] {
+  const durations: number[] = [];
+  for (let run = 0; run < runs.count; run++) {
+    if (runs.stroke[run]! < 0) continue;
+    for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) durations.push(durationS[k]!);
+  }
+  return durations;
+}
