@@ -43,6 +43,8 @@ export class SharedQueue {
   #isClosed = false;
   /** What this server had taken is in its queue. */
   #isCaughtUp = false;
+  /** Taken, but not begun as yet. */
+  readonly #unstarted = new Set<string>();
   #lastTrouble: string | null = null;
 
   constructor(parts: SharedParts) {
@@ -85,6 +87,7 @@ export class SharedQueue {
         for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
         this.#isCaughtUp = true;
       }
+      this.#startThem();
       for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
       if (this.#lastTrouble !== null) log("shared queue: it works again");
       this.#lastTrouble = null;
@@ -97,6 +100,16 @@ export class SharedQueue {
     if (this.#isClosed) return;
     this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
     this.#timer.unref();
+  }
+
+  /** Where the queue runs on; again and again, since a plotter may have lost its board just now. */
+  #startThem(): void {
+    const { queue } = this.#parts;
+    for (const id of this.#unstarted) {
+      const job = queue.list().find((one) => one.id === id);
+      if (job?.state !== "queued") this.#unstarted.delete(id);
+      else if (queue.settings(job.plotterId).runOn) startIfFree(queue, id);
+    }
   }
 
   /** Only a plotter that is there and has nothing to do takes work, or it would keep it from one that is free. */
@@ -129,7 +142,8 @@ export class SharedQueue {
       const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
       log(`shared queue: took "${name}" as ${job.id}`);
       await shared.finish(id, "stored", null);
-      if (queue.settings(job.plotterId).runOn) startIfFree(queue, job.id);
+      this.#unstarted.add(job.id);
+      this.#startThem();
     } catch (error) {
       if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
       const message = `A job of the shared queue can't be plotted: ${error.message}`;
