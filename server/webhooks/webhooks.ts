@@ -21,7 +21,7 @@ export interface WebhookParts {
   readonly plotterName: (id: string) => string;
   readonly log: (line: string) => void;
   readonly nowMs?: () => number;
-  /** Pause after each failed try, the last of them again until `forS` have passed. */
+  /** Pause after each failed try; after one more it is given up. */
   readonly pausesS?: readonly number[];
 }
 
