@@ -82,11 +82,11 @@ export function keepFloor(
     consider(even, rise, length - rise);
   }
   // Two phases, one as long as the floor and the other at full acceleration.
-  const rest = 2 * accel * length - accel * floorS * v0 + v1 * v1;
-  const first = (Math.sqrt((accel * floorS) ** 2 + 4 * rest) - accel * floorS) / 2;
+  const early = 2 * accel * length - accel * floorS * v0 + v1 * v1;
+  const first = (Math.sqrt((accel * floorS) ** 2 + 4 * early) - accel * floorS) / 2;
   if (first > high) consider(first, ((v0 + first) / 2) * floorS, length - ((v0 + first) / 2) * floorS);
-  const tser = 2 * accel * length - accel * floorS * v1 + v0 * v0;
-  const last = (Math.sqrt((accel * floorS) ** 2 + 4 * tser) - accel * floorS) / 2;
+  const late = 2 * accel * length - accel * floorS * v1 + v0 * v0;
+  const last = (Math.sqrt((accel * floorS) ** 2 + 4 * late) - accel * floorS) / 2;
   if (last > high) consider(last, length - ((v1 + last) / 2) * floorS, ((v1 + last) / 2) * floorS);
   // No steady phase: one of the ramps, or both, take its way.
   if (top > high && up > 0 && down > 0) {
