@@ -2,9 +2,9 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { PageTest } from "../support/page-test.js";
 
-/** 60 × 40 mm of red, and nothing else: its box on the screen can be measured. */
+/** 60 × 40 mm: a cross from corner to corner, which no frame hides, and a dash at the left that tells a mirrored one. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
-  <path d="M0 0H60V40H0ZM0 0L30 20" fill="none" stroke="#e00000"/></svg>`;
+  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#e00000"/></svg>`;
 
 let test: PageTest;
 
@@ -24,31 +24,40 @@ interface Box {
   readonly bottom: number;
 }
 
-/** Where on the screen the drawing's lines are, CSS px of the page: the darkest pixels of the canvas. */
-async function inkOnScreen(): Promise<Box> {
+/** The box on the screen, CSS px of the page, of the canvas' pixels that are that bright: "paper" or "ink". */
+async function onScreen(what: "paper" | "ink"): Promise<Box> {
+  // Off the paper, so that nothing is told about the stroke under the pointer.
+  await test.page.mouse.move(700, 20);
+  await test.page.waitForTimeout(300);
   const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
   const at = (await canvas.boundingBox())!;
   const png = (await canvas.screenshot()).toString("base64");
-  const found = await test.page.evaluate(async (base64) => {
-    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-    context.drawImage(bitmap, 0, 0);
-    const { data, width } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    const box = { left: Infinity, top: Infinity, right: -Infinity, bottom: -Infinity };
-    for (let i = 0; i < data.length; i += 4) {
-      const x = (i / 4) % width;
-      const y = Math.floor(i / 4 / width);
-      // Rulers have dark numbers, and the legend lies at the lower edge.
-      if (x < 26 || y < 26 || y > bitmap.height - 120) continue;
-      if (Math.max(data[i]!, data[i + 1]!, data[i + 2]!) > 90) continue;
-      box.left = Math.min(box.left, x);
-      box.top = Math.min(box.top, y);
-      box.right = Math.max(box.right, x + 1);
-      box.bottom = Math.max(box.bottom, y + 1);
-    }
-    return box;
-  }, png);
+  const found = await test.page.evaluate(
+    async ([base64, isPaper]) => {
+      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+      const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+      context.drawImage(bitmap, 0, 0);
+      const { data, width } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      const box = { left: Infinity, top: Infinity, right: -Infinity, bottom: -Infinity };
+      for (let i = 0; i < data.length; i += 4) {
+        const x = (i / 4) % width;
+        const y = Math.floor(i / 4 / width);
+        // Rulers stand at two edges, tools and legend at a third.
+        if (x < 26 || y < 26 || y > bitmap.height - 100) continue;
+        const isIt = isPaper
+          ? Math.min(data[i]!, data[i + 1]!, data[i + 2]!) > 249
+          : Math.max(data[i]!, data[i + 1]!, data[i + 2]!) < 90;
+        if (!isIt) continue;
+        box.left = Math.min(box.left, x);
+        box.top = Math.min(box.top, y);
+        box.right = Math.max(box.right, x + 1);
+        box.bottom = Math.max(box.bottom, y + 1);
+      }
+      return box;
+    },
+    [png, what === "paper"] as const,
+  );
   return {
     left: found.left + at.x,
     top: found.top + at.y,
@@ -56,6 +65,13 @@ async function inkOnScreen(): Promise<Box> {
     bottom: found.bottom + at.y,
   };
 }
+
+/** CSS px a mm, by the paper's own width. */
+let scale = 0;
+let corner: [number, number] = [0, 0];
+
+/** A place of the paper on the screen. */
+const at = (xMm: number, yMm: number): [number, number] => [corner[0] + xMm * scale, corner[1] + yMm * scale];
 
 async function drag(from: [number, number], to: [number, number], isFree = false): Promise<void> {
   const { mouse, keyboard } = test.page;
@@ -80,7 +96,10 @@ async function placeAt(x: number, y: number, width: number, angle = 0): Promise<
   await type("From the top", y);
   await type("Width", width);
   await type("Rotate", angle);
-  await test.page.waitForTimeout(300);
+  // Anew each time: what is told above the paper makes it smaller.
+  const { left, top, right } = await onScreen("paper");
+  scale = (right - left) / 297;
+  corner = [left, top];
 }
 
 const rounded = (values: object): number[] =>
@@ -105,27 +124,21 @@ describe("placing the drawing", () => {
 
   it("follows the pointer, pixel for pixel on the screen and millimetre for millimetre on paper", async () => {
     await placeAt(50, 60, 90);
-    const before = await inkOnScreen();
-    const scale = (before.right - before.left) / 90;
-    const from: [number, number] = [
-      (before.left + before.right) / 2 + 30,
-      (before.top + before.bottom) / 2 - 10,
-    ];
-    await drag(from, [from[0] + 103, from[1] - 41], true);
-    await test.page.waitForTimeout(300);
-    const after = await inkOnScreen();
-    expect(Math.abs(after.left - before.left - 103)).toBeLessThanOrEqual(1.5);
-    expect(Math.abs(after.top - before.top + 41)).toBeLessThanOrEqual(1.5);
+    const before = await onScreen("ink");
+    const [x, y] = at(105, 80);
+    await drag([x, y], [x + 103, y - 41], true);
+    const after = await onScreen("ink");
+    expect(Math.abs(after.left - before.left - 103)).toBeLessThanOrEqual(2);
+    expect(Math.abs(after.top - before.top + 41)).toBeLessThanOrEqual(2);
     const box = await test.queuedBox();
-    expect(Math.abs(box.x0 - 50 - 103 / scale)).toBeLessThan(0.4);
-    expect(Math.abs(box.y0 - 60 + 41 / scale)).toBeLessThan(0.4);
+    expect(Math.abs(box.x0 - 50 - 103 / scale)).toBeLessThan(0.3);
+    expect(Math.abs(box.y0 - 60 + 41 / scale)).toBeLessThan(0.3);
     expect(box.x1 - box.x0).toBeCloseTo(90, 1);
   });
 
   it("grows by its corner, while the opposite corner stays", async () => {
     await placeAt(50, 60, 90);
-    const { left, top, right, bottom } = await inkOnScreen();
-    await drag([right, bottom], [right + (right - left) / 2, bottom + (bottom - top) / 2], true);
+    await drag(at(140, 120), at(185, 150), true);
     const box = await test.queuedBox();
     expect([box.x0, box.y0].map((mm) => Math.round(mm * 10) / 10)).toEqual([50, 60]);
     expect(Math.abs(box.x1 - box.x0 - 135)).toBeLessThan(1);
@@ -134,10 +147,8 @@ describe("placing the drawing", () => {
 
   it("is turned by its knob, in steps of 15° when near one, about its middle", async () => {
     await placeAt(50, 60, 90);
-    const { left, top, right, bottom } = await inkOnScreen();
-    const middle: [number, number] = [(left + right) / 2, (top + bottom) / 2];
-    const reach = middle[1] - top + 30;
-    await drag([middle[0], top - 30], [middle[0] + reach, middle[1] + 4]);
+    const [x, y] = at(95, 60);
+    await drag([x, y - 30], at(150, 91));
     // 90 × 60 about (95, 90), a quarter turned.
     expect(rounded(await test.queuedBox())).toEqual([65, 45, 125, 135]);
     expect(await test.field("Rotate").inputValue()).toBe("90");
@@ -145,9 +156,7 @@ describe("placing the drawing", () => {
 
   it("is drawn to a margin, to the hundredth", async () => {
     await placeAt(18, 60, 90);
-    const { left, top, right, bottom } = await inkOnScreen();
-    const from: [number, number] = [(left + right) / 2 + 20, (top + bottom) / 2 - 9];
-    await drag(from, [from[0] - 5.5, from[1] + 30]);
+    await drag(at(70, 80), at(68, 95));
     expect(rounded(await test.queuedBox())[0]).toBe(15);
   });
 
@@ -170,14 +179,21 @@ describe("placing the drawing", () => {
     expect(filled.x0).toBeGreaterThanOrEqual(40 - 0.01);
     expect(filled.y1).toBeLessThanOrEqual(210 - 15 + 0.01);
     expect(Math.max(filled.x0 - 40, filled.y0 - 20)).toBeLessThan(10);
-    await test.page.getByRole("button", { name: "Centre across" }).click();
+    await test.page.getByRole("button", { name: "Centre down" }).click();
     await test.page.getByRole("radio", { name: "Left–right" }).check();
+    await test.planned();
     const { xy } = await test.strokesOf(await test.queue());
-    const box = await test.queuedBox();
-    expect(box.x0 + box.x1).toBeCloseTo(297, 1);
-    // The line from the corner to the middle begins at the right now.
-    const corner = [...xy].findIndex((x, k) => k % 2 === 0 && Math.abs(x - (box.x0 + box.x1) / 2) < 0.01);
-    expect(corner).toBeGreaterThanOrEqual(0);
+    const xs = [...xy].filter((_, k) => k % 2 === 0);
+    const ys = [...xy].filter((_, k) => k % 2 === 1);
+    const [middle, level] = [xs, ys].map((all) => (Math.min(...all) + Math.max(...all)) / 2) as [
+      number,
+      number,
+    ];
+    expect([middle, level].map((mm) => Math.round(mm))).toEqual([161, 105]);
+    // The dash, alone at the height of the middle, was at the left.
+    const dash = xs.filter((x, k) => Math.abs(ys[k]! - level) < 0.01 && Math.abs(x - middle) > 1);
+    expect(dash.length).toBe(2);
+    for (const x of dash) expect(x).toBeGreaterThan(middle);
   });
 
   it("comes back to the place before with undo", async () => {
