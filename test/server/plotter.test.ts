@@ -325,3 +325,15 @@ describe("a board that answers but does not get on", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 });
+
+describe("a plotter that is closed in mid-plot", () => {
+  it("ends the plot and leaves nothing that would keep the process alive", async () => {
+    const { world, driver, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.5);
+    await world.run(driver.close());
+    expect(await outcome(world.run(run.finished, 10))).toMatch(/^disconnected/);
+    const never = new Promise<void>(() => undefined);
+    await expect(world.run(never, 60)).rejects.toThrow("no timer brings");
+  });
+});
