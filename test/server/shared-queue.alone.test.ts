@@ -36,6 +36,7 @@ const countOf = (jobs: readonly Job[], ...states: Job["state"][]): number =>
 /** What their operator does: takes up what was interrupted, and begins what waits. */
 async function goOn(url: string): Promise<void> {
   const action: Partial<Record<Job["state"], string>> = {
+    failed: "requeue",
     interrupted: "recover",
     paused: "resume",
     queued: "start",
