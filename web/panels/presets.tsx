@@ -1,69 +1,16 @@
-import { useState } from "react";
-import { useActions, usePageState } from "../state/use-store.js";
+import { usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
-import { Icon } from "../ui/icon.js";
+import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "./settings-group.js";
 
-const words = text.presets;
+const PresetList = lazyPart(async () => (await import("./preset-list.js")).PresetList);
 
-/** Named pens: speeds and heights that belong together. */
 export const PresetsPanel = () => {
-  const presets = usePageState((state) => state.presets);
-  const { takePreset, removePreset } = useActions();
+  const count = usePageState((state) => state.presets.length);
+  const isOpen = usePageState((state) => state.view.openGroups.includes("presets"));
   return (
-    <SettingsGroup
-      id="presets"
-      title={words.title}
-      summary={presets.length > 0 ? String(presets.length) : ""}
-    >
-      <p className="note">{words.hint}</p>
-      <ul className="preset-list">
-        {presets.map((preset) => (
-          <li key={preset.name}>
-            <button type="button" className="button" onClick={() => takePreset(preset)}>
-              {preset.name}
-            </button>
-            <button
-              type="button"
-              className="button button-icon"
-              aria-label={words.remove(preset.name)}
-              title={words.remove(preset.name)}
-              onClick={() => removePreset(preset.name)}
-            >
-              <Icon name="close" />
-            </button>
-          </li>
-        ))}
-      </ul>
-      <SavePreset />
+    <SettingsGroup id="presets" title={text.presets.title} summary={count > 0 ? String(count) : ""}>
+      {isOpen && <PresetList />}
     </SettingsGroup>
-  );
-};
-
-const SavePreset = () => {
-  const { savePreset } = useActions();
-  const [name, setName] = useState("");
-  return (
-    <form
-      className="field-with-button"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (name.trim() !== "") savePreset(name);
-        setName("");
-      }}
-    >
-      <input
-        className="text-field"
-        type="text"
-        maxLength={60}
-        aria-label={words.name}
-        placeholder={words.name}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
-      />
-      <button type="submit" className="button" disabled={name.trim() === ""}>
-        {words.save}
-      </button>
-    </form>
   );
 };

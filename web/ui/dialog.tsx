@@ -1,6 +1,7 @@
 import { useEffect, useRef, type ReactNode } from "react";
 import { text } from "../text/text.js";
 import { Icon } from "./icon.js";
+import "../styles/dialog.css";
 
 interface DialogProps {
   readonly title: string;

@@ -1,0 +1,64 @@
+import { useState } from "react";
+import { useActions, usePageState } from "../state/use-store.js";
+import { text } from "../text/text.js";
+import { Icon } from "../ui/icon.js";
+
+const words = text.presets;
+
+/** Named pens: speeds and heights that belong together. */
+export const PresetList = () => {
+  const presets = usePageState((state) => state.presets);
+  const { takePreset, removePreset } = useActions();
+  return (
+    <>
+      <p className="note">{words.hint}</p>
+      <ul className="preset-list">
+        {presets.map((preset) => (
+          <li key={preset.name}>
+            <button type="button" className="button" onClick={() => takePreset(preset)}>
+              {preset.name}
+            </button>
+            <button
+              type="button"
+              className="button button-icon"
+              aria-label={words.remove(preset.name)}
+              title={words.remove(preset.name)}
+              onClick={() => removePreset(preset.name)}
+            >
+              <Icon name="close" />
+            </button>
+          </li>
+        ))}
+      </ul>
+      <SavePreset />
+    </>
+  );
+};
+
+const SavePreset = () => {
+  const { savePreset } = useActions();
+  const [name, setName] = useState("");
+  return (
+    <form
+      className="field-with-button"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() !== "") savePreset(name);
+        setName("");
+      }}
+    >
+      <input
+        className="text-field"
+        type="text"
+        maxLength={60}
+        aria-label={words.name}
+        placeholder={words.name}
+        value={name}
+        onChange={(event) => setName(event.target.value)}
+      />
+      <button type="submit" className="button" disabled={name.trim() === ""}>
+        {words.save}
+      </button>
+    </form>
+  );
+};
