@@ -1,10 +1,10 @@
 import { usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { setup } from "../text/setup.js";
 import { Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 import { usePrepareChange } from "./paper.js";
 
-const words = text.fill;
+const words = setup.fill;
 const FIRST_SPACING_MM = 0.6;
 
 /** Filled shapes: shaded with lines, outlined, covering what lies under them. */

@@ -1,11 +1,11 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { setup } from "../text/setup.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 import { usePrepareChange } from "./paper.js";
 
-const words = text.lines;
+const words = setup.lines;
 
 /** The plain lengths, in the order in which they are applied. */
 const LENGTHS = [

@@ -1,11 +1,11 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { setup } from "../text/setup.js";
 import { Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 
-const words = text.pen;
+const words = setup.pen;
 type PenSettings = PlotSettings["pen"];
 
 /** What the refinements begin with when they are switched on. */

@@ -1,5 +1,49 @@
-/** The words of layers, pens and saving: parts that are fetched when they are first shown (see text/setup.ts). */
+/** The words of layers, pens, saving and of folded settings: parts that are fetched when they are first shown (see text/setup.ts). */
 export const enSetup = {
+  fill: {
+    switch: "Fill areas with lines",
+    spacing: "Pen width",
+    spacingHint: "The distance of the lines: as wide as the pen draws fills without gaps.",
+    angle: "Angle",
+    cross: "A second set across",
+    outline: "Draw the outline of filled shapes",
+    hide: "Hide lines under filled shapes",
+  },
+
+  lines: {
+    spread: "Against wet ink",
+    spreads: { none: "Off", interleave: "Take turns", shuffle: "Shuffle" },
+    spreadHint: "Neighbouring strokes are drawn apart in time, so that ink dries and paper survives.",
+    repeats: "Leave out repeats within",
+    smooth: "Smoothing, rounds",
+    reloop: "Begin closed lines at a random point",
+    orderS: "Search for",
+    order: "Order of strokes",
+    orderNone: "As in the file",
+    orderFast: "Short way",
+    orderBest: "Shortest way",
+    join: "Join ends closer than",
+    drop: "Skip strokes shorter than",
+    simplify: "Simplify within",
+    flatten: "Curve smoothness",
+  },
+
+  pen: {
+    up: "Height up",
+    down: "Height down",
+    lift: "Wait after lifting",
+    drop: "Wait after lowering",
+    heightHint: "Percent of the servo’s way: 100 % is as high as it goes.",
+    try: "Try",
+    tryUp: "Try the height up",
+    tryDown: "Try the height down",
+    gentle: "Lower the pen gently",
+    gentleRate: "Sinks at",
+    hop: "Lift less for short hops",
+    hopLongest: "Up to",
+    hopHeight: "Height",
+  },
+
   layers: {
     by: "Layers from",
     group: "Groups",
