@@ -18,6 +18,11 @@ export class PenStops {
     this.answeredTo = from?.stroke ?? -1;
   }
 
+  /** The strokes before which the plot walks home and waits. */
+  get strokes(): readonly number[] {
+    return this.stops.map(({ strokeIndex }) => strokeIndex);
+  }
+
   /** What has to be put in before the plot goes on at a place; null for nothing. */
   due(place: Place | null): PlotWait | null {
     const stroke = place?.stroke ?? 0;

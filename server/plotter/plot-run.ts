@@ -182,7 +182,7 @@ export class CarriageRun implements LivePlotRun {
     if (!left || !at) return from;
     const { draw, travel } = this.settings.current.motion;
     const aheadMm = LEFT_S * connection.speed * Math.max(draw.speedMmPerS, travel.speedMmPerS);
-    return stoppedPlace(this.strokes, from, { ...at, up: left.penUp }, aheadMm);
+    return stoppedPlace(this.strokes, from, { ...at, up: left.penUp }, aheadMm, this.stops.strokes);
   }
 
   private heldPlace(): Place {

@@ -3,8 +3,8 @@
  * its counters tells where the pen stands, and whether it is down.
  *
  *    journal ──drawn since──┐         pen down: on a stroke, so the plot goes on from that very point
- *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: on the way to a stroke, which is the next to be drawn
- *                         (x, y)
+ *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: on the way to a stroke, which is the next to be drawn, or on the
+ *                         (x, y)       way home, after the last stroke and before a change of pens
  *
  * The first place that fits counts, looking on from the journal's: what is drawn twice does less harm than what
  * is not drawn at all.
@@ -15,15 +15,21 @@ import { strokeLengthMm } from "./plan-places.js";
 /** Rounded corners, fitted curves and whole steps, mm. */
 const NEAR_MM = 0.08;
 
-/** `aheadMm`: how far the pen can have come since, with all travels. Where nothing fits, the journal's place. */
+/**
+ * `aheadMm`: how far the pen can have come since, with all travels. `stops`: the strokes before which it walks home.
+ * Where nothing fits, the journal's place; where all is drawn, the end of the last stroke.
+ */
 export function stoppedPlace(
   strokes: StrokeSet,
   journal: Place,
   pen: { readonly x: number; readonly y: number; readonly up: boolean },
   aheadMm: number,
+  stops: readonly number[] = [],
 ): Place {
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
+  // At home without a stroke drawn since: it may as well not have set out yet.
+  const hasSetOut = journal.alongMm > 0 || (journal.stroke > 0 && !stops.includes(journal.stroke));
   let leftMm = aheadMm + journal.alongMm;
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
@@ -31,9 +37,16 @@ export function stoppedPlace(
       const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y);
       if (alongMm !== null) return { stroke, alongMm };
     }
-    leftMm -= strokeLengthMm(strokes, stroke);
-    if (stroke + 1 === count) break;
+    const lengthMm = strokeLengthMm(strokes, stroke);
+    leftMm -= lengthMm;
     const [end, next] = [2 * offsets[stroke + 1]! - 2, 2 * offsets[stroke + 1]!];
+    const isLast = stroke + 1 === count;
+    if (pen.up && hasSetOut && (isLast || stops.includes(stroke + 1))) {
+      const { awayMm } = nearest(xy[end]!, xy[end + 1]!, 0, 0, pen.x, pen.y);
+      if (awayMm <= NEAR_MM)
+        return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
+    }
+    if (isLast) break;
     const travel = [xy[end]!, xy[end + 1]!, xy[next]!, xy[next + 1]!] as const;
     if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= NEAR_MM)
       return { stroke: stroke + 1, alongMm: 0 };

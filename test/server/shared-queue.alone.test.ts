@@ -33,7 +33,7 @@ const jobsOf = async (url: string): Promise<Job[]> =>
 const countOf = (jobs: readonly Job[], ...states: Job["state"][]): number =>
   jobs.filter(({ state }) => states.includes(state)).length;
 
-/** What their operator does: takes up what was interrupted, and begins what waits. */
+/** What their operator does: takes up what a busy computer or a kill has interrupted, and begins what waits. */
 async function goOn(url: string): Promise<void> {
   const action: Partial<Record<Job["state"], string>> = {
     failed: "requeue",
@@ -56,7 +56,7 @@ describe("two servers that share a queue", () => {
   const start = (side: 0 | 1): Promise<ServerProcess> =>
     startServerProcess({
       dataDir: folders[side].path,
-      virtualSpeed: 50,
+      virtualSpeed: 20,
       args: ["--shared-queue", `postgres://postgres:postgres@${socket.getServerConn()}/postgres`],
     });
   beforeAll(async () => {
@@ -100,10 +100,11 @@ describe("two servers that share a queue", () => {
     await expect
       .poll(
         async () => {
+          for (const { url } of [left, right]) await goOn(url);
           const jobs = await jobsOf(left.url);
           return countOf(jobs, "done") >= 3 && countOf(jobs, "plotting") === 1;
         },
-        { timeout: 600_000 },
+        { timeout: 600_000, interval: 200 },
       )
       .toBe(true);
     const gone = once(left.process, "exit");
@@ -116,13 +117,13 @@ describe("two servers that share a queue", () => {
     };
     await expect
       .poll(
-        async () =>
-          (await shared(right.url)).filter(
-            ({ state, target }) => state === "waiting" && target !== "plotter left",
-          ).length,
-        {
-          timeout: 600_000,
+        async () => {
+          await goOn(right.url);
+          const isForRight = ({ state, target }: SharedJob): boolean =>
+            state === "waiting" && target !== "plotter left";
+          return (await shared(right.url)).filter(isForRight).length;
         },
+        { timeout: 600_000, interval: 200 },
       )
       .toBe(0);
 

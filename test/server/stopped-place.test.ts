@@ -57,12 +57,34 @@ describe("where a plot was broken off", () => {
     expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, 500)).toEqual({ stroke: 1, alongMm: 0 });
   });
 
+  it("is the end where the pen is up on the way home from the last stroke", () => {
+    const end = { stroke: 2, alongMm: 10 };
+    const late = { stroke: 2, alongMm: 1 };
+    for (const [x, y] of [
+      [10, 80],
+      [5, 40],
+      [0, 0],
+    ] as const) {
+      expect(stoppedPlace(two, late, { x, y, up: true }, 500)).toEqual(end);
+    }
+    expect(stoppedPlace(two, journal, { x: 0, y: 0, up: true }, 100)).toEqual(journal);
+  });
+
+  it("is the stroke after a change of pens where the pen is up on the way home to it", () => {
+    const home = { x: 0, y: 0, up: true };
+    expect(stoppedPlace(two, journal, home, 500, [1])).toEqual({ stroke: 1, alongMm: 0 });
+  });
+
+  it("stays the journal's at home where nothing was drawn since the plot stood there", () => {
+    const line = strokesOf([10, 0, 20, 0]);
+    const begun = { stroke: 0, alongMm: 0 };
+    expect(stoppedPlace(line, begun, { x: 0, y: 0, up: true }, 500)).toEqual(begun);
+    const other = { stroke: 1, alongMm: 0 };
+    expect(stoppedPlace(two, other, { x: 0, y: 0, up: true }, 500, [1, 2])).toEqual(other);
+  });
+
   it("stays the journal's where the pen is somewhere else, or further than it can have come", () => {
     expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, 500)).toEqual(journal);
     expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, 100)).toEqual(journal);
-    expect(stoppedPlace(two, { stroke: 2, alongMm: 1 }, { x: 0, y: 0, up: true }, 500)).toEqual({
-      stroke: 2,
-      alongMm: 1,
-    });
   });
 });
