@@ -31,6 +31,8 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
   await test.page.waitForTimeout(300);
   const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
   const at = (await canvas.boundingBox())!;
+  // Once the notices over its upper edge, which are as dark as ink, are gone.
+  await test.page.locator(".notice").first().waitFor({ state: "detached" });
   const png = (await canvas.screenshot()).toString("base64");
   const found = await test.page.evaluate(
     async ([base64, isPaper]) => {
