@@ -16,7 +16,8 @@ import {
 } from "../../src/schema/index.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
-const JOB_COUNT = 40;
+/** PLOTWRIGHT_SHARED_JOBS=40 for the long run. */
+const JOB_COUNT = Number(process.env["PLOTWRIGHT_SHARED_JOBS"] ?? 12);
 const svg = (count: number): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">${Array.from(
     { length: count },
@@ -102,7 +103,7 @@ describe("two servers that share a queue", () => {
         async () => {
           for (const { url } of [left, right]) await goOn(url);
           const jobs = await jobsOf(left.url);
-          return countOf(jobs, "done") >= 3 && countOf(jobs, "plotting") === 1;
+          return countOf(jobs, "done") >= 1 && countOf(jobs, "plotting") === 1;
         },
         { timeout: 600_000, interval: 200 },
       )
