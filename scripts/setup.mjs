@@ -36,10 +36,10 @@ export function run(command, args, options = {}) {
 }
 
 /** npm, found so that it also works on Windows, where npm is a .cmd file that only a shell can start. */
-export function runNpm(args) {
+export function runNpm(args, options = {}) {
   const npmScript = process.env.npm_execpath;
-  if (npmScript && /npm-cli\.c?js$/.test(npmScript)) return run(process.execPath, [npmScript, ...args]);
-  return run("npm", args, { shell: process.platform === "win32" });
+  if (npmScript && /npm-cli\.c?js$/.test(npmScript)) return run(process.execPath, [npmScript, ...args], options);
+  return run("npm", args, { shell: process.platform === "win32", ...options });
 }
 
 /** A program of node_modules by its script, so that no shell and no .cmd file is needed. */
@@ -101,7 +101,8 @@ export function ensureBuild() {
   const stamp = sourceStamp();
   if (existsSync(stampFile) && readFileSync(stampFile, "utf8") === stamp) return;
   console.log("plotwright: building …");
-  if (runNpm(["run", "--silent", "build"]) !== 0) {
+  // A test runner's NODE_ENV would bring React's development version.
+  if (runNpm(["run", "--silent", "build"], { env: { ...process.env, NODE_ENV: "production" } }) !== 0) {
     giveUp(
       "the build failed; its message is above. In a checkout that you have not changed this is a fault of ours.",
     );
