@@ -38,7 +38,8 @@ export function run(command, args, options = {}) {
 /** npm, found so that it also works on Windows, where npm is a .cmd file that only a shell can start. */
 export function runNpm(args, options = {}) {
   const npmScript = process.env.npm_execpath;
-  if (npmScript && /npm-cli\.c?js$/.test(npmScript)) return run(process.execPath, [npmScript, ...args], options);
+  if (npmScript && /npm-cli\.c?js$/.test(npmScript))
+    return run(process.execPath, [npmScript, ...args], options);
   return run("npm", args, { shell: process.platform === "win32", ...options });
 }
 
