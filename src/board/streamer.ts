@@ -199,8 +199,9 @@ export class Streamer {
   private pump(): void {
     this.cancelWake?.();
     this.cancelWake = null;
-    if (this.failure || this.ending) return;
-    const stream = this.stream!;
+    const { stream } = this;
+    // Without a stream: an answer that comes when the play is over.
+    if (this.failure || this.ending || !stream) return;
     const boardS = this.timeline.boardS();
     this.timeline.forgetExecuted(boardS);
     const batch: Outgoing[] = [];
