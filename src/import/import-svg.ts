@@ -15,6 +15,7 @@ import { Declared } from "./declared.js";
 import { DrawingBuilder } from "./drawing-builder.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
+import { SvgConditions } from "./svg-conditions.js";
 import { SvgClips } from "./svg-clips.js";
 import { singleStrokeFont } from "./single-stroke-font.js";
 import type { TextFont } from "./text-font.js";
@@ -114,7 +115,8 @@ function* draw(
   const servers = new SvgPaintServers(tree, cascade);
   const painter = new SvgPainter(tree, geometry, servers, builder, warnings, cascade, fontOf(options));
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
-  const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, languages);
+  const conditions = new SvgConditions(tree, languages);
+  const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
   if (isShown(context.style, root)) yield* walk.run(context);
   return { builder, page };
 }

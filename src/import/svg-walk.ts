@@ -6,19 +6,13 @@
  * and a budget of visits stops copies of copies from growing without end.
  */
 import { PlotwrightError } from "../errors.js";
-import {
-  compose,
-  determinant,
-  IDENTITY,
-  isFiniteAffine,
-  translation,
-  type Affine,
-} from "../geometry/affine.js";
+import { compose, determinant, IDENTITY, translation, type Affine } from "../geometry/affine.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade, type Property } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
+import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { markerPlaces } from "./markers.js";
@@ -27,7 +21,7 @@ import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, INITIAL_STYLE, parseOpacity, type Style } from "./style.js";
-import { parseTransform } from "./transform.js";
+import { aroundOrigin, parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "./warnings.js";
 import type { DrawingBuilder } from "./drawing-builder.js";
@@ -48,7 +42,6 @@ const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
   mesh: "not-supported",
   flowRoot: "not-supported",
 };
-const CONDITIONS = ["requiredExtensions", "systemLanguage"];
 const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
 
 interface Frame {
@@ -76,7 +69,6 @@ export class SvgWalk {
   /** The group of what is drawn outside of every layer; −1 until needed. */
   private looseGroup = -1;
   private readonly markers: SvgMarkers;
-  private readonly hasConditions: boolean;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -88,10 +80,9 @@ export class SvgWalk {
     private readonly painter: SvgPainter,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-    private readonly languages: readonly string[],
+    private readonly conditions: SvgConditions,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
-    this.hasConditions = CONDITIONS.some((name) => tree.names.includes(name));
   }
 
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
@@ -139,7 +130,7 @@ export class SvgWalk {
       return;
     }
     if (tag === "symbol" && outer.uses?.target !== element) return;
-    if (!this.meetsConditions(element)) return;
+    if (!this.conditions.areMet(element)) return;
     this.spendCopy(outer);
     const { declared } = this;
     this.cascade.collect(element, declared);
@@ -303,7 +294,7 @@ export class SvgWalk {
       return;
     }
     const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
-    if (code === undefined || !this.meetsConditions(element)) return;
+    if (code === undefined || !this.conditions.areMet(element)) return;
     const { declared } = this;
     this.cascade.collect(element, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
@@ -343,23 +334,7 @@ export class SvgWalk {
       return IDENTITY;
     }
     const origin = declaredValue(style, this.declared, "transform-origin");
-    return origin === undefined ? map : this.aroundOrigin(map, origin, outer);
-  }
-
-  private aroundOrigin(map: Affine, origin: string, context: Context): Affine {
-    const words: Readonly<Record<string, string>> = {
-      left: "0%",
-      top: "0%",
-      center: "50%",
-      right: "100%",
-      bottom: "100%",
-    };
-    const parts = origin.split(/\s+/).map((part) => words[part] ?? part);
-    const x = lengthPx(parts[0], context.basis, "width");
-    const y = lengthPx(parts[1] ?? "50%", context.basis, "height");
-    if (x === null || y === null) return map;
-    const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
-    return isFiniteAffine(moved) ? moved : map;
+    return origin === undefined ? map : aroundOrigin(map, origin, outer.basis);
   }
 
   /** A filter or mask that will be missing from what the element draws. */
@@ -374,23 +349,12 @@ export class SvgWalk {
     return null;
   }
 
-  /** requiredExtensions and systemLanguage, as `switch` and all elements heed them. */
-  private meetsConditions(element: number): boolean {
-    if (!this.hasConditions) return true;
-    const extensions = attribute(this.tree, element, "requiredExtensions");
-    if (extensions !== undefined && extensions.trim() !== "") return false;
-    const language = attribute(this.tree, element, "systemLanguage");
-    if (language === undefined) return true;
-    const wanted = language.split(",").map((part) => part.trim().toLowerCase());
-    return this.languages.some((own) => wanted.some((tag) => tag === own || tag.startsWith(`${own}-`)));
-  }
-
   private chosenChild(element: number): number {
     const { tree } = this;
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
       const tag = tagOf(tree, child);
       const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
-      if (isDrawn && this.meetsConditions(child)) return child;
+      if (isDrawn && this.conditions.areMet(child)) return child;
     }
     return -1;
   }

@@ -1,7 +1,7 @@
 /** The `transform` attribute and CSS property to one affine map, in user units. */
 import { compose, IDENTITY, isFiniteAffine, rotation, scaling, translation } from "../geometry/affine.js";
 import type { Affine } from "../geometry/affine.js";
-import { absolutePx, splitLength } from "./length.js";
+import { absolutePx, lengthPx, splitLength, type LengthBasis } from "./length.js";
 
 const FUNCTION = /\s*,?\s*([a-zA-Z]+)\s*\(([^()]*)\)\s*/y;
 const RAD_PER_DEG = Math.PI / 180;
@@ -26,6 +26,24 @@ export function parseTransform(text: string): Affine | null {
     map = compose(map, step);
   }
   return isFiniteAffine(map) ? map : null;
+}
+
+const ORIGINS: Readonly<Record<string, string>> = {
+  left: "0%",
+  top: "0%",
+  center: "50%",
+  right: "100%",
+  bottom: "100%",
+};
+
+/** The map turned about a CSS `transform-origin`; as it is where that is malformed. */
+export function aroundOrigin(map: Affine, origin: string, basis: LengthBasis): Affine {
+  const parts = origin.split(/\s+/).map((part) => ORIGINS[part] ?? part);
+  const x = lengthPx(parts[0], basis, "width");
+  const y = lengthPx(parts[1] ?? "50%", basis, "height");
+  if (x === null || y === null) return map;
+  const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
+  return isFiniteAffine(moved) ? moved : map;
 }
 
 /** Numbers may stand without separators, as in path data: "1-2.5.5". */
