@@ -4,7 +4,8 @@ import { PlotwrightError } from "../errors.js";
 import { importDxf } from "./import-dxf.js";
 import { importHpgl } from "./import-hpgl.js";
 import { importPolylines } from "./import-polylines.js";
-import { importSvgSteps, type ImportOptions, type Pause } from "./import-svg.js";
+import type { ImportOptions } from "./import-options.js";
+import { importSvgSteps, type Pause } from "./import-svg.js";
 
 export const DRAWING_FORMATS = ["svg", "dxf", "hpgl", "json"] as const;
 export type DrawingFormat = (typeof DRAWING_FORMATS)[number];

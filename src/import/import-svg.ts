@@ -17,8 +17,7 @@ import { finishAroundDrawing } from "./finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
 import { SvgConditions } from "./svg-conditions.js";
 import { SvgClips } from "./svg-clips.js";
-import { singleStrokeFont } from "./single-stroke-font.js";
-import type { TextFont } from "./text-font.js";
+import { fontOf, type ImportOptions } from "./import-options.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
 import { SvgGeometry } from "./svg-geometry.js";
 import { planLayers } from "./svg-layers.js";
@@ -28,27 +27,6 @@ import { attribute, parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
 import { computeStyle, declaredValue, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "./warnings.js";
-
-export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
-export type TextMode = (typeof TEXT_MODES)[number];
-
-export interface ImportOptions {
-  /** What a px, and a number without unit, is worth: 96 by CSS; 72 or 90 in files of some programs. */
-  readonly pxPerInch?: number;
-  /**
-   * How text is drawn: in the built-in single-stroke letters (default), as outlines of `font`,
-   * or not at all. Outlines without a font fall back to single strokes.
-   */
-  readonly text?: TextMode;
-  /** From `openOutlineFont`, for outlines. */
-  readonly font?: TextFont;
-  /** For `switch` and `systemLanguage`, best first. Default: English. */
-  readonly languages?: readonly string[];
-}
-
-/** What draws the text; null for none. */
-const fontOf = ({ text = "single-stroke", font }: ImportOptions): TextFont | null =>
-  text === "none" ? null : text === "outline" && font !== undefined ? font : singleStrokeFont;
 
 /** Lets others run between steps: resolves when it is this work's turn again. */
 export type Pause = () => Promise<void>;

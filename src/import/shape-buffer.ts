@@ -4,7 +4,8 @@
  * Invariants: every subpath begins with VERB_MOVE and has at least one more verb; a lone move is
  * taken back when the next begins. A dot is a move and a line to the same place.
  */
-import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
+import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
+import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 
 export class ShapeBuffer {
@@ -81,6 +82,27 @@ export class ShapeBuffer {
     verbs.push(VERB_CLOSE);
     this.x = this.startX;
     this.y = this.startY;
+  }
+
+  /** All of another, finished shape, its points mapped. */
+  append({ verbs, coords }: ShapeBuffer, map: Affine): void {
+    this.dropLoneMove();
+    for (let i = 0, at = 0; i < verbs.length; i++) {
+      const verb = verbs.data[i];
+      this.verbs.push(verb);
+      for (const end = at + 2 * PAIRS_OF_VERB[verb]; at < end; at += 2) {
+        this.x = applyX(map, coords.data[at], coords.data[at + 1]);
+        this.y = applyY(map, coords.data[at], coords.data[at + 1]);
+        this.coords.push(this.x, this.y);
+      }
+      if (verb === VERB_MOVE) {
+        this.startX = this.x;
+        this.startY = this.y;
+      } else if (verb === VERB_CLOSE) {
+        this.x = this.startX;
+        this.y = this.startY;
+      }
+    }
   }
 
   /** Call once when the shape is complete. */

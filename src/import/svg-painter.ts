@@ -8,11 +8,13 @@ import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
 import { lengthPx } from "./length.js";
 import { drawPathData } from "./path-data.js";
-import { polylineLength } from "./shape-length.js";
+import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
-import { placeText, type PlacedLetter } from "./svg-text.js";
+import { placeText } from "./svg-text.js";
+import type { PlacedLetter } from "./svg-text-layout.js";
+import { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "./text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
@@ -22,6 +24,7 @@ export class SvgPainter {
   /** What is being drawn, and its name in warnings. */
   private element = 0;
   private readonly where = (): string => this.geometry.whereOf(this.element);
+  private readonly textPaths: SvgTextPaths;
 
   constructor(
     private readonly tree: SvgTree,
@@ -32,7 +35,9 @@ export class SvgPainter {
     private readonly cascade: Cascade,
     /** What text is drawn with; null where it is only to be reported. */
     private readonly font: TextFont | null,
-  ) {}
+  ) {
+    this.textPaths = new SvgTextPaths(tree, cascade, geometry);
+  }
 
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
     const { style } = context;
@@ -56,7 +61,7 @@ export class SvgPainter {
       if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
       return;
     }
-    const text = placeText(this.tree, this.cascade, element, context.style, context.basis, this.font);
+    const text = placeText(this.tree, this.cascade, this.textPaths, element, context, this.font);
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
     const isDrawn = builder.shapeCount > firstShape;
@@ -131,7 +136,7 @@ export class SvgPainter {
   private dashOf(element: number, context: Context, scale: number): DashPattern {
     const { dashes, dashOffset } = context.style;
     const own = Number(attribute(this.tree, element, "pathLength") ?? NaN);
-    const unit = own > 0 ? (scale * polylineLength(this.geometry.shape)) / own : scale;
+    const unit = own > 0 ? (scale * new MeasuredPath(this.geometry.shape).length) / own : scale;
     return { lengths: (dashes ?? []).map((length) => length * unit), offset: dashOffset * unit };
   }
 

@@ -125,10 +125,6 @@ describe("single-stroke letters", () => {
     expect(drawing.warnings[0].code).toBe("text-not-drawn");
     expect(drawing.warnings[0].boxes[0].map(Math.round)).toEqual([10, 40, 20, 50]);
   });
-
-  it("report text on a path", () => {
-    expect(codes(draw(text('<textPath href="#p">along</textPath>')))).toContain("text-not-drawn");
-  });
 });
 
 /** A font of one letter: a square of one em on the baseline. */
@@ -167,4 +163,107 @@ describe("outlines of a font", () => {
     expect(y1 - y0).toBeLessThanOrEqual(10.01);
     expect(codes(drawing)).toEqual(["glyphs-missing"]);
   });
+});
+
+describe("text on a path", () => {
+  const PATHS = `
+    <path id="level" stroke="none" d="M10 50H90"/>
+    <path id="down" stroke="none" d="M50 10V90"/>
+    <path id="short" stroke="none" d="M10 50H30"/>
+    <path id="shifted" stroke="none" transform="translate(0 20)" d="M10 50H90"/>
+    <path id="counted" stroke="none" pathLength="8" d="M10 50H90"/>
+    <path id="two" stroke="none" d="M10 50H20M40 60H80"/>
+    <circle id="round" stroke="none" cx="50" cy="50" r="30"/>`;
+  const onPath = (body: string, attributes = "", textAttributes = ""): Drawing =>
+    draw(`${PATHS}${text(`<textPath ${attributes}>${body}</textPath>`, textAttributes)}`, {
+      text: "outline",
+      font: square,
+    });
+
+  it("stands on it letter by letter, as on a line where the path is straight", () => {
+    const drawing = onPath("ab", 'href="#level"');
+    expect(shapesOf(drawing)).toEqual(["M10 50L20 50L20 40L10 40Z", "M25 50L35 50L35 40L25 40Z"]);
+    expect(codes(drawing)).toEqual([]);
+  });
+
+  it("turns with it", () => {
+    expect(shapesOf(onPath("a", 'href="#down"'))).toEqual(["M50 10L50 20L60 20L60 10Z"]);
+  });
+
+  it.each([
+    ["a length", 'startOffset="20"', ["M30 50L40 50L40 40L30 40Z"]],
+    ["a share of the path", 'startOffset="50%"', ["M50 50L60 50L60 40L50 40Z"]],
+    ["a length by the path's own count", 'href="#counted" startOffset="2"', ["M30 50L40 50L40 40L30 40Z"]],
+  ])("begins %s along", (_what, attributes, shapes) => {
+    const href = attributes.includes("href") ? "" : 'href="#level"';
+    expect(shapesOf(onPath("a", `${href} ${attributes}`))).toEqual(shapes);
+  });
+
+  it("is anchored about its start offset", () => {
+    const anchored = (anchor: string): string[] =>
+      shapesOf(onPath("ab", 'href="#level" startOffset="50%"', `text-anchor="${anchor}"`));
+    // 30 wide with what follows the second letter.
+    expect(anchored("middle")[0]).toBe("M35 50L45 50L45 40L35 40Z");
+    expect(anchored("end")[0]).toBe("M20 50L30 50L30 40L20 40Z");
+  });
+
+  it("takes x and dx along the path, dy across it, and no y", () => {
+    expect(shapesOf(onPath("a", 'href="#down"', 'x="5" y="99" dx="1" dy="-2"'))).toEqual([
+      "M52 16L52 26L62 26L62 16Z",
+    ]);
+  });
+
+  it("leaves out letters whose middle is off the path", () => {
+    expect(shapesOf(onPath("abc", 'href="#short"'))).toHaveLength(1);
+    expect(shapesOf(onPath("abc", 'href="#short" startOffset="-10"'))).toEqual(["M15 50L25 50L25 40L15 40Z"]);
+  });
+
+  it("runs around a circle, upright outside of it, and over its seam", () => {
+    // Clockwise from the right: twelve letters of 15 on a way of 188.5.
+    const drawing = onPath("abcdefghijkl", 'href="#round" startOffset="25%" text-anchor="middle"');
+    expect(drawing.paths.count).toBe(12);
+    for (let i = 0; i < 12; i++) {
+      const radii = pointsOf(drawing, i).map(([x, y]) => Math.hypot(x - 50, y - 50));
+      // The letter's box is 7.5 before and 2.5 behind its middle, and 10 high.
+      expect(radii[0]).toBeCloseTo(Math.hypot(30, 7.5), 2);
+      expect(radii[1]).toBeCloseTo(Math.hypot(30, 2.5), 2);
+      expect(radii[2]).toBeCloseTo(Math.hypot(40, 2.5), 2);
+    }
+  });
+
+  it("stands on the other side and runs back with side right", () => {
+    expect(shapesOf(onPath("a", 'href="#level" side="right"'))).toEqual(["M90 50L80 50L80 60L90 60Z"]);
+  });
+
+  it("follows the shape's own transform, and jumps with its moves", () => {
+    expect(shapesOf(onPath("a", 'href="#shifted"'))).toEqual(["M10 70L20 70L20 60L10 60Z"]);
+    expect(shapesOf(onPath("ab", 'xlink:href="#two"'))[1]).toBe("M45 60L55 60L55 50L45 50Z");
+  });
+
+  it("is followed by what comes after it, at the path's end", () => {
+    const drawing = draw(`${PATHS}${text('<textPath href="#short">a</textPath>b', "")}`, {
+      text: "outline",
+      font: square,
+    });
+    expect(shapesOf(drawing)[1]).toBe("M30 50L40 50L40 40L30 40Z");
+  });
+
+  it("obeys spans inside of it, in single strokes too", () => {
+    const body = text('<textPath href="#down">H<tspan fill="blue" font-size="20">H</tspan></textPath>', "");
+    const drawing = draw(PATHS + body);
+    expect(drawing.colors).toEqual(["#ff0000", "#0000ff"]);
+    // Capitals are 0.7 em high, and stand to the right of a path that leads down.
+    expect(extent(drawing).map((mm) => Math.round(mm * 1e6) / 1e6)[0]).toBe(50);
+    expect(extent(drawing)[2]).toBeCloseTo(64, 6);
+    expect(codes(drawing)).toEqual(["text-substituted"]);
+  });
+
+  it.each(['href="#nowhere"', "", 'href="other.svg#p"'])(
+    "is reported where its path is missing: %j",
+    (href) => {
+      const drawing = onPath("along", href);
+      expect(drawing.paths.count).toBe(0);
+      expect(codes(drawing)).toContain("text-not-drawn");
+    },
+  );
 });
