@@ -51,21 +51,11 @@ export const applyY = (m: Affine, x: number, y: number): number => m.b * x + m.d
 
 export const determinant = (m: Affine): number => m.a * m.d - m.b * m.c;
 
-/** The map back, or null where the map flattens the plane to a line or point. */
-export function invert(m: Affine): Affine | null {
-  const det = determinant(m);
-  if (det === 0 || !Number.isFinite(1 / det)) return null;
-  return {
-    a: m.d / det,
-    b: -m.b / det,
-    c: -m.c / det,
-    d: m.a / det,
-    e: (m.c * m.f - m.d * m.e) / det,
-    f: (m.b * m.e - m.a * m.f) / det,
-  };
-}
-
 /** How much lengths grow on average: the square root of how much areas do. */
 export const meanScale = (m: Affine): number => Math.sqrt(Math.abs(determinant(m)));
+
+/** Most that lengths along an axis grow; never 0, so that it may divide. */
+export const largestScale = (m: Affine): number =>
+  Math.max(Math.hypot(m.a, m.b), Math.hypot(m.c, m.d), 1e-12);
 
 export const isFiniteAffine = (m: Affine): boolean => Number.isFinite(m.a + m.b + m.c + m.d + m.e + m.f);

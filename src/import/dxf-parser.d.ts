@@ -6,6 +6,19 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly bulge?: number;
     readonly splineControlPoint?: boolean;
   }
+  export interface DxfGroup {
+    readonly code: number;
+    readonly value: unknown;
+  }
+  export interface DxfScanner {
+    next(): DxfGroup;
+    isEOF(): boolean;
+  }
+  export interface DxfHandler {
+    readonly ForEntityName: string;
+    /** Leaves the scanner on the group that begins the next entity. */
+    parseEntity(scanner: DxfScanner): DxfEntity;
+  }
   export interface DxfEntity {
     readonly type: string;
     readonly layer?: string;
@@ -39,6 +52,11 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly rowSpacing?: number;
     readonly extrusionDirection?: { readonly z: number };
     readonly extrusionDirectionZ?: number;
+    /** What our own handlers add, of TEXT and ATTRIB, of MTEXT, and of HATCH. */
+    readonly writing?: import("./dxf-text.js").DxfWriting;
+    readonly paragraphs?: import("./dxf-text.js").DxfParagraphs;
+    readonly isSolid?: boolean;
+    readonly loops?: readonly import("./dxf-hatch.js").HatchLoop[];
   }
   export interface DxfLayer {
     readonly name: string;
@@ -56,6 +74,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly tables?: { readonly layer?: { readonly layers?: Readonly<Record<string, DxfLayer>> } };
   }
   export default class DxfParser {
+    registerEntityHandler(handler: new () => DxfHandler): void;
     parseSync(text: string): Dxf | null;
   }
 }

@@ -71,7 +71,7 @@ function* importDrawingSteps(name: string, text: string, options: ImportOptions)
     case "svg":
       return yield* importSvgSteps(text, options);
     case "dxf":
-      return importDxf(text);
+      return importDxf(text, options);
     case "hpgl":
       return importHpgl(text);
     case "json":

@@ -3,17 +3,24 @@
 /// <reference path="./dxf-parser.d.ts" />
 /**
  * DXF (the text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
- * solids and blocks, by layer. y is turned over, and the page is the drawing's own extent.
+ * solids, hatches as filled shapes, texts and blocks, by layer. y is turned over, and the page is the drawing's own
+ * extent.
  */
 import DxfParser, { type Dxf, type DxfEntity, type DxfLayer } from "dxf-parser/dist/dxf-parser.js";
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
-import { compose, rotation, scaling, translation, type Affine } from "../geometry/affine.js";
+import { compose, largestScale, rotation, scaling, translation, type Affine } from "../geometry/affine.js";
+import type { Box } from "../geometry/box.js";
 import { MM_PER_INCH } from "../units.js";
 import { DrawingBuilder } from "./drawing-builder.js";
+import { DXF_HANDLERS } from "./dxf-handlers.js";
+import { drawHatch } from "./dxf-hatch.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
+import { drawDxfParagraphs, drawDxfWriting } from "./dxf-text.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
+import { fontOf, type ImportOptions } from "./import-options.js";
 import { ShapeBuffer } from "./shape-buffer.js";
+import type { TextFont } from "./text-font.js";
 import { Warnings } from "./warnings.js";
 
 /** mm of each value of $INSUNITS that drawings have (AutoCAD DXF reference, HEADER). */
@@ -38,21 +45,23 @@ const BY_BLOCK = 0;
 const BLACK_OR_WHITE = 7;
 
 /** Throws PlotwrightError("bad-file"). */
-export function importDxf(text: string): Drawing {
+export function importDxf(text: string, options: ImportOptions): Drawing {
   if (text.startsWith("AutoCAD Binary DXF")) {
     throw new PlotwrightError(
       "bad-file",
       "This DXF is in the binary form. Save it as text (ASCII) DXF and try again.",
     );
   }
-  return new DxfImport(parse(text)).run(text);
+  return new DxfImport(parse(text), fontOf(options)).run(text);
 }
 
 function parse(text: string): Dxf {
   let dxf: Dxf | null = null;
   let cause: unknown;
   try {
-    dxf = new DxfParser().parseSync(text);
+    const parser = new DxfParser();
+    for (const handler of DXF_HANDLERS) parser.registerEntityHandler(handler);
+    dxf = parser.parseSync(text);
   } catch (error) {
     cause = error;
   }
@@ -74,6 +83,13 @@ interface Pending {
   readonly insert: DxfEntity | null;
 }
 
+/** How what was drawn is painted, and what is to be said of it once its place is known. */
+interface Paint {
+  readonly isLine: boolean;
+  readonly isFilled: boolean;
+  readonly report?: (box?: Box) => void;
+}
+
 class DxfImport {
   private readonly warnings = new Warnings();
   private readonly builder = new DrawingBuilder(this.warnings);
@@ -83,7 +99,11 @@ class DxfImport {
   private readonly mmPerUnit: number;
   private entityCount = 0;
 
-  constructor(private readonly dxf: Dxf) {
+  constructor(
+    private readonly dxf: Dxf,
+    /** What text is drawn with; null where it is only to be reported. */
+    private readonly font: TextFont | null,
+  ) {
     this.layers = dxf.tables?.layer?.layers ?? {};
     this.mmPerUnit = this.findUnit();
   }
@@ -132,29 +152,65 @@ class DxfImport {
       this.pushInsert(entity, map, from, stack);
       return;
     }
-    if (entity.type === "TEXT" || entity.type === "MTEXT" || entity.type === "ATTDEF") {
-      this.warnings.add("text-not-drawn");
+    if (entity.type === "ATTDEF") {
+      // In a block it only says what to ask for; what was answered is an ATTRIB.
+      if (from.depth === 0) this.warnings.add("text-not-drawn");
       return;
     }
     const { shape } = this;
     shape.clear();
-    const scale = Math.max(Math.hypot(map.a, map.b), Math.hypot(map.c, map.d), 1e-12);
-    if (!drawDxfEntity(entity, shape, ARC_TOLERANCE_MM / scale)) {
-      this.warnings.add("not-supported", undefined, entity.type);
+    const paint = this.draw(entity, largestScale(map));
+    shape.finish();
+    if (paint === null) return;
+    if (shape.isEmpty) {
+      paint.report?.();
       return;
     }
-    shape.finish();
-    if (shape.isEmpty) return;
-    const isFilled = entity.type === "SOLID";
     const color = this.colorOf(entity, layer, from);
     const look = {
-      stroke: color,
-      fill: isFilled ? color : null,
-      evenOdd: false,
+      stroke: paint.isLine ? color : null,
+      fill: paint.isFilled ? color : null,
+      evenOdd: entity.loops !== undefined,
       strokeWidth: 0,
       dash: null,
     };
-    this.builder.addShape(shape, map, look, group, null, () => `${entity.type} on layer ${layerName}`);
+    const where = (): string => `${entity.type} on layer ${layerName}`;
+    const box = this.builder.addShape(shape, map, look, group, null, where);
+    paint.report?.(box ?? undefined);
+  }
+
+  /** Into `shape`; null for what is not drawn. */
+  private draw(entity: DxfEntity, scale: number): Paint | null {
+    const { shape, warnings } = this;
+    const arcTolerance = ARC_TOLERANCE_MM / scale;
+    if (entity.writing !== undefined || entity.paragraphs !== undefined) return this.drawText(entity);
+    if (entity.loops !== undefined) {
+      drawHatch(entity.loops, shape, arcTolerance);
+      const report = (box?: Box): void => warnings.add("gradient-fill", box);
+      return { isLine: false, isFilled: true, ...(entity.isSolid === true ? {} : { report }) };
+    }
+    if (drawDxfEntity(entity, shape, arcTolerance))
+      return { isLine: true, isFilled: entity.type === "SOLID" };
+    warnings.add("not-supported", undefined, entity.type);
+    return null;
+  }
+
+  private drawText({ writing, paragraphs }: DxfEntity): Paint | null {
+    const { font, shape, warnings } = this;
+    if (font === null) {
+      warnings.add("text-not-drawn");
+      return null;
+    }
+    const missing = [
+      ...(writing === undefined ? [] : drawDxfWriting(writing, font, shape)),
+      ...(paragraphs === undefined ? [] : drawDxfParagraphs(paragraphs, font, shape)),
+    ];
+    const isFilled = font.kind === "outline";
+    const report = (box?: Box): void => {
+      if (!isFilled && box !== undefined) warnings.add("text-substituted", box);
+      for (const char of missing) warnings.add("glyphs-missing", box, `"${char}"`);
+    };
+    return { isLine: !isFilled, isFilled, report };
   }
 
   private pushInsert(entity: DxfEntity, map: Affine, from: Pending, stack: Pending[]): void {
@@ -222,7 +278,7 @@ class DxfImport {
     for (const [, kind] of text
       .slice(start)
       .matchAll(
-        /^[ \t]*0\r?\n[ \t]*(HATCH|IMAGE|LEADER|MULTILEADER|MLINE|REGION|WIPEOUT|RAY|XLINE|TRACE|BODY|3DSOLID|OLE2FRAME)[ \t]*$/gm,
+        /^[ \t]*0\r?\n[ \t]*(IMAGE|LEADER|MULTILEADER|MLINE|REGION|WIPEOUT|RAY|XLINE|TRACE|BODY|3DSOLID|OLE2FRAME)[ \t]*$/gm,
       )) {
       this.warnings.add("not-supported", undefined, kind);
     }

@@ -13,7 +13,7 @@ interface Letter {
   readonly advance: number;
 }
 
-/** Strokes above a letter, about x = 0 and y = 0 at the accent's foot; 0327 hangs below. */
+/** Strokes above a letter, about x = 0 and y = 0 at the accent's foot; those in FROM_BASELINE count from there. */
 const ACCENTS: Readonly<Record<string, readonly (readonly [number, number])[][]>> = {
   "\u0300": [
     [
@@ -89,8 +89,26 @@ const ACCENTS: Readonly<Record<string, readonly (readonly [number, number])[][]>
       [-2, 4],
     ],
   ],
+  "\u0331": [
+    [
+      [-9, 3],
+      [9, 3],
+    ],
+  ],
+  "\u0337": [
+    [
+      [-7, 2],
+      [7, -16],
+    ],
+  ],
+  "\u0338": [
+    [
+      [-8, 2],
+      [8, -23],
+    ],
+  ],
 };
-const BELOW = "\u0327";
+const FROM_BASELINE = new Set(["\u0327", "\u0331", "\u0337", "\u0338"]);
 /** What stands in for characters outside ASCII. */
 const SUBSTITUTES: Readonly<Record<string, string>> = {
   "‘": "'",
@@ -110,8 +128,9 @@ const SUBSTITUTES: Readonly<Record<string, string>> = {
   Æ: "AE",
   œ: "oe",
   Œ: "OE",
-  ø: "o",
-  Ø: "O",
+  ø: "o\u0337",
+  Ø: "O\u0338",
+  "±": "+\u0331",
   ł: "l",
   Ł: "L",
   "·": ".",
@@ -146,7 +165,7 @@ function lettersOf(char: string, table: readonly string[]): Letter[] | null {
     const accent = ACCENTS[part];
     if (accent !== undefined) {
       const under = letters.pop() ?? { lines: [], advance: 8 };
-      letters.push(withAccent(under, accent, part === BELOW));
+      letters.push(withAccent(under, accent, FROM_BASELINE.has(part)));
     } else {
       const letter = letterOf(part, table);
       if (letter === null) return null;
@@ -170,10 +189,10 @@ function letterOf(char: string, table: readonly string[]): Letter | null {
 function withAccent(
   letter: Letter,
   accent: readonly (readonly [number, number])[][],
-  isBelow: boolean,
+  isFromBaseline: boolean,
 ): Letter {
   const top = Math.min(BASELINE - 14, ...letter.lines.flat().map(([, y]) => y));
-  const footY = isBelow ? BASELINE : top - 3;
+  const footY = isFromBaseline ? BASELINE : top - 3;
   const middle = letter.advance / 2;
   const lines = accent.map((line) => line.map(([x, y]) => [x + middle, y + footY] as const));
   return { ...letter, lines: [...letter.lines, ...lines] };

@@ -1,5 +1,5 @@
 /** Elements to outlines in user units, and where they are on the page. */
-import { applyX, applyY, type Affine } from "../geometry/affine.js";
+import { applyX, applyY, largestScale } from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
 import type { Property } from "./cascade.js";
@@ -98,7 +98,3 @@ class ElementSource implements ShapeSource {
     return this.declared === null ? undefined : declaredValue(this.context!.style, this.declared, name);
   }
 }
-
-/** Most that the map stretches along an axis; never 0, so that it may divide. */
-const largestScale = (map: Affine): number =>
-  Math.max(Math.hypot(map.a, map.b), Math.hypot(map.c, map.d), 1e-12);

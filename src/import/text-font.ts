@@ -22,3 +22,7 @@ export interface TextFont {
     readonly missing: readonly string[];
   };
 }
+
+/** Height of capitals, and how far a "g" reaches below the line: of the built-in letters, and about of all fonts. */
+export const CAPITAL_EM = 0.7;
+export const DESCENT_EM = 7 / 30;

@@ -114,7 +114,7 @@ describe("DXF", () => {
   });
 
   it("reports what it does not draw", () => {
-    expect(codes(draw(`${FRAME} 0 HATCH 8 0`))).toContain("not-supported");
+    expect(codes(draw(`${FRAME} 0 LEADER 8 0`))).toContain("not-supported");
   });
 
   it.each(["0\nSECTION\n2\nENTITIES\n0\nLINE\n8", "AutoCAD Binary DXF\r\n\u001a", "0\nSECTION\n"])(
