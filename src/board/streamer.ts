@@ -118,6 +118,11 @@ export class Streamer {
     return this.next;
   }
 
+  /** Other streams follow the present one already, and nothing was cut since. */
+  get isGoingOver(): boolean {
+    return this.playing && (this.limit?.then.length ?? 0) > 0;
+  }
+
   /** The stream that it belongs to. */
   get nextStream(): CommandStream {
     if (!this.stream) throw new TypeError("nothing is being played");
@@ -291,9 +296,11 @@ export class Streamer {
 
   private schedulePoll(): void {
     const poll = this.options.poll;
-    if (!poll) return;
+    // An answer may come when the play is over: then it is the last.
+    if (!poll || !this.playing) return;
+    this.cancelPoll?.();
     this.cancelPoll = this.options.clock.after(poll.everyS, () => {
-      if (this.failure || this.ending) return;
+      if (!this.playing) return;
       const waitS = this.timeline.longestS();
       const last = poll.lines.length - 1;
       this.session.write(
@@ -301,7 +308,6 @@ export class Streamer {
           line,
           waitS,
           onReply: (error, reply) => {
-            if (this.session.failure) return;
             if (!error) this.polled(line, reply, i === 0);
             if (i === last) this.schedulePoll();
           },
@@ -311,7 +317,7 @@ export class Streamer {
   }
 
   private polled(line: string, reply: string, tellsTime: boolean): void {
-    if (this.failure || this.ending) return;
+    if (!this.playing) return;
     this.options.onPoll?.(line, reply);
     const waiting = tellsTime ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting)) this.fail(stuck());

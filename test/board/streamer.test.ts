@@ -88,6 +88,17 @@ describe("a stream on a healthy host", () => {
     await played;
   });
 
+  it("asks nothing more when it has ended, and leaves no timer, wherever its last question was", async () => {
+    for (let count = 20; count < 60; count++) {
+      const rig = await newRig("2.8.1", { answerDelayS: 0.02 });
+      await play(rig, makeStream(wavyRows(count, 20)), SHALLOW);
+      const said = rig.session.log.text();
+      await rig.world.advance(2);
+      expect(rig.session.log.text()).toBe(said);
+      expect(rig.world.timerCount).toBe(0);
+    }
+  });
+
   it("reports a place that keeps up with the pen", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });

@@ -16,6 +16,11 @@ export class ManualClock implements Clock {
     return this.timeS;
   }
 
+  /** Timers that wait to fire. */
+  get timerCount(): number {
+    return this.timers.length;
+  }
+
   after(delayS: number, callback: () => void): () => void {
     const timer = { dueS: this.timeS + Math.max(0, delayS), order: this.created++, callback };
     this.insert(timer);
