@@ -62,7 +62,7 @@ export function placeAt(trajectory: Trajectory, planS: number): Place | null {
 }
 
 /** Distances that differ by less are the same, mm: the counters know the pen's place to a step only. */
-const SAME_DISTANCE_MM = 0.02;
+export const SAME_DISTANCE_MM = 0.02;
 
 /**
  * The time within `aroundS` of `planS` at which the trajectory passes nearest to a point; where it passes

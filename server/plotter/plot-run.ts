@@ -158,7 +158,8 @@ export class CarriageRun implements LivePlotRun {
   async change(change: PlotChange): Promise<void> {
     this.settings.change(change);
     // One after the other; the last one plans with everything that was asked for.
-    this.changing = (this.changing ?? Promise.resolve()).then(() => this.changeInMotion());
+    const before = this.changing ?? Promise.resolve();
+    this.changing = before.catch(() => undefined).then(() => this.changeInMotion());
     await this.changing;
   }
 
@@ -305,15 +306,17 @@ export class CarriageRun implements LivePlotRun {
 
   /** Plans what is left with the new settings, and goes over to it at a place that the board has not got yet. */
   private async changeInMotion(): Promise<void> {
-    for (let attempt = 0; attempt < CHANGE_TRIES; attempt++) {
-      if (this.wish !== "run") return;
-      const { speed } = this.carriage.connection;
+    const { speed, boardClock } = this.carriage.connection;
+    for (let tries = 0; this.wish === "run" && tries < CHANGE_TRIES;) {
       const { streamer } = this.stream;
-      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** attempt);
-      if (!over) return;
-      const plot = await this.plan(over.from, over.x, over.y, over.rest.state);
-      if (this.wish !== "run" || this.stream.streamer !== streamer) return;
-      if (this.stream.goOver(over, plot, this.afterPartS)) return;
+      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** tries);
+      if (over) {
+        tries++;
+        const plot = await this.plan(over.from, over.x, over.y, over.rest.state);
+        if (this.wish !== "run" || this.stream.streamer !== streamer) return;
+        if (this.stream.goOver(over, plot, this.afterPartS)) return;
+      } else if (!this.stream.isGoingOver) return;
+      else await new Promise<void>((resolve) => void boardClock.after(PROGRESS_S * speed, resolve));
     }
   }
 

@@ -12,22 +12,25 @@ import {
   penMoveOf,
   penSetUpCommands,
   PlotwrightError,
+  stateAt,
   type BoardState,
   type CommandStream,
   type PenSettings,
   type Place,
   type Streamer,
   type StrokeSet,
+  type Trajectory,
 } from "../../src/index.js";
 import type { Carriage } from "./carriage.js";
 import {
   boardStateBefore,
   commandAfter,
   isPenUpBefore,
-  nearestTime,
+  nextPlace,
   placeAt,
   restingStream,
   snappedPlace,
+  strokeLengthMm,
   withoutDrop,
 } from "./plan-places.js";
 import type { Part, RunProgress } from "./run-progress.js";
@@ -36,6 +39,8 @@ import type { PlannedPlot, PlotProgress } from "./types.js";
 
 /** How far mm along the plan and mm along the drawing may be apart. */
 const SNAP_MM = 2;
+/** Nearer to the end of a stroke, a place counts as its end. */
+const EDGE_MM = 0.05;
 /** A pen that is down already changes its height in this time. */
 const RESEAT_MS = 60;
 
@@ -52,6 +57,7 @@ export interface GoOver {
   readonly index: number;
   readonly part: Part;
   readonly rest: Rest;
+  readonly isDown: boolean;
   readonly from: Place;
   readonly x: number;
   readonly y: number;
@@ -84,6 +90,11 @@ export class RunStream {
 
   get isPlaying(): boolean {
     return this.streamer?.playing ?? false;
+  }
+
+  /** On its way to another plan; until it is there, it can't be told to go to a third one. */
+  get isGoingOver(): boolean {
+    return this.streamer?.isGoingOver ?? false;
   }
 
   /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
@@ -145,32 +156,38 @@ export class RunStream {
     this.streamer?.abandon(error);
   }
 
-  /** A place some time ahead that the board has not got yet; null when what is left is too short for one. */
+  /**
+   * A place some time ahead that the board has not got yet; null when what is left is too short for one. Either the
+   * pen is up there or it is within a stroke: at the end of one, a new plan would set out with the pen down.
+   */
   placeAhead(leadS: number): GoOver | null {
     const { streamer } = this;
     if (!streamer?.playing) return null;
     const part = this.progress.partOf(streamer.nextStream);
-    const index = commandAfter(part.commands, streamer.nextIndex, leadS);
-    if (index >= part.commands.count) return null;
-    const rest = this.restAt(part, index, false);
-    if (!rest.place) return null;
-    const { endX, endY } = rest.part.trajectory;
-    return { index, part, rest, from: rest.place, x: endX, y: endY };
+    let index = commandAfter(part.commands, streamer.nextIndex, leadS);
+    for (; index < part.commands.count; index++) {
+      const rest = this.restAt(part, index, false);
+      if (!rest.place) return null;
+      const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
+      if (isDown && !isWithinStroke(this.strokes, rest.place)) continue;
+      const { endX, endY } = rest.part.trajectory;
+      return { index, part, rest, isDown, from: rest.place, x: endX, y: endY };
+    }
+    return null;
   }
 
   /** Goes over to a plan from there; false when the board has got there meanwhile. */
-  goOver({ index, part, rest }: GoOver, plot: PlannedPlot, afterSectionS: number): boolean {
+  goOver({ index, part, rest, isDown }: GoOver, plot: PlannedPlot, afterSectionS: number): boolean {
     const { streamer } = this;
     if (streamer?.nextStream !== part.commands) return false;
     const { trajectory } = rest.part;
-    const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
     const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
     const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
     if (!streamer.cutAt(index, rest.part.commands, heights, commands)) return false;
     this.boardPen = this.settings.current.pen;
     const afterS = plot.trajectory.totalS + afterSectionS;
     this.progress.add({ ...rest.part, afterS });
-    this.progress.add({ commands: heights, trajectory, start: rest.state, afterS });
+    this.progress.add({ commands: heights, trajectory, start: rest.state, afterS, next: rest.place });
     this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state, afterS: afterSectionS });
     return true;
   }
@@ -191,17 +208,21 @@ export class RunStream {
       start,
     });
     const state = boardStateBefore(restCommands, restCommands.count, start);
+    const next = this.placeIn(part, planS, restTrajectory.endX, restTrajectory.endY);
     return {
-      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS },
-      place: this.snapped(placeAt(trajectory, planS), restTrajectory.endX, restTrajectory.endY),
+      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS, next },
+      place: next,
       state,
     };
   }
 
-  /** The place of the drawing where the pen stands, when it stands in the middle of a stroke. */
-  private snapped(place: Place | null, x: number, y: number): Place | null {
-    if (!place || place.alongMm === 0) return place;
-    return snappedPlace(this.strokes, place, x, y, SNAP_MM);
+  /** What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. */
+  private placeIn({ trajectory, next }: Part, planS: number, x: number, y: number): Place | null {
+    const { stroke, alongMm } = stateAt(trajectory, planS);
+    if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
+    return alongMm === 0
+      ? { stroke, alongMm }
+      : snappedPlace(this.strokes, { stroke, alongMm }, x, y, SNAP_MM);
   }
 
   /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
@@ -224,11 +245,16 @@ export class RunStream {
     this.emergency = false;
     const at = streamer.place();
     await this.carriage.findPlace();
-    const { trajectory } = this.progress.partOf(at.stream);
     const { x, y } = this.carriage.place(machineOf(this.settings.current))!;
-    const planS = nearestTime(trajectory, at.planS, 1, x, y);
-    this.stopped = { place: this.snapped(placeAt(trajectory, planS) ?? this.progress.place, x, y) };
+    const { part, planS } = this.progress.nearest(at, x, y);
+    this.stopped = { place: this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory) };
     this.carriage.penUp = null;
+  }
+
+  /** All of a plan is drawn, and what is left is the way home: not gone before somebody says so. */
+  private endOf({ runs }: Trajectory): Place | null {
+    const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
+    return stroke < 0 ? this.progress.place : { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
 
   /** Set by what happens during `play`, which the compiler cannot see. */
@@ -236,3 +262,6 @@ export class RunStream {
     return this.stopped !== null;
   }
 }
+
+const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: Place): boolean =>
+  alongMm > EDGE_MM && alongMm < strokeLengthMm(strokes, stroke) - EDGE_MM;

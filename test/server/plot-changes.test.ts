@@ -1,0 +1,143 @@
+/** Changes of speeds and heights while a plot runs, and what is asked for right after them. */
+import { describe, expect, it } from "vitest";
+import { MOTION_MODES, type VirtualBoard } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
+import { strokesOf } from "../support/local-planner.js";
+
+/** Short strokes, dots and travels: most instants are near an end of something. */
+const DASHES = [
+  [10, 10, 40, 10],
+  [10, 30, 40, 30],
+  [42, 40, 42, 60],
+];
+const DOTS = [
+  [10, 20],
+  [42, 30],
+] as const;
+const DASHES_MM = 80;
+const [FIRST, SECOND, LAST] = DASHES as [number[], number[], number[]];
+const MORSE = strokesOf(FIRST, [...DOTS[0], ...DOTS[0]], SECOND, [...DOTS[1]], LAST);
+
+/** Everything of MORSE is on the paper, and nothing else. */
+function expectMorse(board: VirtualBoard): void {
+  const { drawnMm } = board.statistics();
+  expect(drawnMm).toBeCloseTo(DASHES_MM, 0);
+  expectDrawn(board, strokesOf(...DASHES), 0.05);
+  const touched = board.drawn().filter(({ penDown }) => penDown);
+  for (const [x, y] of DOTS) {
+    const isOn = touched.some(({ xy }) => Math.hypot(xy[0]! - x, xy[1]! - y) < 0.05);
+    expect([x, y, isOn]).toEqual([x, y, true]);
+  }
+}
+
+describe("changes while it runs", () => {
+  it("slows down within a second to the percentage asked for, without leaving the line", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    const speed = async (): Promise<number> => {
+      const from = board.state();
+      await world.advance(0.1);
+      const to = board.state();
+      return Math.hypot(to.xMm - from.xMm, to.yMm - from.yMm) / 0.1;
+    };
+    expect(await speed()).toBeGreaterThan(45);
+    const changed = run.change({ speedPct: 40 });
+    await world.advance(0.9);
+    await changed;
+    expect(await speed()).toBeCloseTo(20, 0);
+    expect(board.state().penUp).toBe(false);
+    await world.run(run.change({ speedPct: 100 }));
+    await world.advance(1);
+    expect(await speed()).toBeGreaterThan(45);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it("presses harder at once where the pen is down, and from then on", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 20 } }));
+    await world.advance(1);
+    expect(board.state()).toMatchObject({ penUp: false });
+    expect(board.state().penPct).toBeCloseTo(20, 0);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
+  });
+
+  it("takes new settings at the hold point while held", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.pause());
+    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 10 } }));
+    await world.run(run.resume());
+    await world.advance(1);
+    expect(board.state().penPct).toBeCloseTo(10, 0);
+    await world.run(run.finished);
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it.each([0, 1, 2, 3, 4])("can be asked for at any instant, many times (run %i)", async (seed) => {
+    const { world, board, run } = await plotting("junction");
+    const random = seeded(seed + 1);
+    for (let i = 0; i < 8; i++) {
+      await world.advance(random());
+      await world.run(run.change({ speedPct: 20 + Math.floor(150 * random()) }));
+    }
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    expect(board.statistics().penMoveCount).toBe(8);
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it.each(MOTION_MODES)("draws each stroke once whenever it is asked for, in %s mode", async (mode) => {
+    const random = seeded(MOTION_MODES.indexOf(mode) + 1);
+    for (let i = 0; i < 50; i++) {
+      const { world, board, run } = await plotting(mode, MORSE);
+      await world.advance(0.1 + 7 * random());
+      await world.run(run.change({ speedPct: 40 + 100 * random() }));
+      expect(await world.run(run.finished)).toEqual({ kind: "done" });
+      expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+      expect(board.statistics()).toMatchObject({ penMoveCount: 10 });
+      expectMorse(board);
+    }
+  });
+
+  it.each(["pause", "emergencyStop"] as const)(
+    "draws each stroke once whenever a %s comes right after one",
+    async (stop) => {
+      const random = seeded(11);
+      for (let i = 0; i < 80; i++) {
+        const { world, board, run } = await plotting("scurve", MORSE);
+        await world.advance(0.1 + 7 * random());
+        const changed = run.change({ speedPct: 60 });
+        await world.advance(0.7 * random());
+        await world.run(run[stop]());
+        await world.run(run.resume());
+        expect(await world.run(run.finished)).toEqual({ kind: "done" });
+        await changed;
+        expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+        expect(Math.max(0, ...seamsMm(board).filter((mm) => mm < 1))).toBeLessThan(0.02);
+        expectMorse(board);
+      }
+    },
+  );
+
+  it("ends up at the last of two percentages, however soon it came after the first", async () => {
+    const line = strokesOf([10, 10, 250, 10]);
+    for (let afterS = 0.2; afterS < 0.6; afterS += 0.02) {
+      const { world, board, run } = await plotting("junction", line);
+      await world.advance(2);
+      const first = run.change({ speedPct: 60 });
+      await world.advance(afterS);
+      await world.run(run.change({ speedPct: 30 }));
+      await first;
+      await world.advance(1);
+      const from = board.state();
+      await world.advance(0.1);
+      expect((board.state().xMm - from.xMm) / 0.1).toBeCloseTo(15, 0);
+    }
+  });
+});

@@ -1,0 +1,85 @@
+/** A plot on the virtual board by a clock that the test leads, and what is to be said of the line that it drew. */
+import { expect } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { LivePlotRun } from "../../server/plotter/types.js";
+import type { MotionMode, StrokeSet, VirtualBoard } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { LocalPlanner, strokesOf } from "./local-planner.js";
+import { ManualClock } from "./manual-clock.js";
+import { farthest, SegmentGrid } from "./segment-grid.js";
+
+/** Curves, sharp corners, a reversal, short strokes: about ten seconds of plotting. */
+export const DRAWING: StrokeSet = strokesOf(
+  Array.from({ length: 200 }, (_, i) => [
+    60 + 30 * Math.cos((i / 199) * 2 * Math.PI),
+    50 + 30 * Math.sin((i / 199) * 2 * Math.PI),
+  ]).flat(),
+  [20, 20, 90, 20, 90, 45, 25, 45.5, 90, 46],
+  [100, 60, 103, 61],
+  [105, 60, 108, 61],
+);
+
+export interface LivePlot {
+  readonly world: ManualClock;
+  readonly driver: PlotterDriver;
+  readonly board: VirtualBoard;
+  readonly run: LivePlotRun;
+}
+
+export const settingsOf = (mode: MotionMode): PlotSettings => ({
+  ...DEFAULT_PLOT_SETTINGS,
+  motion: { ...DEFAULT_PLOT_SETTINGS.motion, mode },
+});
+
+export async function plotting(mode: MotionMode, strokes = DRAWING, firmware = "2.8.1"): Promise<LivePlot> {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const run = await world.run(driver.plot(new LocalPlanner(strokes), settingsOf(mode)));
+  return { world, driver, board: driver.virtualBoard!, run };
+}
+
+/** The lines drawn so far, pen down. */
+const lines = (board: VirtualBoard): Float64Array[] =>
+  board
+    .drawn()
+    .filter(({ penDown, xy }) => penDown && xy.length > 2)
+    .map(({ xy }) => xy);
+
+function gridOfStrokes({ xy, offsets }: StrokeSet): SegmentGrid {
+  const grid = new SegmentGrid(1);
+  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s]!, 2 * offsets[s + 1]!);
+  return grid;
+}
+
+function* pairs(xy: ArrayLike<number>): Iterable<readonly [number, number]> {
+  for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+}
+
+/** Everything drawn lies on the drawing, and everything of the drawing is drawn. */
+export function expectDrawn(board: VirtualBoard, strokes: StrokeSet, withinMm: number): void {
+  const drawn = new SegmentGrid(1);
+  const source = gridOfStrokes(strokes);
+  for (const line of lines(board)) {
+    drawn.addPolyline(line);
+    expect(farthest(pairs(line), source)).toBeLessThan(withinMm);
+  }
+  expect(farthest(pairs(strokes.xy), drawn)).toBeLessThan(withinMm);
+}
+
+/** mm between the end of each line and the beginning of the next, where they belong to the same stroke. */
+export function seamsMm(board: VirtualBoard): number[] {
+  const all = lines(board);
+  const seams: number[] = [];
+  for (let i = 1; i < all.length; i++) {
+    const [before, after] = [all[i - 1]!, all[i]!];
+    const mm = Math.hypot(after[0]! - before[before.length - 2]!, after[1]! - before[before.length - 1]!);
+    if (mm < 2) seams.push(mm);
+  }
+  return seams;
+}
+
+export function seeded(seed: number): () => number {
+  let state = seed;
+  return () => (state = (state * 48271) % 2147483647) / 2147483647;
+}
