@@ -6,6 +6,7 @@ import type { LaidOutGlyph, TextFont } from "./text-font.js";
 const UNITS_PER_EM = 30;
 const BASELINE = 22;
 const FIRST_CODE = 33;
+const CODE_OF_ZERO = 73;
 const SPACE_UNITS = 16;
 
 interface Letter {
@@ -179,12 +180,19 @@ function letterOf(char: string, table: readonly string[]): Letter | null {
   if (/^\s$/.test(char)) return { lines: [], advance: SPACE_UNITS };
   const entry = table[char.charCodeAt(0) - FIRST_CODE];
   if (char.length !== 1 || entry === undefined) return null;
-  const [advance, ...polylines] = entry.split("|");
-  const lines = polylines
-    .filter((line) => line !== "")
-    .map((line) => line.split(" ").map((point) => point.split(",").map(Number) as [number, number]));
-  return { lines, advance: Number(advance) };
+  const [advance = "", ...polylines] = entry.split(" ");
+  let [x, y] = [0, 0];
+  const lines = polylines.map((codes) =>
+    Array.from({ length: codes.length / 2 }, (_, i): [number, number] => [
+      (x += numberAt(codes, 2 * i)),
+      (y += numberAt(codes, 2 * i + 1)),
+    ]),
+  );
+  return { lines, advance: numberAt(advance, 0) };
 }
+
+/** A letter of the tables as the number that it stands for. */
+const numberAt = (codes: string, index: number): number => codes.charCodeAt(index) - CODE_OF_ZERO;
 
 function withAccent(
   letter: Letter,
