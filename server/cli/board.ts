@@ -98,6 +98,7 @@ export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBo
     close: async () => {
       isClosed = true;
       await pull();
+      board.close();
     },
   };
 }

@@ -67,6 +67,7 @@ export class Carriage {
   /** Underruns of the streams played so far on this connection. */
   underrunCount = 0;
 
+  private playing: Streamer | null = null;
   private origin: readonly [number, number] = [0, 0];
   private state: BoardState | null = null;
   private readonly queueDepth: number;
@@ -211,6 +212,7 @@ export class Carriage {
     this.left = null;
     this.motorsOn = true;
     this.penUp = null;
+    this.playing = streamer;
     try {
       const report = await streamer.play(plot.commands);
       this.state = boardStateBefore(report.end.stream, report.end.commandIndex + 1, start);
@@ -220,6 +222,7 @@ export class Carriage {
       if (!(error instanceof PlotwrightError && error.code === "conflict")) this.state = null;
       throw error;
     } finally {
+      this.playing = null;
       this.underrunCount += streamer.underrunCount;
       this.events.changed();
     }
@@ -252,9 +255,28 @@ export class Carriage {
       pen: settings.pen,
       start: this.state!,
     });
-    await this.play(this.streamer(), { trajectory, commands });
+    try {
+      await this.play(this.streamer(), { trajectory, commands });
+    } catch (error) {
+      if (error instanceof PlotwrightError && error.code === "conflict") await this.findPlace();
+      throw error;
+    }
     this.penUp = true;
     this.events.changed();
+  }
+
+  /** Drops what the board has of a move: it ends with `conflict`, and the place is read back. */
+  stopAtOnce(): void {
+    if (!this.playing) return;
+    this.connection.session.write([{ line: "ES" }]);
+    this.playing.abandon(new PlotwrightError("conflict", "The move was stopped at once."));
+  }
+
+  /** Before the line is given up in the middle of something: nothing is drawn any more, and the pen is up. */
+  async leave(settings: PlotSettings): Promise<void> {
+    this.stopAtOnce();
+    await this.untilStill();
+    await this.movePen(true, settings);
   }
 
   /** Lifts or drops the pen by hand; resolves when it is there. */

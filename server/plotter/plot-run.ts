@@ -27,6 +27,7 @@ import { RunSettings } from "./run-settings.js";
 import { RunStream } from "./run-stream.js";
 import { stoppedPlace } from "./stopped-place.js";
 import type {
+  JournalEntry,
   LivePlotRun,
   PlannedPlot,
   PlotChange,
@@ -74,6 +75,8 @@ export class CarriageRun implements LivePlotRun {
   private whole: Promise<PlaceTimes> | null = null;
   private planningS = 0;
   private changing: Promise<void> | null = null;
+  /** Walks to the hold point; nothing else may move before they are over. */
+  private walking: Promise<void> = Promise.resolve();
   private journalDueS = -Infinity;
   private stopTicking: () => void = () => undefined;
   private wakeWisher: (() => void) | null = null;
@@ -144,7 +147,8 @@ export class CarriageRun implements LivePlotRun {
 
   emergencyStop(): Promise<void> {
     if (this.wish === "run") this.wish = "hold";
-    this.stream.stopAtOnce();
+    if (this.stream.isPlaying) this.stream.stopAtOnce();
+    else this.carriage.stopAtOnce();
     return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
@@ -168,12 +172,15 @@ export class CarriageRun implements LivePlotRun {
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
     if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
+    this.writeJournal(this.holdPlace);
     return this.holdPlace;
   }
 
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
-    await this.carriage.walk(x, y, this.settings.current);
+    const walk = this.walking.then(() => this.carriage.walk(x, y, this.settings.current));
+    this.walking = walk.catch(() => undefined);
+    await walk;
   }
 
   /** Where the plot that goes on was broken off, by the board's own counters where it has kept them. */
@@ -329,9 +336,17 @@ export class CarriageRun implements LivePlotRun {
       });
     }
     this.wakeWisher = null;
+    await this.untilWalked();
     if (this.failure) throw this.failure;
     if (this.wish === "run") this.stops.answer(this.holdPlace);
     this.setHeld(false, null);
+  }
+
+  private async untilWalked(): Promise<void> {
+    for (let last: Promise<void> | null = null; last !== this.walking;) {
+      last = this.walking;
+      await last;
+    }
   }
 
   /** All was drawn when somebody stopped it. */
@@ -341,7 +356,12 @@ export class CarriageRun implements LivePlotRun {
   }
 
   private async goHome(): Promise<PlotOutcome> {
-    await this.carriage.walk(0, 0, this.settings.current);
+    try {
+      await this.carriage.walk(0, 0, this.settings.current);
+    } catch (error) {
+      // Stopped at once on its way: it stays where it is.
+      if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
+    }
     return { kind: "cancelled" };
   }
 
@@ -385,9 +405,15 @@ export class CarriageRun implements LivePlotRun {
     const { latest } = this.progress;
     const { boardClock, speed } = this.carriage.connection;
     this.journalDueS = boardClock.nowS() + JOURNAL_S * speed;
-    if (!latest || !left) return;
-    const { xMm, yMm, penUp, elapsedS } = latest;
+    if (!left) return;
+    const { xMm, yMm, penUp, elapsedS } = latest ?? this.standing();
     this.start.journal?.record({ place: left, xMm, yMm, penUp, elapsedS });
+  }
+
+  /** Before anything has been streamed. */
+  private standing(): Omit<JournalEntry, "place"> {
+    const { x, y } = this.carriage.place(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
+    return { xMm: x, yMm: y, penUp: this.carriage.penUp ?? true, elapsedS: 0 };
   }
 }
 

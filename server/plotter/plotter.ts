@@ -111,7 +111,8 @@ export class PlotterDriver {
 
   /** Begins a plot. Rejects with `busy`, or with what keeps the board from being there. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    const carriage = await this.idleCarriage();
+    await this.connecting;
+    const carriage = this.idleCarriage();
     this.settings = settings;
     const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
@@ -196,15 +197,22 @@ export class PlotterDriver {
     return this.byHand((carriage) => sendLine(carriage, line));
   }
 
+  /** In the middle of a move or a plot it stops at once and lifts the pen first. */
   async close(): Promise<void> {
     this.closed = true;
     this.cancelRetry?.();
     this.cancelSupply?.();
     await this.connecting;
+    const { run } = this;
+    run?.fail(closedError());
+    // A lost board can't be told anything.
+    if (run || this.movingByHand) await this.carriage?.leave(this.settings).catch(() => undefined);
     await this.connection?.session.close();
+    this.virtual?.close();
   }
 
   private startConnecting(): Promise<void> {
+    if (this.closed) return Promise.resolve();
     this.connecting ??= this.connect().finally(() => {
       this.connecting = null;
     });
@@ -277,10 +285,13 @@ export class PlotterDriver {
     if (this.closed) return;
     this.trouble = error;
     this.carriage = null;
-    void this.connection?.session.close();
+    this.connection?.session.close().catch(() => undefined);
     this.connection = null;
+    // One that is held hears nothing of its board.
+    this.run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
     this.tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    this.cancelRetry?.();
     this.cancelRetry = this.clock.after(RECONNECT_S, () => void this.startConnecting());
   }
 
@@ -298,6 +309,7 @@ export class PlotterDriver {
 
   /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
   private watchSupply(carriage: Carriage): void {
+    if (this.closed) return;
     this.cancelSupply = this.clock.after(SUPPLY_S, () => {
       if (this.closed || this.carriage !== carriage) return;
       const isPlaying = this.movingByHand || (this.run !== null && !this.run.isHeld);
@@ -325,7 +337,8 @@ export class PlotterDriver {
   }
 
   private async byHand<T>(action: (carriage: Carriage) => Promise<T>): Promise<T> {
-    const carriage = await this.idleCarriage();
+    await this.connecting;
+    const carriage = this.idleCarriage();
     this.movingByHand = true;
     this.tell({ connection: "busy", activity: "moving" });
     try {
@@ -336,8 +349,8 @@ export class PlotterDriver {
     }
   }
 
-  private async idleCarriage(): Promise<Carriage> {
-    await this.connecting;
+  /** To be taken at once: between asking and taking, another one could ask. */
+  private idleCarriage(): Carriage {
     if (this.run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait for its end.");
     }
@@ -377,6 +390,9 @@ export class PlotterDriver {
 
 const notStarted = (): PlotwrightError =>
   new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
+
+const closedError = (): PlotwrightError =>
+  new PlotwrightError("disconnected", "The plotter was closed: start it again to go on.");
 
 const internal = (cause: unknown): PlotwrightError =>
   new PlotwrightError("internal", "Connecting to the board failed for a reason of our own.", { cause });

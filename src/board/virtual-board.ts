@@ -77,6 +77,7 @@ export class VirtualBoard {
   private parserFreeTick = 0;
   private cancelTimer: (() => void) | null = null;
   private isRunning = false;
+  private isClosed = false;
   private isFull = false;
   private link: VirtualLink | null = null;
   private ticksPerByte = 0;
@@ -242,6 +243,15 @@ export class VirtualBoard {
     this.dropLine("The virtual board was reset.");
   }
 
+  /** For good: its time stands still, and no timer is left that would keep a process alive. */
+  close(): void {
+    this.isClosed = true;
+    this.cancelTimer?.();
+    this.cancelTimer = null;
+    this.link?.drop();
+    this.link = null;
+  }
+
   // Inside.
 
   private take(bytes: Uint8Array, arrivalTick: number): void {
@@ -338,7 +348,7 @@ export class VirtualBoard {
     this.cancelTimer?.();
     this.cancelTimer = null;
     const tick = this.nextTick();
-    if (tick === Infinity || this.speed === Infinity) return;
+    if (tick === Infinity || this.speed === Infinity || this.isClosed) return;
     const delayS = (tick - this.core.nowTick) / (TICKS_PER_S * this.speed);
     this.cancelTimer = this.clock.after(Math.max(0, delayS), () => {
       this.cancelTimer = null;

@@ -1,0 +1,112 @@
+/** How a plotter lets go: in the middle of something, with its board lost, or with two things asked for at once. */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { PlotwrightError } from "../../src/index.js";
+import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+async function idle() {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world });
+  await world.run(driver.start());
+  return { world, driver, board: driver.virtualBoard! };
+}
+
+describe("a plotter that is closed", () => {
+  it.each([0.4, 1.9, 3.3, 5.2, 9.7])(
+    "in the middle of a plot (%s s) lifts the pen and leaves no timer",
+    async (s) => {
+      const { world, driver, board, run } = await plotting("scurve");
+      await world.advance(s);
+      const ended = outcome(run.finished);
+      await world.run(driver.close());
+      expect(await ended).toMatch(/^disconnected/);
+      expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+      expect(world.timerCount).toBe(0);
+    },
+  );
+
+  it("in the middle of a move by hand lifts the pen and leaves no timer", async () => {
+    const { world, driver, board } = await idle();
+    const drawn = outcome(driver.drawTestPatch());
+    while (board.state().penUp) await world.advance(0.1);
+    await world.run(driver.close());
+    await drawn;
+    expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+    expect(world.timerCount).toBe(0);
+  });
+
+  it("while it holds ends the plot", async () => {
+    const { world, driver, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.pause());
+    const ended = outcome(run.finished);
+    await world.run(driver.close());
+    expect(await ended).toMatch(/^disconnected/);
+    expect(world.timerCount).toBe(0);
+  });
+
+  it("after its board was lost looks for it no more", async () => {
+    const { world, driver, board } = await idle();
+    const moved = outcome(driver.walkTo(100, 100));
+    await world.advance(0.5);
+    board.unplug();
+    expect(await world.run(moved)).toMatch(/^disconnected/);
+    await world.run(driver.close());
+    expect(world.timerCount).toBe(0);
+  });
+});
+
+describe("a board that is lost while the plot is held", () => {
+  it("ends the plot at once, so that it can be taken up when the board is back", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.pause());
+    board.unplug();
+    expect(await world.run(outcome(run.finished), 0.1)).toMatch(/^disconnected/);
+  });
+});
+
+describe("two things at once", () => {
+  it("are not begun: the second is refused", async () => {
+    const { world, driver, board } = await idle();
+    const [first, second] = [outcome(driver.walkTo(30, 0)), outcome(driver.walkTo(0, 30))];
+    expect(await world.run(second)).toMatch(/^busy/);
+    await world.run(first);
+    expect(board.state()).toMatchObject({ xMm: 30, yMm: 0 });
+  });
+
+  it("a look at the hold point is over before the plot goes on", async () => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(5);
+    await world.run(run.pause());
+    run.moveHoldPlace({ mm: -20 });
+    const looked = Promise.all([run.checkHoldPlace(), run.checkHoldPlace()]);
+    await world.advance(0.2);
+    await world.run(run.resume());
+    await looked;
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it("a stop at once holds on the way home too, and the place is still known", async () => {
+    const { world, driver, board, run } = await plotting("junction", DRAWING, "3.0.3");
+    await world.advance(5);
+    const cancelled = run.cancel();
+    while (!board.state().penUp || !board.state().isBusy) await world.advance(0.05);
+    await world.advance(0.4);
+    await world.run(run.emergencyStop());
+    expect(await world.run(run.finished)).toEqual({ kind: "cancelled" });
+    await cancelled;
+    const { xMm } = board.state();
+    expect(xMm).toBeGreaterThan(1);
+    await world.advance(1);
+    expect(board.state()).toMatchObject({ xMm, isBusy: false });
+    await world.run(driver.home());
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+  });
+});
