@@ -157,6 +157,7 @@ async function openParts(
     plotters,
     announce,
     nowIso,
+    log,
     withChange: (before, after) => webhooks.note(before, after),
     afterChange: () => {
       webhooks.wake();

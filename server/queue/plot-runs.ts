@@ -45,6 +45,7 @@ export class PlotRuns {
   /** By plotter. */
   readonly #running = new Map<string, Running>();
   #closing = false;
+  #lastTrouble: string | null = null;
 
   /** A job that was plotting when the server ended becomes interrupted. `done` hears of each plot that ended well. */
   constructor(parts: QueueParts, book: JobBook, done: (job: Job) => void) {
@@ -67,6 +68,8 @@ export class PlotRuns {
   /** Throws `busy` while its plotter plots another job. */
   start(id: string): Job {
     const plotter = this.#freePlotter(id);
+    // Of an earlier plot, which was interrupted and queued again.
+    this.#parts.store.clearJournal(id);
     const started = this.#book.apply(id, { type: "start" });
     this.#begin(plotter, started);
     return started;
@@ -75,7 +78,8 @@ export class PlotRuns {
   /** Takes an interrupted job up at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
     const plotter = this.#freePlotter(id);
-    const job = this.#book.apply(id, { type: "recover" });
+    const { place: from } = this.#book.get(id);
+    const job = this.#book.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
     this.#begin(plotter, job);
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
@@ -146,15 +150,27 @@ export class PlotRuns {
         speedPct: job.speedPct,
       },
       {
-        journal: (entry) => this.#parts.store.saveJournal(job.id, entry),
+        journal: (entry) => this.#safely(() => this.#parts.store.saveJournal(job.id, entry)),
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
-        held: (held, wait) => this.#held(job.id, held, wait),
-        refused: (message) => void this.#book.note(job.id, message),
-        ended: (end) => this.#ended(job.id, plotter.id, end),
+        held: (held, wait) => this.#safely(() => this.#held(job.id, held, wait)),
+        refused: (message) => this.#safely(() => void this.#book.note(job.id, message)),
+        ended: (end) => this.#safely(() => this.#ended(job.id, plotter.id, end)),
       },
     );
     const timer = new MovingTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+  }
+
+  /** A disk that is full must not stop the pen in mid-stroke, nor end the server: it may have room again soon. */
+  #safely(write: () => void): void {
+    try {
+      write();
+      this.#lastTrouble = null;
+    } catch (error) {
+      const trouble = error instanceof Error ? error.message : String(error);
+      if (trouble !== this.#lastTrouble) this.#parts.log?.(`a plot can't be written down: ${trouble}`);
+      this.#lastTrouble = trouble;
+    }
   }
 
   #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
@@ -199,7 +215,8 @@ export class PlotRuns {
     const timer = this.#running.get(plotterId)?.timer;
     this.#running.delete(plotterId);
     const { store, nowIso } = this.#parts;
-    if (end.kind === "failed" && canGoOn(end.error) && store.journal(id) !== undefined) {
+    // What is on paper already must not be lost, whatever went wrong.
+    if (end.kind === "failed" && (canGoOn(end.error) || store.journal(id) !== undefined)) {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
       this.#book.apply(id, { type: "fail", message: end.error.message });
@@ -243,6 +260,7 @@ export class PlotRuns {
 
   /** The job's plotter, when it is there and has no other job. */
   #freePlotter(id: string): PlotterPort {
+    if (this.#closing) throw new PlotwrightError("conflict", "The server is stopping.");
     const plotter = plotterOf(this.#parts, this.#book.get(id).plotterId);
     const other = this.#running.get(plotter.id);
     if (other !== undefined && other.jobId !== id) {

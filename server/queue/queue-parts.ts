@@ -22,6 +22,8 @@ export interface QueueParts {
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
+  /** What can't be told otherwise, such as a disk that is full in mid-plot. */
+  readonly log?: ((line: string) => void) | undefined;
   /** Writes what follows from a job's change, in the same transaction. */
   readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
   /** After the change has been announced. */

@@ -19,6 +19,7 @@ let store: Store;
 let plotter: LedPlotter;
 let events: ServerEvent[];
 let queue: JobQueue;
+let logged: string[];
 
 beforeEach(() => {
   dir = mkdtempSync(join(tmpdir(), "plotwright-queue-"));
@@ -35,6 +36,7 @@ function openQueue(planning: Planning = LED_PLANNING): void {
   store = Store.open(dir);
   plotter = new LedPlotter();
   events = [];
+  logged = [];
   queue = new JobQueue({
     store,
     files: new DrawingFiles(dir, 1_000_000),
@@ -46,6 +48,7 @@ function openQueue(planning: Planning = LED_PLANNING): void {
       events.push(event);
     },
     nowIso: () => new Date().toISOString(),
+    log: (line) => logged.push(line),
   });
 }
 
@@ -77,16 +80,16 @@ describe("the queue", () => {
     );
   });
 
-  it("tells what the board's failure was, keeps the rest of the queue, and can plot again", async () => {
+  it("tells what the failure was, keeps the rest of the queue, and can plot again", async () => {
     const first = await add("fern");
     await add("moss");
     queue.start(first.id);
     const run = await plotter.nextRun();
     await settled();
-    run.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    run.fail(new PlotwrightError("out-of-bounds", "It is larger than the machine."));
     await settled();
     expect(names()).toEqual(["moss queued", "fern failed"]);
-    expect(queue.get(first.id).message).toBe("The board was unplugged.");
+    expect(queue.get(first.id).message).toBe("It is larger than the machine.");
     queue.requeue(first.id);
     expect(names()).toEqual(["moss queued", "fern queued"]);
     queue.start(first.id);
@@ -174,6 +177,69 @@ describe("the queue", () => {
     await queue.checkPlace(id);
     queue.resume(id);
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id).state).toBe("done");
+  });
+
+  it("offers a plot whose board failed before anything was drawn, held at its beginning", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const broken = await plotter.nextRun();
+    await settled();
+    broken.fail(new PlotwrightError("board-timeout", "The board has stopped answering."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({
+      state: "interrupted",
+      message: "The board has stopped answering.",
+    });
+    queue.recover(id);
+    const run = await plotter.nextRun();
+    await settled();
+    expect(run.asked).toEqual(["pause"]);
+    expect(run.holdPlace).toEqual({ stroke: 0, alongMm: 0 });
+    expect(queue.get(id).state).toBe("paused");
+  });
+
+  it("offers a plot that has begun to draw, whatever ended it", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const broken = await plotter.nextRun();
+    await settled();
+    broken.record({ place: { stroke: 3, alongMm: 4.5 } });
+    broken.fail(new Error("A mistake of ours."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 3, alongMm: 4.5 } });
+  });
+
+  it("begins at the beginning when it is plotted again, though it is interrupted before it draws", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
+    store.close();
+    openQueue();
+    queue.requeue(id);
+    queue.start(id);
+    await plotter.nextRun();
+    store.close();
+    openQueue();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: null });
+  });
+
+  it("plots on with a full disk, and says once that it can't write", async () => {
+    const { id } = await add("fern");
+    queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    const { saveJournal } = store;
+    store.saveJournal = () => {
+      throw new Error("database or disk is full");
+    };
+    run.record({});
+    run.record({});
+    store.saveJournal = saveJournal;
+    run.record({ place: { stroke: 2, alongMm: 1 } });
+    expect(logged).toEqual(["a plot can't be written down: database or disk is full"]);
     run.end({ kind: "done" });
     await settled();
     expect(queue.get(id).state).toBe("done");
