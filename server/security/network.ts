@@ -1,4 +1,5 @@
 /** How other devices find the server: its addresses, a QR code with the pairing link, and an mDNS name. */
+import type { EventEmitter } from "node:events";
 import { networkInterfaces } from "node:os";
 import { Bonjour } from "bonjour-service";
 import qrcode from "qrcode";
@@ -41,17 +42,23 @@ export async function pairingLinks(
   };
 }
 
-/** Announces http://plotwright.local; returns what takes it back. */
-export function announceOnLan(port: number, isTls: boolean): () => Promise<void> {
-  const bonjour = new Bonjour({}, () => undefined);
-  const service = bonjour.publish({
+/** Announces http://plotwright.local; returns what takes it back. `line`: a socket other than the system's own. */
+export function announceOnLan(
+  port: number,
+  isTls: boolean,
+  line: { readonly socket?: EventEmitter } = {},
+): () => Promise<void> {
+  const bonjour = new Bonjour(line as Record<string, unknown>, () => undefined);
+  // No network, or a socket that the system refuses: the addresses work without the name. The library tells of it
+  // where it lets nobody listen, and an error that nobody hears ends the process.
+  const { server } = bonjour as unknown as { readonly server: { readonly mdns: EventEmitter } };
+  server.mdns.on("error", () => undefined);
+  bonjour.publish({
     name: "plotwright",
     type: isTls ? "https" : "http",
     port,
     host: `${MDNS_NAME}.local`,
   });
-  // No network, or a name that is taken: the addresses work without it.
-  service.on("error", () => undefined);
   return () =>
     new Promise((resolve) => {
       bonjour.unpublishAll(() => {
