@@ -26,7 +26,7 @@ const withoutNeverCalled = (): Plugin => ({
   },
 });
 
-/** Of public/: what belongs to the page when it is opened without the server. */
+/** Of public/: what belongs to the page when it is opened without the server; the other icons are for installing it. */
 const PUBLIC_FILES = ["icon.svg", "manifest.webmanifest"];
 
 /** The service worker, with the names of all the files of the page put in. */
@@ -71,7 +71,7 @@ export default defineConfig({
           groups: [
             {
               name: "index",
-              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(choice|format|group|icon|lazy-part|number-field)\.|\/web\/text\/(en|text)\.|\/web\/panels\/(paper|settings-group)\.|\/web\/preview\/placing\.|\/src\/(schema|drawing|machines|errors)/,
+              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(choice|format|group|icon|lazy-part|number-box|number-field)\.|\/web\/text\/(en|text)\.|\/web\/panels\/(paper|settings-group)\.|\/web\/preview\/placing\.|\/src\/(schema\/(?!studio|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
             },
           ],
         },

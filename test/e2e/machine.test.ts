@@ -104,7 +104,7 @@ describe("moving by hand", () => {
     expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
     await page.keyboard.press("Escape");
     await button("Cancel", queuePanel(page)).click();
-    await button("Cancel", page.getByRole("alertdialog")).click();
+    await button("Cancel the plot", page.getByRole("alertdialog")).click();
     await page.getByText("Cancelled").waitFor();
   });
 });

@@ -14,7 +14,7 @@ function makePage() {
   const planner = { request: () => undefined, export: () => undefined };
   const actions = createActions({ store, api, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
-  return { actions, errorCount, startServer: () => (isServerUp = true) };
+  return { store, actions, errorCount, startServer: () => (isServerUp = true) };
 }
 
 describe("a message of what went wrong", () => {
@@ -34,5 +34,29 @@ describe("a message of what went wrong", () => {
     expect(errorCount()).toBe(1);
     actions.openPasted("<svg width='9'/>");
     expect(errorCount()).toBe(0);
+  });
+});
+
+describe("a file that is dropped", () => {
+  const unreadable = { name: "sketches", text: () => Promise.reject(new Error("is a folder")) };
+
+  it.each([
+    ["is a folder, or gone", unreadable as unknown as File],
+    ["holds no text", new File(["\x89PNG\0\0"], "photo.png")],
+  ])("and %s is named, with what to do; what lies on the paper stays", async (_what, file) => {
+    const { store, actions } = makePage();
+    actions.openPasted("<svg width='9'/>");
+    const { drawing } = store.getState();
+    await actions.openFile(file);
+    expect(store.getState().drawing).toBe(drawing);
+    const [notice] = store.getState().notices;
+    expect(notice?.kind).toBe("error");
+    expect(notice?.text).toContain(file.name);
+  });
+
+  it("is laid on the paper without its ending", async () => {
+    const { store, actions } = makePage();
+    await actions.openFile(new File(["<svg width='9'/>"], "waves.svg"));
+    expect(store.getState().drawing?.name).toBe("waves");
   });
 });

@@ -5,7 +5,6 @@ import { alignmentJob, CORNERS, markPlace } from "../../web/state/alignment-mark
 import {
   addPen,
   changePen,
-  forOtherDrawing,
   hatchLayer,
   isLayerShown,
   moveLayer,
@@ -21,6 +20,7 @@ import {
   stopBefore,
   type LayerRow,
 } from "../../web/state/layer-settings.js";
+import { forOtherDrawing } from "../../web/state/other-drawing.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
 
 const DEFAULTS: PlotSettings = DEFAULT_PLOT_SETTINGS;

@@ -21,7 +21,7 @@ import {
 } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 
-export class ApiFault extends Error {
+class ApiFault extends Error {
   override readonly name = "ApiFault";
   readonly code: string;
 
@@ -33,7 +33,8 @@ export class ApiFault extends Error {
 
 const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
 const operatorAnswerSchema = z.object({ operator: operatorSchema.nullable() });
-const okSchema = z.object({ ok: z.literal(true) });
+/** What the server answers where there is nothing to say. */
+export const okSchema = z.object({ ok: z.literal(true) });
 
 export type JobAction =
   "start" | "pause" | "resume" | "cancel" | "requeue" | "emergency-stop" | "recover" | "check-place";

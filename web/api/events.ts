@@ -1,7 +1,7 @@
 /** The live event stream: connects, parses every event by the schema, and connects again for ever. */
 import { serverEventSchema, type ServerEvent } from "../../src/schema/index.js";
 
-export interface EventsListener {
+interface EventsListener {
   onEvent(event: ServerEvent): void;
   onLink(isConnected: boolean): void;
 }

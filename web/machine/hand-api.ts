@@ -10,11 +10,9 @@ import {
   type Plotter,
 } from "../../src/schema/index.js";
 import type { MachineProfile } from "../../src/index.js";
-import { z } from "zod";
+import { okSchema } from "../api/client.js";
 import { currentPlotter, type PageStore } from "../state/store.js";
 import type { Actions } from "../state/actions.js";
-
-const okSchema = z.object({ ok: z.literal(true) });
 
 export type HandApi = ReturnType<typeof handApi>;
 

@@ -2,13 +2,14 @@ import { useRef, useState, type KeyboardEvent } from "react";
 import { later } from "../text/later.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
 
 const words = later.jog;
 const STEPS_MM = ["0.1", "1", "10", "50"] as const;
 type StepMm = (typeof STEPS_MM)[number];
 
 /** x to the right, y down the page, towards whoever stands before the plotter. */
-export const WAYS = [
+const WAYS = [
   ["upLeft", -1, -1],
   ["up", 0, -1],
   ["upRight", 1, -1],
@@ -61,7 +62,7 @@ export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
             disabled={isOff}
             onClick={() => go(x, y)}
           >
-            {name === "home" ? <HomeArrow /> : <Arrow x={x} y={y} />}
+            {name === "home" ? <Icon name="home" /> : <Arrow x={x} y={y} />}
           </button>
         ))}
       </div>
@@ -90,11 +91,5 @@ const useOneAfterTheOther = () => {
 const Arrow = ({ x, y }: { x: number; y: number }) => (
   <svg className="icon" viewBox="0 0 20 20" aria-hidden="true">
     <path d="M4 10h12M11 5l5 5-5 5" transform={`rotate(${(Math.atan2(y, x) * 180) / Math.PI} 10 10)`} />
-  </svg>
-);
-
-const HomeArrow = () => (
-  <svg className="icon" viewBox="0 0 20 20" aria-hidden="true">
-    <path d="M3.500 9.500L10 4l6.500 5.500M5.500 8.500V16h9V8.500" />
   </svg>
 );

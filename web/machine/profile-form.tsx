@@ -1,8 +1,8 @@
-import { INPUT_PORTS_SHOWN, type SwitchInput } from "./switches.js";
 import type { MachineProfile } from "../../src/index.js";
 import { later } from "../text/later.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
+import { TextField } from "../ui/text-field.js";
 
 const words = later.profile;
 
@@ -16,16 +16,7 @@ export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
   const change = (part: Partial<MachineProfile>): void => onChange({ ...profile, ...part });
   return (
     <div className="profile-form">
-      <label className="field">
-        <span>{words.name}</span>
-        <input
-          className="text-field"
-          type="text"
-          maxLength={100}
-          value={profile.name}
-          onChange={(event) => change({ name: event.target.value })}
-        />
-      </label>
+      <TextField label={words.name} value={profile.name} onChange={(name) => change({ name })} />
       <ReachFields profile={profile} onChange={onChange} />
       <MotorFields profile={profile} onChange={onChange} />
       <ServoFields profile={profile} onChange={onChange} />
@@ -149,6 +140,8 @@ export const ServoPin = ({ profile, onChange }: ProfileFormProps) => (
   />
 );
 
+type SwitchInput = NonNullable<MachineProfile["homing"]>["x"];
+const PORTS: readonly SwitchInput["port"][] = ["A", "B", "C", "D", "E"];
 const FIRST_SWITCHES: NonNullable<MachineProfile["homing"]> = {
   x: { port: "B", pin: 0, pressed: 0 },
   y: { port: "B", pin: 2, pressed: 0 },
@@ -189,7 +182,7 @@ const SwitchFields = ({ label, input, onChange }: SwitchFieldsProps) => (
     <Select
       label={words.port}
       value={input.port}
-      options={INPUT_PORTS_SHOWN.map((port) => ({ value: port, label: port }))}
+      options={PORTS.map((port) => ({ value: port, label: port }))}
       onChange={(port) => onChange({ ...input, port })}
     />
     <Select

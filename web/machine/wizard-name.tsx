@@ -3,6 +3,7 @@ import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { saveFile } from "../ui/save-file.js";
+import { TextField } from "../ui/text-field.js";
 import { fileOf, freeId, problemsOf } from "./profile.js";
 import { ReachFields } from "./profile-form.js";
 import { useHand } from "./use-hand.js";
@@ -38,16 +39,7 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
         void save();
       }}
     >
-      <label className="field">
-        <span>{words.name}</span>
-        <input
-          className="text-field"
-          type="text"
-          maxLength={100}
-          value={draft.name}
-          onChange={(event) => setDraft({ ...draft, name: event.target.value })}
-        />
-      </label>
+      <TextField label={words.name} value={draft.name} onChange={(name) => setDraft({ ...draft, name })} />
       <ReachFields profile={draft} onChange={setDraft} />
       <p className="note">{words.reachHint}</p>
       {problems.length > 0 && (

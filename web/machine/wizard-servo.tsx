@@ -1,7 +1,7 @@
 import { useId, useRef, useState } from "react";
-import type { MachineProfile } from "../../src/index.js";
 import { later } from "../text/later.js";
 import { ServoPin } from "./profile-form.js";
+import { TakeOrSkip } from "./take-or-skip.js";
 import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard.js";
 
@@ -17,7 +17,6 @@ export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
     setDraft({ ...draft, [which]: pos });
     moveTo(pos);
   };
-  const hasRange = draft.servoPosAt0Pct !== draft.servoPosAt100Pct;
   return (
     <>
       <p>{words.servoHint}</p>
@@ -32,19 +31,12 @@ export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
         value={draft.servoPosAt0Pct}
         onChange={(pos) => take("servoPosAt0Pct", pos)}
       />
-      <div className="button-row">
-        <button
-          type="button"
-          className="button button-primary"
-          disabled={!hasRange}
-          onClick={() => onNext(draft satisfies MachineProfile)}
-        >
-          {words.next}
-        </button>
-        <button type="button" className="button" onClick={() => onNext(profile)}>
-          {words.skip}
-        </button>
-      </div>
+      <TakeOrSkip
+        label={words.next}
+        isOff={draft.servoPosAt0Pct === draft.servoPosAt100Pct}
+        onTake={() => onNext(draft)}
+        onSkip={() => onNext(profile)}
+      />
     </>
   );
 };

@@ -3,6 +3,7 @@ import { stepsPerMmMeasured, type MachineProfile } from "../../src/index.js";
 import { later } from "../text/later.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
+import { TakeOrSkip } from "./take-or-skip.js";
 import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard.js";
 
@@ -53,21 +54,14 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
       ) : (
         <p className="note">{words.stepsPerMm(formatNumber(measured, 3))}</p>
       )}
-      <div className="button-row">
-        <button
-          type="button"
-          className="button button-primary"
-          disabled={typeof measured === "string"}
-          onClick={() =>
-            typeof measured === "number" && onNext({ ...profile, stepsPerMm: Number(measured.toFixed(4)) })
-          }
-        >
-          {words.take}
-        </button>
-        <button type="button" className="button" onClick={() => onNext(profile)}>
-          {words.skip}
-        </button>
-      </div>
+      <TakeOrSkip
+        label={words.take}
+        isOff={typeof measured === "string"}
+        onTake={() => {
+          if (typeof measured === "number") onNext({ ...profile, stepsPerMm: Number(measured.toFixed(4)) });
+        }}
+        onSkip={() => onNext(profile)}
+      />
     </>
   );
 };

@@ -79,12 +79,12 @@ const AskToCancel = ({ job, onKeep }: { job: Job; onKeep(): void }) => {
         <button
           type="button"
           className="button button-danger"
-          autoFocus
           onClick={() => void actOnJob(job.id, "cancel")}
         >
-          {text.queue.cancel}
+          {words.cancelPlot}
         </button>
-        <button type="button" className="button" onClick={onKeep}>
+        {/* In focus, so that a key pressed twice costs no plot. */}
+        <button type="button" className="button" autoFocus onClick={onKeep}>
           {words.keepPlotting}
         </button>
       </div>

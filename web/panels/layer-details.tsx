@@ -20,6 +20,7 @@ import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
+import { IconButton } from "../ui/icon-button.js";
 import { OwnNumber } from "../ui/own-number.js";
 import { useChange } from "./use-change.js";
 
@@ -53,8 +54,8 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
             {words.onlyThis}
           </button>
           <span className="spacer" />
-          <MoveButton icon="up" label={words.earlier} isOff={index === 0} onClick={() => onMove(index - 1)} />
-          <MoveButton
+          <IconButton icon="up" label={words.earlier} isOff={index === 0} onClick={() => onMove(index - 1)} />
+          <IconButton
             icon="down"
             label={words.later}
             isOff={index === rows.length - 1}
@@ -65,26 +66,6 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
     </div>
   );
 };
-
-interface MoveButtonProps {
-  readonly icon: "up" | "down";
-  readonly label: string;
-  readonly isOff: boolean;
-  onClick(): void;
-}
-
-const MoveButton = ({ icon, label, isOff, onClick }: MoveButtonProps) => (
-  <button
-    type="button"
-    className="button button-small button-icon"
-    aria-label={label}
-    title={label}
-    disabled={isOff}
-    onClick={onClick}
-  >
-    <Icon name={icon} />
-  </button>
-);
 
 type RowProps = Pick<LayerDetailsProps, "row">;
 

@@ -5,7 +5,7 @@ import { text } from "../text/text.js";
 const words = text.machine;
 
 /** What the lamp beside the words shows; the style sheet has its colours. */
-export type Lamp = Plotter["connection"] | "held" | "waiting";
+type Lamp = Plotter["connection"] | "held" | "waiting";
 
 /** "Waits for the pen …", "Held", "Plotting", or how it is connected. */
 export const plotterWords = ({ connection }: Plotter, job: Job | null): string => {

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Icon } from "../ui/icon.js";
+import { TextField } from "../ui/text-field.js";
 
 const words = text.presets;
 
@@ -47,15 +48,7 @@ const SavePreset = () => {
         setName("");
       }}
     >
-      <input
-        className="text-field"
-        type="text"
-        maxLength={60}
-        aria-label={words.name}
-        placeholder={words.name}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
-      />
+      <TextField label={words.name} isLabelInside maxLength={60} value={name} onChange={setName} />
       <button type="submit" className="button" disabled={name.trim() === ""}>
         {words.save}
       </button>

@@ -11,7 +11,9 @@ export const Strips = () => (
   <div className="strips">
     <LinkStrip />
     <PenStrip />
-    <OperatorStrip />
+    <div role="status">
+      <OperatorStrip />
+    </div>
     <ServerNotices />
   </div>
 );

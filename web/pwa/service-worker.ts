@@ -51,6 +51,8 @@ async function takeOver(): Promise<void> {
 
 async function pageOrKept(request: Request): Promise<Response> {
   const fetched = fetch(request);
+  // One that fails after the kept page was shown is nobody's fault to hear of.
+  fetched.catch(() => undefined);
   const late = new Promise<null>((resolve) => setTimeout(() => resolve(null), PATIENCE_MS));
   try {
     const first = await Promise.race([fetched, late]);

@@ -14,7 +14,7 @@ import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
 import type { ExportFormat } from "../worker/protocol.js";
 import type { Corner } from "./alignment-mark.js";
-import { forOtherDrawing } from "./layer-settings.js";
+import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
 import { activeJob, currentPlotter, type Notice, type PageStore } from "./store.js";
@@ -26,7 +26,7 @@ const UNDO_DEPTH = 100;
 const COALESCE_MS = 800;
 const INFO_MS = 5_000;
 
-export interface ActionDeps {
+interface ActionDeps {
   readonly store: PageStore;
   readonly api: ApiClient;
   readonly planner: Pick<Planner, "request" | "export">;
@@ -116,8 +116,9 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const openFile = async (file: File): Promise<void> => {
-    const svg = await file.text();
-    if (svg.slice(0, 4_096).includes("\0")) notify("error", text.drawing.notText(file.name));
+    const svg = await file.text().catch(() => null);
+    if (svg === null) notify("error", text.drawing.unreadable(file.name));
+    else if (svg.slice(0, 4_096).includes("\0")) notify("error", text.drawing.notText(file.name));
     else openDrawing(file.name.replace(/\.(svg|dxf|hpgl|hpg|plt|json)$/i, ""), svg);
   };
 
@@ -273,7 +274,7 @@ export const createActions = (deps: ActionDeps) => {
 };
 
 /** The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. */
-export const machineChoice = (profile: MachineProfile): Pick<PlotSettings, "machine" | "customMachine"> => {
+const machineChoice = (profile: MachineProfile): Pick<PlotSettings, "machine" | "customMachine"> => {
   const isKnown = MACHINES.some(({ id }) => id === profile.id);
   return { machine: profile.id, customMachine: isKnown ? null : machineProfileSchema.parse(profile) };
 };

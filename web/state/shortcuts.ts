@@ -12,7 +12,7 @@ export interface Shortcut {
   run(): void;
 }
 
-export type KeyPress = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+type KeyPress = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
 const plain =
   (key: string) =>
@@ -23,7 +23,7 @@ const withCtrl =
   (event: KeyPress): boolean =>
     event.key.toLowerCase() === key && (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
 
-export interface ShortcutDeps {
+interface ShortcutDeps {
   readonly store: PageStore;
   readonly actions: Actions;
   readonly player: Pick<Player, "toggle">;

@@ -17,7 +17,7 @@ import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
 /** The drawing on the paper. */
-export interface OpenDrawing {
+interface OpenDrawing {
   readonly key: string;
   readonly name: string;
   readonly text: string;
@@ -30,7 +30,7 @@ export interface OpenDrawing {
 export type ServerLink = "connecting" | "connected" | "lost";
 
 /** The latest live report of a plot. */
-export interface LivePlot {
+interface LivePlot {
   readonly jobId: string;
   readonly plotterId: string;
   readonly planS: number;
@@ -48,7 +48,7 @@ export interface Notice {
 /** Sheets over the page, one at a time. */
 export type DialogName = "keys" | "machines" | "wizard" | "console" | "studio";
 
-export interface SampleInfo {
+interface SampleInfo {
   readonly name: string;
   readonly title: string;
 }

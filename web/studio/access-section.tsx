@@ -3,6 +3,7 @@ import type { AccessEntry, Role } from "../../src/schema/index.js";
 import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
+import { TextField } from "../ui/text-field.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
 const words = later.studio;
@@ -77,15 +78,7 @@ const NewKeyForm = ({ onAdd }: { onAdd(name: string, role: Role): Promise<void> 
       }}
     >
       <h3>{words.newKey}</h3>
-      <input
-        className="text-field"
-        type="text"
-        maxLength={100}
-        aria-label={words.keyName}
-        placeholder={words.keyName}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
-      />
+      <TextField label={words.keyName} isLabelInside value={name} onChange={setName} />
       <Select<Role>
         label={words.may}
         value={role}

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
 import { later } from "../text/later.js";
 import { formatWhen } from "../ui/format.js";
+import { TextField } from "../ui/text-field.js";
 import { Secret } from "./access-section.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
@@ -82,15 +83,7 @@ const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
       }}
     >
       <h3>{words.newHook}</h3>
-      <input
-        className="text-field"
-        type="text"
-        maxLength={100}
-        aria-label={words.hookName}
-        placeholder={words.hookName}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
-      />
+      <TextField label={words.hookName} isLabelInside value={name} onChange={setName} />
       <input
         className="text-field"
         type="url"

@@ -3,6 +3,7 @@ import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
+import { TextField } from "../ui/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
@@ -44,7 +45,8 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
         onChange={(event) => setName(event.target.value)}
         onBlur={rename}
         onKeyDown={(event) => {
-          if (event.key === "Enter") rename();
+          // Leaving the field is what renames it.
+          if (event.key === "Enter") event.currentTarget.blur();
         }}
       />
       <PortSelect plotter={plotter} />
@@ -84,15 +86,7 @@ const NewPlotterForm = () => {
       }}
     >
       <h3>{words.newPlotter}</h3>
-      <input
-        className="text-field"
-        type="text"
-        maxLength={100}
-        aria-label={words.newPlotterName}
-        placeholder={words.newPlotterName}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
-      />
+      <TextField label={words.newPlotterName} isLabelInside value={name} onChange={setName} />
       <Select
         label={words.port}
         value={device}

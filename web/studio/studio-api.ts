@@ -11,9 +11,9 @@ import {
   type NewWebhook,
   type PlotterPatch,
 } from "../../src/schema/index.js";
+import { okSchema } from "../api/client.js";
 import type { Actions } from "../state/actions.js";
 
-const okSchema = z.object({ ok: z.literal(true) });
 const devicesSchema = z.object({ devices: z.array(deviceSchema) });
 const entriesSchema = z.object({ entries: z.array(accessEntrySchema) });
 const newKeyAnswerSchema = z.object({ entry: accessEntrySchema, secret: z.string() });

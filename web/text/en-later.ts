@@ -29,6 +29,7 @@ export const enLater = {
     recover: "Go on from there",
     recoverHint: "Nothing is drawn until you press Resume. If the carriage was moved, set it home first.",
     confirmCancel: (name: string) => `Stop ${name}? The pen lifts and goes home. What is drawn stays drawn.`,
+    cancelPlot: "Cancel the plot",
     keepPlotting: "Keep plotting",
     stopNow: "Stop at once",
     stopNowHint: "Stops where it is. Only cutting the motors’ power is quicker.",

@@ -60,7 +60,6 @@ export const enSetup = {
     earlier: "Draw it earlier",
     later: "Draw it later",
     fileOrder: "Order as in the file",
-    pen: "Pen",
     penOf: (name: string) => `Pen for ${name}`,
     anyPen: "Any pen",
     stop: (pen: string) => `Stop: put in ${pen}`,

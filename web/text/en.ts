@@ -24,6 +24,7 @@ export const en = {
     nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",
     cannotRead: (name: string) => `${name} can’t be drawn`,
     notText: (name: string) => `${name} is not a text file. Save the drawing as SVG and drop it here again.`,
+    unreadable: (name: string) => `${name} could not be read. Is it a folder, or has it been moved?`,
     pastedName: "Pasted drawing",
     pasteNothing: "The clipboard holds no SVG. Copy the drawing as SVG, or drop the file.",
     size: (width: string, height: string) => `${width} × ${height} mm in the file`,
@@ -31,7 +32,6 @@ export const en = {
 
   report: {
     title: "Won’t be drawn as on screen",
-    count: (count: number) => (count === 1 ? "1 note" : `${count} notes`),
     show: "Show where",
   },
 
@@ -60,7 +60,6 @@ export const en = {
     rotate: "Rotate",
     rotateQuarter: "Turn a quarter",
     clip: "Cut off what lies outside the margins",
-    smaller: (machine: string) => `This paper is larger than ${machine} can reach.`,
   },
 
   layers: { title: "Layers" },
@@ -236,7 +235,6 @@ export const en = {
     first: "first",
     last: "last",
     hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",
-    noGl: "Drawn without the graphics card: large drawings move slowly here.",
   },
 
   shortcuts: {
@@ -288,8 +286,6 @@ export const en = {
   field: {
     between: (min: string, max: string, unit: string) => `Between ${min} and ${max} ${unit}`.trim(),
     notANumber: "Type a number",
-    less: (label: string) => `Less ${label}`,
-    more: (label: string) => `More ${label}`,
   },
 
   errors: {

@@ -18,7 +18,15 @@ export const Dialog = ({ title, onClose, children }: DialogProps) => {
     return () => element?.close();
   }, []);
   return (
-    <dialog ref={dialog} className="dialog" aria-label={title} onClose={onClose}>
+    <dialog
+      ref={dialog}
+      className="dialog"
+      aria-label={title}
+      // The event comes late: React's strict mode has opened the sheet again by then.
+      onClose={() => {
+        if (!dialog.current?.open) onClose();
+      }}
+    >
       <header className="dialog-head">
         <h2>{title}</h2>
         <button type="button" className="tool" aria-label={text.errors.close} onClick={onClose}>

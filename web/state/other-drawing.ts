@@ -1,0 +1,27 @@
+/** What of the settings outlives a change of drawing. Beside layer-settings.ts, which is fetched later. */
+import type { PlotSettings } from "../../src/schema/index.js";
+
+/** Layers named by their colour mean the same in every drawing. */
+const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
+
+/** For another drawing: what is said about single layers of the last one is forgotten, but for colours' pens. */
+export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
+  const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
+    Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));
+  const { prepare, motion, pen } = settings;
+  return {
+    ...settings,
+    prepare: {
+      ...prepare,
+      hiddenLayers: [],
+      shownLayers: [],
+      layerOrder: prepare.layerOrder.filter(isColorId),
+      layerRepeats: kept(prepare.layerRepeats),
+      layerHatches: prepare.layerHatches.filter(({ layer }) => isColorId(layer)),
+    },
+    motion: motion.layers ? { ...motion, layers: kept(motion.layers) } : motion,
+    pen: pen.layers ? { ...pen, layers: kept(pen.layers) } : pen,
+    layerPens: kept(settings.layerPens),
+    layerStops: kept(settings.layerStops),
+  };
+};
