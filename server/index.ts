@@ -4,6 +4,7 @@ import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
 import type { Pairing, PlotSettings, ServerEvent } from "../src/schema/index.js";
+import { Closing } from "./closing.js";
 import { defaultDataDir, prepareDataDir } from "./data-dir.js";
 import { createApp, type AppParts } from "./http/app.js";
 import { EventHub } from "./http/events.js";
@@ -78,20 +79,18 @@ const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
 /** Throws `conflict` (port or data folder taken), `no-board` (a named device that isn't there), `bad-setting`. */
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
   const dataDir = options.dataDir ?? defaultDataDir();
-  const undo: (() => Promise<void> | void)[] = [];
-  const close = async (): Promise<void> => {
-    for (const step of undo.splice(0).reverse()) await step();
+  let book: LogBook | null = null;
+  const log = (line: string): void => {
+    book?.write(line);
+    options.log?.(line);
   };
+  const closing = new Closing(log);
   try {
     prepareDataDir(dataDir);
     const store = Store.open(dataDir);
-    undo.push(() => store.close());
-    const book = new LogBook(dataDir);
-    const log = (line: string): void => {
-      book.write(line);
-      options.log?.(line);
-    };
-    const parts = await openParts(options, dataDir, store, log, undo);
+    closing.add("the database", () => store.close());
+    book = new LogBook(dataDir);
+    const parts = await openParts(options, dataDir, store, log, closing);
     const { access, registry } = parts;
     const isTls = options.tls !== undefined;
     const paths = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
@@ -107,13 +106,13 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       options.port ?? DEFAULT_PORT,
       options.host ?? (options.lan === true ? "::" : "127.0.0.1"),
     );
-    undo.push(() => stopListening(http, parts.hub));
+    closing.addUrgent("the port", () => stopListening(http, parts.hub));
     const { port } = http.address() as AddressInfo;
-    if (options.mdns ?? options.lan === true) undo.push(announceOnLan(port, isTls));
+    if (options.mdns ?? options.lan === true) closing.add("the mDNS name", announceOnLan(port, isTls));
     log(`plotwright ${parts.version} listens on port ${port}, with ${registry.list().length} plotter(s)`);
-    return { url: urlOf(http, isTls), pairing: paths, close };
+    return { url: urlOf(http, isTls), pairing: paths, close: () => closing.run() };
   } catch (error) {
-    await close();
+    await closing.run();
     throw error;
   }
 }
@@ -124,7 +123,7 @@ async function openParts(
   dataDir: string,
   store: Store,
   log: (line: string) => void,
-  undo: (() => Promise<void> | void)[],
+  closing: Closing,
 ): Promise<Omit<AppParts, "pairing" | "log" | "serverLog">> {
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   await files.sweep((drawing) => store.isUsed(drawing));
@@ -144,11 +143,11 @@ async function openParts(
     firstDevice,
     open: (row, isTaken) => openDriven(row, { virtualSpeed, isTaken, withMachine, log }),
   });
-  undo.push(() => registry.close());
+  closing.add("the plotters", () => registry.close());
   const plotters = registry.ports;
   const plotterName = (id: string): string => plotters.get(id)?.snapshot().name ?? id;
   const webhooks = new Webhooks({ store: store.webhooks, plotterName, log });
-  undo.push(() => webhooks.close());
+  closing.add("the webhooks", () => webhooks.close());
   let shared: SharedQueue | null = null;
   const queue = new JobQueue({
     store,
@@ -164,7 +163,7 @@ async function openParts(
       shared?.wake();
     },
   });
-  undo.push(() => queue.close());
+  closing.addUrgent("what plots", () => queue.close());
   webhooks.start();
   const notices = new Notices({ store, announce, nowIso });
   if (options.watchDir !== undefined) {
@@ -176,15 +175,15 @@ async function openParts(
       withMachine,
       log,
     });
-    undo.push(() => folder.close());
+    closing.add("the watched folder", () => folder.close());
   }
 
   shared = await openShared(options, { store, queue, files, plotters, notices, log });
-  undo.push(() => shared?.close());
+  closing.add("the shared queue", () => shared?.close());
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
   access.onRevoke(() => hub.dropAll());
   const baton = new Baton({ store, log, announce: (operator) => announce({ type: "operator", operator }) });
-  undo.push(() => baton.close());
+  closing.add("the operator's turn", () => baton.close());
   return {
     version: packageVersion(),
     machines,

@@ -69,7 +69,9 @@ export class WatchFolder {
       awaitWriteFinish: { stabilityThreshold: stableMs, pollInterval: Math.min(200, stableMs / 2) },
     });
     const later = (path: string): void => {
-      this.#last = this.#last.then(() => this.#take(path));
+      this.#last = this.#last
+        .then(() => this.#take(path))
+        .catch((error: unknown) => parts.log(`watched folder: ${words(error)}`));
     };
     this.#watcher.on("add", later).on("change", later);
     this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
@@ -86,7 +88,7 @@ export class WatchFolder {
     await this.#last;
   }
 
-  /** Never rejects. */
+  /** Rejects only when it can't even write down what was wrong. */
   async #take(path: string): Promise<void> {
     if (this.#abort.signal.aborted) return;
     const name = basename(path);

@@ -8,6 +8,8 @@ export interface CliIo {
   readonly isTerminal: boolean;
   /** Called at each Ctrl-C (or SIGTERM: `isFinal`); the returned function stops listening. */
   onInterrupt(listener: (isFinal: boolean) => void): () => void;
+  /** Nothing is left to do: what keeps the process alive for longer is named, and it ends all the same. */
+  endWithin(ms: number): void;
   /** Called at each line typed while listening; the returned function stops it. */
   onLine(listener: (line: string) => void): () => void;
 }
@@ -31,6 +33,14 @@ export function processIo(): CliIo {
         process.off("SIGINT", soft);
         process.off("SIGTERM", final);
       };
+    },
+    endWithin: (ms) => {
+      const end = (): never => {
+        const open = [...new Set(process.getActiveResourcesInfo())].join(", ");
+        process.stderr.write(`plotwright: something was still open ${ms / 1000} s after the end: ${open}\n`);
+        process.exit();
+      };
+      setTimeout(end, ms).unref();
     },
     onLine: (listener) => {
       if (!process.stdin.isTTY) return () => undefined;

@@ -6,6 +6,9 @@ import { createServer, type PlotwrightServer, type ServerOptions } from "../inde
 import { lanAddresses, pairingText } from "../security/network.js";
 import type { CliIo } from "./io.js";
 
+/** After everything has been closed. */
+const LINGER_MS = 3_000;
+
 export interface ServeCommandOptions {
   readonly port: number;
   readonly host?: string;
@@ -48,6 +51,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
   if (options.open === true) openBrowser(server.url, io);
   await stopped;
   await server.close();
+  io.endWithin(LINGER_MS);
 }
 
 async function pairing(server: PlotwrightServer, isLan: boolean): Promise<string> {

@@ -17,6 +17,7 @@ export class EventHub {
   readonly #progress = new Map<string, ProgressEvent>();
   readonly #heartbeat: NodeJS.Timeout;
   #progressTimer: NodeJS.Timeout | null = null;
+  #isClosed = false;
 
   constructor() {
     this.#heartbeat = setInterval(() => this.#write(":\n\n"), HEARTBEAT_MS);
@@ -28,6 +29,7 @@ export class EventHub {
   }
 
   announce(event: ServerEvent): void {
+    if (this.#isClosed) return;
     if (event.type === "progress") {
       this.#progress.set(event.plotterId, event);
       this.#progressTimer ??= setTimeout(() => this.#sendProgress(), PROGRESS_MS);
@@ -56,6 +58,7 @@ export class EventHub {
   }
 
   close(): void {
+    this.#isClosed = true;
     clearInterval(this.#heartbeat);
     if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
     this.dropAll();

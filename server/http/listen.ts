@@ -2,6 +2,7 @@
 import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
 import { createServer as createHttpsServer } from "node:https";
 import type { AddressInfo } from "node:net";
+import type { Duplex } from "node:stream";
 import { PlotwrightError } from "../../src/index.js";
 
 /** PEM texts. */
@@ -13,6 +14,11 @@ export interface TlsFiles {
 /** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
 const TIMES = { headersTimeout: 20_000, requestTimeout: 10 * 60_000, connectionsCheckingInterval: 10_000 };
 const MOST_CONNECTIONS = 1_000;
+
+/** Says so and hangs up: what the other side leaves half open would keep the server from closing its port. */
+function hangUp(socket: Duplex, status: string): void {
+  socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n`, () => socket.destroy());
+}
 
 /** Throws `bad-setting` when the certificate can't be used. */
 export function httpServer(
@@ -27,14 +33,13 @@ export function httpServer(
   // Nothing here speaks another protocol: whoever asks for one (a WebSocket, of another site perhaps) is refused.
   server.on("upgrade", (request, socket) => {
     log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);
-    socket.end("HTTP/1.1 403 Forbidden\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
+    hangUp(socket, "403 Forbidden");
   });
   server.on("clientError", (error: NodeJS.ErrnoException, socket) => {
     const isSlow = error.code === "ERR_HTTP_REQUEST_TIMEOUT";
     if (isSlow) log("refused a request that came too slowly");
     if (socket.writable && error.code !== "ECONNRESET") {
-      const status = isSlow ? "408 Request Timeout" : "400 Bad Request";
-      socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n`);
+      hangUp(socket, isSlow ? "408 Request Timeout" : "400 Bad Request");
     } else socket.destroy();
   });
   return server;

@@ -29,6 +29,7 @@ export class Baton {
   /** Open event streams by browser. */
   readonly #streams = new Map<string, number>();
   #lapse: NodeJS.Timeout | null = null;
+  #isClosed = false;
 
   constructor(parts: BatonParts) {
     this.#parts = parts;
@@ -72,9 +73,10 @@ export class Baton {
     };
   }
 
+  /** Streams that end after it start no clock any more. */
   close(): void {
-    if (this.#lapse !== null) clearTimeout(this.#lapse);
-    this.#lapse = null;
+    this.#isClosed = true;
+    this.#watch();
   }
 
   #give(operator: Operator | null, why: string): void {
@@ -87,8 +89,9 @@ export class Baton {
 
   /** The clock runs from the holder's last stream or act on. */
   #watch(): void {
-    this.close();
-    if (this.#operator === null || this.#streams.has(this.#operator.id)) return;
+    if (this.#lapse !== null) clearTimeout(this.#lapse);
+    this.#lapse = null;
+    if (this.#isClosed || this.#operator === null || this.#streams.has(this.#operator.id)) return;
     const gone = this.#operator;
     this.#lapse = setTimeout(
       () => this.#give(null, `${gone.name} has been gone for a while`),

@@ -131,11 +131,14 @@ export class Webhooks {
     const pauseMs = Math.max(0, first.nextAtMs - this.#nowMs());
     const timer = setTimeout(() => {
       this.#busy.set(webhookId, null);
-      const run = this.#deliver(first).finally(() => {
-        this.#running.delete(run);
-        this.#busy.delete(webhookId);
-        this.#next(webhookId);
-      });
+      const run = this.#deliver(first)
+        .finally(() => {
+          this.#running.delete(run);
+          this.#busy.delete(webhookId);
+        })
+        .then(() => this.#next(webhookId))
+        // A full disk, for one: tried again when a job changes next, not at once and for ever.
+        .catch((error: unknown) => this.#parts.log(`webhooks: ${String(error)}`));
       this.#running.add(run);
     }, pauseMs);
     timer.unref();

@@ -74,6 +74,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
           stop = () => listener(false);
           return () => undefined;
         },
+        endWithin: () => undefined,
         onLine: () => () => undefined,
       },
     );
@@ -113,6 +114,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
           stop = () => listener(false);
           return () => undefined;
         },
+        endWithin: () => undefined,
         onLine: (listener) => {
           type = listener;
           return () => undefined;
@@ -149,6 +151,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
           err: () => undefined,
           isTerminal: false,
           onInterrupt: () => () => undefined,
+          endWithin: () => undefined,
           onLine: () => () => undefined,
         },
       ),

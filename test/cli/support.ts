@@ -28,6 +28,8 @@ export class CaughtIo implements CliIo {
     return () => (this.#interrupt = this.#interrupt.filter((one) => one !== listener));
   }
 
+  endWithin(): void {}
+
   onLine(listener: (line: string) => void): () => void {
     this.#line.push(listener);
     return () => (this.#line = this.#line.filter((one) => one !== listener));

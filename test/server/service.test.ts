@@ -31,6 +31,7 @@ const io: CliIo = {
   err: (text) => (out += text),
   isTerminal: false,
   onInterrupt: () => () => undefined,
+  endWithin: () => undefined,
   onLine: () => () => undefined,
 };
 const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({

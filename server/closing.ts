@@ -1,0 +1,70 @@
+/**
+ * What a server has opened, and how it is given back: what plots first, so that pens lift and places are stored,
+ * then the rest, the latest first. A part that hangs or fails is named in the log and left, and the others follow.
+ */
+export type CloseStep = () => Promise<void> | void;
+
+/** A part that takes longer hangs. All of them together end before systemd loses its patience (60 s). */
+const LIMIT_MS = 4_000;
+/** Slowing down, lifting and walking home from the far corner. */
+const PLOTS_LIMIT_MS = 30_000;
+
+interface Part {
+  readonly name: string;
+  readonly close: CloseStep;
+}
+
+export class Closing {
+  readonly #parts: Part[] = [];
+  readonly #urgent: Part[] = [];
+  readonly #log: (line: string) => void;
+  #running: Promise<void> | null = null;
+  readonly #limits: { readonly partMs: number; readonly plotsMs: number };
+
+  constructor(
+    log: (line: string) => void,
+    limits: { readonly partMs: number; readonly plotsMs: number } = {
+      partMs: LIMIT_MS,
+      plotsMs: PLOTS_LIMIT_MS,
+    },
+  ) {
+    this.#log = log;
+    this.#limits = limits;
+  }
+
+  add(name: string, close: CloseStep): void {
+    this.#parts.push({ name, close });
+  }
+
+  /** Closed before all others, and side by side. */
+  addUrgent(name: string, close: CloseStep): void {
+    this.#urgent.push({ name, close });
+  }
+
+  /** Never rejects; asked for again, it is the same end. */
+  run(): Promise<void> {
+    this.#running ??= this.#closeAll();
+    return this.#running;
+  }
+
+  async #closeAll(): Promise<void> {
+    const { partMs, plotsMs } = this.#limits;
+    await Promise.all(this.#urgent.splice(0).map((part) => this.#close(part, plotsMs)));
+    for (const part of this.#parts.splice(0).reverse()) await this.#close(part, partMs);
+  }
+
+  async #close({ name, close }: Part, limitMs: number): Promise<void> {
+    let timer: NodeJS.Timeout | undefined;
+    const late = new Promise<void>((resolve) => {
+      timer = setTimeout(() => {
+        this.#log(`closing: ${name} has not ended within ${limitMs / 1000} s and is left as it is`);
+        resolve();
+      }, limitMs);
+    });
+    const closed = (async () => close())().catch((error: unknown) => {
+      this.#log(`closing: ${name}: ${error instanceof Error ? error.message : String(error)}`);
+    });
+    await Promise.race([closed, late]);
+    clearTimeout(timer);
+  }
+}

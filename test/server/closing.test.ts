@@ -1,0 +1,150 @@
+/** The end of a server: what plots first, nothing that hangs holds up the rest, and no timer outlives it. */
+import { once } from "node:events";
+import { connect } from "node:net";
+import { afterEach, describe, expect, it } from "vitest";
+import { Closing } from "../../server/closing.js";
+import { createServer } from "../../server/index.js";
+import { jobSchema, snapshotSchema } from "../../src/schema/index.js";
+import { seeded } from "../support/live-plot.js";
+import { temporaryFolder } from "../support/server-process.js";
+import { EventStream } from "./support/event-stream.js";
+
+const SVG =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60" stroke="black">' +
+  `${Array.from({ length: 30 }, (_, i) => `<path d="M5 ${5 + i}h80"/>`).join("")}</svg>`;
+
+const undo: (() => unknown)[] = [];
+afterEach(async () => {
+  for (const step of undo.splice(0).reverse()) await step();
+});
+
+describe("closing", () => {
+  it("begins with what plots, then goes from the latest part to the first", async () => {
+    const order: string[] = [];
+    const closing = new Closing(() => undefined);
+    for (const name of ["a", "b"]) closing.add(name, () => void order.push(name));
+    closing.addUrgent("plots", () => void order.push("plots"));
+    closing.add("c", () => void order.push("c"));
+    await Promise.all([closing.run(), closing.run()]);
+    expect(order).toEqual(["plots", "c", "b", "a"]);
+  });
+
+  it("names what hangs or fails, and closes the rest all the same", async () => {
+    const logged: string[] = [];
+    const closing = new Closing((line) => logged.push(line), { partMs: 20, plotsMs: 20 });
+    let isClosed = false;
+    closing.add("the database", () => void (isClosed = true));
+    closing.add("the net", () => Promise.reject(new Error("no route")));
+    closing.addUrgent("what plots", () => new Promise(() => undefined));
+    await closing.run();
+    expect(isClosed).toBe(true);
+    expect(logged).toEqual([
+      "closing: what plots has not ended within 0.02 s and is left as it is",
+      "closing: the net: no route",
+    ]);
+  });
+});
+
+describe("a server that is closed", () => {
+  async function start() {
+    const data = temporaryFolder("closing");
+    undo.push(data.remove);
+    const logged: string[] = [];
+    const options = { port: 0, device: "virtual", virtualSpeed: 30, dataDir: data.path };
+    const server = await createServer({ ...options, log: (line) => logged.push(line) });
+    undo.push(() => server.close());
+    return { server, options, logged };
+  }
+
+  it("does not wait for a connection that was refused and is left half open", async () => {
+    const { server, logged } = await start();
+    for (const text of [
+      "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\r\n",
+      "NONSENSE\r\n\r\n",
+    ]) {
+      const socket = connect({
+        port: Number(new URL(server.url).port),
+        host: "127.0.0.1",
+        allowHalfOpen: true,
+      });
+      undo.push(() => socket.destroy());
+      socket.on("error", () => undefined);
+      socket.write(text);
+      await once(socket, "data");
+    }
+    await server.close();
+    expect(logged.filter((line) => line.startsWith("closing"))).toEqual([]);
+  });
+
+  it("at any instant of a plot, a hold or just after it leaves no timer, and the plot to be gone on with", async () => {
+    const timers = watchTimers();
+    undo.push(() => timers.end());
+    const { server: first, options, logged } = await start();
+    let server = first;
+    const random = seeded(7);
+    const added = await fetch(`${server.url}/api/v1/jobs?name=lines.svg`, { method: "POST", body: SVG });
+    const { id } = jobSchema.parse(await added.json());
+    const post = (action: string): Promise<Response> =>
+      fetch(`${server.url}/api/v1/jobs/${id}/${action}`, { method: "POST" });
+    await post("start");
+    for (let i = 0; i < 12; i++) {
+      const events = await EventStream.open(server.url);
+      for (const action of ["pause", "resume", "pause", "resume"].slice(0, i % 5)) {
+        await post(action);
+        // Somewhere within slowing down or setting out.
+        const count = events.seen.length + Math.floor(4 * random());
+        await expect
+          .poll(() => events.seen.length, { interval: 3, timeout: 300 })
+          .toBeGreaterThan(count)
+          .catch(() => 0);
+      }
+      events.close();
+      await server.close();
+      expect(timers.left()).toEqual([]);
+      server = await createServer({ ...options, log: (line) => logged.push(line) });
+      undo.push(() => server.close());
+      const snapshot: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
+      expect(snapshotSchema.parse(snapshot).jobs[0]).toMatchObject({ state: "interrupted" });
+      expect((await post("recover")).status).toBe(200);
+      await post("resume");
+    }
+    expect(logged.filter((line) => line.startsWith("closing"))).toEqual([]);
+  });
+});
+
+/** The timers that our own code has set and that are still to fire, each by where it was set. */
+function watchTimers(): { left(): string[]; end(): void } {
+  const { setTimeout: set, clearTimeout: clear } = globalThis;
+  const left = new Map<unknown, string>();
+  const watched = (
+    callback: (...args: unknown[]) => void,
+    ms?: number,
+    ...args: unknown[]
+  ): NodeJS.Timeout => {
+    const timer = set(
+      (...given: unknown[]) => {
+        left.delete(timer);
+        callback(...given);
+      },
+      ms,
+      ...args,
+    );
+    const from = new Error()
+      .stack!.split("\n")
+      .find((line) => /\/(server|src)\//.test(line) && !/\/test\//.test(line));
+    if (from !== undefined) left.set(timer, from.trim());
+    return timer;
+  };
+  globalThis.setTimeout = watched as unknown as typeof setTimeout;
+  globalThis.clearTimeout = (timer) => {
+    left.delete(timer);
+    clear(timer);
+  };
+  return {
+    left: () => [...left.values()],
+    end: () => {
+      globalThis.setTimeout = set;
+      globalThis.clearTimeout = clear;
+    },
+  };
+}
