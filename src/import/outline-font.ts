@@ -2,7 +2,7 @@
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
 /// <reference path="./fontkit.d.ts" />
 /** Letters as the outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first of a collection. */
-import { create, type Font } from "fontkit";
+import type { Font } from "fontkit";
 import { PlotwrightError } from "../errors.js";
 import type { LaidOutGlyph, TextFont } from "./text-font.js";
 
@@ -15,8 +15,13 @@ const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
 };
 const NOT_DEFINED = 0;
 
-/** Throws PlotwrightError("bad-file") where the bytes are no font. */
-export function openOutlineFont(bytes: Uint8Array): TextFont {
+/**
+ * Rejects with PlotwrightError("bad-file") where the bytes are no font.
+ *
+ * The font library is loaded here and not before: it takes as long as a drawing of thousands of lines.
+ */
+export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
+  const { create } = await import("fontkit");
   let font: Font;
   try {
     const opened = create(bytes);
