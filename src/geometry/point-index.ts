@@ -15,6 +15,9 @@ const LEAF = 8;
 export class PointIndex {
   private readonly xy: Float64Array;
   private readonly ids: Uint32Array;
+  /** The coordinates in the order of `ids`: side by side where they are looked at together. */
+  private readonly xs: Float64Array;
+  private readonly ys: Float64Array;
   /** Where each point stands in `ids`. */
   private readonly places: Uint32Array;
   private readonly gone: Uint8Array;
@@ -36,6 +39,12 @@ export class PointIndex {
     this.xy = xy;
     this.ids = ids ? ids.slice() : new Uint32Array(xy.length / 2);
     if (!ids) for (let id = 0; id < this.ids.length; id++) this.ids[id] = id;
+    this.xs = new Float64Array(this.ids.length);
+    this.ys = new Float64Array(this.ids.length);
+    for (let k = 0; k < this.ids.length; k++) {
+      this.xs[k] = xy[2 * this.ids[k]];
+      this.ys[k] = xy[2 * this.ids[k] + 1];
+    }
     this.places = new Uint32Array(xy.length / 2);
     this.gone = new Uint8Array(this.ids.length);
     this.left = new Uint32Array(this.ids.length);
@@ -94,10 +103,39 @@ export class PointIndex {
   private build(from: number, to: number, axis: 0 | 1): void {
     if (to - from < LEAF) return;
     const middle = (from + to) >> 1;
-    select(this.ids, this.xy, middle, from, to, axis);
+    if (axis === 0) this.select(this.xs, this.ys, middle, from, to);
+    else this.select(this.ys, this.xs, middle, from, to);
     this.left[middle] = to - from + 1;
     this.build(from, middle - 1, axis === 0 ? 1 : 0);
     this.build(middle + 1, to, axis === 0 ? 1 : 0);
+  }
+
+  /** Puts the point that belongs at `k` in the order of `keys` there, smaller ones before it (Hoare's quickselect). */
+  private select(keys: Float64Array, others: Float64Array, k: number, from: number, to: number): void {
+    const { ids } = this;
+    while (to > from) {
+      // The middle of three as pivot: sorted input, which drawings often are, stays linear.
+      const pivot = medianOfThree(keys[from], keys[(from + to) >> 1], keys[to]);
+      let i = from;
+      let j = to;
+      while (i <= j) {
+        while (keys[i] < pivot) i++;
+        while (keys[j] > pivot) j--;
+        if (i > j) break;
+        const id = ids[i];
+        const key = keys[i];
+        const other = others[i];
+        ids[i] = ids[j];
+        keys[i] = keys[j];
+        others[i++] = others[j];
+        ids[j] = id;
+        keys[j] = key;
+        others[j--] = other;
+      }
+      if (k <= j) to = j;
+      else if (k >= i) from = i;
+      else return;
+    }
   }
 
   private searchNearest(from: number, to: number, axis: 0 | 1): void {
@@ -108,7 +146,7 @@ export class PointIndex {
     const middle = (from + to) >> 1;
     if (this.left[middle] === 0) return;
     this.offer(middle);
-    const gap = (axis === 0 ? this.qx : this.qy) - this.xy[2 * this.ids[middle] + axis];
+    const gap = axis === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
     const next = axis === 0 ? 1 : 0;
     if (gap <= 0) {
       this.searchNearest(from, middle - 1, next);
@@ -128,9 +166,8 @@ export class PointIndex {
   }
 
   private distance2(place: number): number {
-    const id = this.ids[place];
-    const dx = this.xy[2 * id] - this.qx;
-    const dy = this.xy[2 * id + 1] - this.qy;
+    const dx = this.xs[place] - this.qx;
+    const dy = this.ys[place] - this.qy;
     return dx * dx + dy * dy;
   }
 
@@ -142,7 +179,7 @@ export class PointIndex {
     const middle = (from + to) >> 1;
     if (this.left[middle] === 0) return;
     if (this.gone[middle] === 0) list.offer(this.ids[middle], this.distance2(middle));
-    const gap = (axis === 0 ? this.qx : this.qy) - this.xy[2 * this.ids[middle] + axis];
+    const gap = axis === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
     const next = axis === 0 ? 1 : 0;
     if (gap <= 0) {
       this.searchMany(from, middle - 1, next, list);
@@ -184,30 +221,6 @@ class NearestList {
   }
 }
 
-/** Puts the id that belongs at `k` in the order of one coordinate there, smaller ones before it (Hoare's quickselect). */
-function select(ids: Uint32Array, xy: Float64Array, k: number, from: number, to: number, axis: 0 | 1): void {
-  while (to > from) {
-    // The middle of three as pivot: sorted input, which drawings often are, stays linear.
-    const pivot = medianOfThree(ids, xy, from, to, axis);
-    let i = from;
-    let j = to;
-    while (i <= j) {
-      while (xy[2 * ids[i] + axis] < pivot) i++;
-      while (xy[2 * ids[j] + axis] > pivot) j--;
-      if (i > j) break;
-      const id = ids[i];
-      ids[i++] = ids[j];
-      ids[j--] = id;
-    }
-    if (k <= j) to = j;
-    else if (k >= i) from = i;
-    else return;
-  }
-}
-
-function medianOfThree(ids: Uint32Array, xy: Float64Array, from: number, to: number, axis: 0 | 1): number {
-  const a = xy[2 * ids[from] + axis];
-  const b = xy[2 * ids[(from + to) >> 1] + axis];
-  const c = xy[2 * ids[to] + axis];
+function medianOfThree(a: number, b: number, c: number): number {
   return Math.max(Math.min(a, b), Math.min(Math.max(a, b), c));
 }

@@ -20,7 +20,7 @@ import { isMarked, SvgMarkers } from "./svg-markers.js";
 import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, INITIAL_STYLE, parseOpacity, type Style } from "./style.js";
+import { computeStyle, declaredValue, parseOpacity } from "./style.js";
 import { aroundOrigin, parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "./warnings.js";
@@ -56,12 +56,11 @@ interface Frame {
 
 export class SvgWalk {
   private readonly declared = new Declared();
-  /** The style computed last, and from what. */
+  /** The context computed last, and from what. */
   private readonly last = {
-    parent: INITIAL_STYLE,
-    basis: null as Context["basis"] | null,
+    outer: null as Context | null,
     declared: new Declared(),
-    style: INITIAL_STYLE,
+    inner: null as Context | null,
   };
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
@@ -134,7 +133,8 @@ export class SvgWalk {
     this.spendCopy(outer);
     const { declared } = this;
     this.cascade.collect(element, declared);
-    const style = this.styleIn(outer);
+    const styled = this.styled(outer);
+    const { style } = styled;
     const group = this.groupOf(element, tag, outer);
     if (declaredValue(style, declared, "display") === "none") {
       if (group !== outer.group) this.hideGroup(group);
@@ -144,7 +144,7 @@ export class SvgWalk {
     if (opacity !== undefined && parseOpacity(opacity) === 0) return;
     const transform = this.transformOf(element, style, outer);
     if (determinant(transform) === 0) return;
-    let context = withStyle(group === outer.group ? outer : { ...outer, group }, style, transform);
+    let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
     const warning = this.effectOf(style);
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
@@ -153,16 +153,15 @@ export class SvgWalk {
     else this.enter(element, tag, context, warning);
   }
 
-  /** The style that `declared` makes in a context: most elements declare what the one before did. */
-  private styleIn({ style, basis }: Context): Style {
+  /** The context with the style that `declared` makes: most elements declare what the one before did. */
+  private styled(outer: Context): Context {
     const { last, declared } = this;
-    if (last.parent !== style || last.basis !== basis || !last.declared.equals(declared)) {
-      last.style = computeStyle(style, declared, basis);
-      last.parent = style;
-      last.basis = basis;
+    if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
+      last.inner = withStyle(outer, computeStyle(outer.style, declared, outer.basis), IDENTITY);
+      last.outer = outer;
       last.declared.copyFrom(declared);
     }
-    return last.style;
+    return last.inner;
   }
 
   private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
@@ -339,14 +338,10 @@ export class SvgWalk {
 
   /** A filter or mask that will be missing from what the element draws. */
   private effectOf(style: Context["style"]): WarningCode | null {
-    for (const [property, code] of [
-      ["mask", "mask-ignored"],
-      ["filter", "filter-ignored"],
-    ] as const) {
-      const value = declaredValue(style, this.declared, property);
-      if (value !== undefined && value !== "none") return code;
-    }
-    return null;
+    const { declared } = this;
+    const isSet = (value: string | undefined): boolean => value !== undefined && value !== "none";
+    if (isSet(declaredValue(style, declared, "mask"))) return "mask-ignored";
+    return isSet(declaredValue(style, declared, "filter")) ? "filter-ignored" : null;
   }
 
   private chosenChild(element: number): number {

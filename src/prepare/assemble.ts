@@ -16,15 +16,21 @@ export interface PreparedLayer extends StrokeLayer {
 
 /** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
-  const count = lineCount(lines);
+  const layer = lines.tag.map((shape) => table.ofShape[shape]);
+  const tagged = { ...lines, tag: layer };
+  if (isSorted(layer)) return tagged;
   const next = new Uint32Array(table.layers.length + 1);
-  for (let i = 0; i < count; i++) next[table.ofShape[lines.tag[i]] + 1]++;
-  for (let layer = 0; layer < table.layers.length; layer++) next[layer + 1] += next[layer];
-  const order = new Uint32Array(count);
-  for (let i = 0; i < count; i++) order[next[table.ofShape[lines.tag[i]]]++] = i;
-  const sorted = pickLines(lines, order);
-  return { ...sorted, tag: sorted.tag.map((shape) => table.ofShape[shape]) };
+  for (const k of layer) next[k + 1]++;
+  for (let k = 0; k < table.layers.length; k++) next[k + 1] += next[k];
+  const order = new Uint32Array(layer.length);
+  layer.forEach((k, i) => (order[next[k]++] = i));
+  return pickLines(tagged, order);
 }
+
+const isSorted = (values: Uint32Array): boolean => {
+  for (let i = 1; i < values.length; i++) if (values[i] < values[i - 1]) return false;
+  return true;
+};
 
 /** Without strokes shorter than that, dots among them; 0 keeps all. */
 export function dropShort(lines: Lines, shorterThan: number): Lines {

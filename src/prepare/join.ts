@@ -56,7 +56,7 @@ class Pairing {
   /** Place of each end, and the unit vector in which its line leaves it. */
   private readonly xy: Float64Array;
   private readonly out: Float64Array;
-  private readonly joinable: readonly number[];
+  private readonly joinable: Uint32Array;
   private readonly grid: EndGrid;
 
   constructor(
@@ -71,7 +71,8 @@ class Pairing {
     this.length = new Float64Array(ends);
     this.xy = new Float64Array(2 * ends);
     this.out = new Float64Array(2 * ends);
-    const joinable: number[] = [];
+    const joinable = new Uint32Array(ends);
+    let count = 0;
     for (let i = first; i < end; i++) {
       const e = 2 * (i - first);
       const p = lines.offsets[i];
@@ -81,10 +82,12 @@ class Pairing {
       this.length[e] = this.length[e + 1] = lineLength(lines, i);
       this.setEnd(lines, e, p, Math.min(p + 1, q));
       this.setEnd(lines, e + 1, q, Math.max(q - 1, p));
-      if (q > p && !isClosedLine(lines, i)) joinable.push(e, e + 1);
+      if (q === p || isClosedLine(lines, i)) continue;
+      joinable[count++] = e;
+      joinable[count++] = e + 1;
     }
-    this.joinable = joinable;
-    this.grid = new EndGrid(this.xy, joinable, radius);
+    this.joinable = joinable.subarray(0, count);
+    this.grid = new EndGrid(this.xy, this.joinable, radius);
   }
 
   private setEnd(lines: Lines, e: number, at: number, next: number): void {
@@ -168,7 +171,7 @@ class EndGrid {
 
   constructor(
     xy: Float64Array,
-    ends: readonly number[],
+    ends: Uint32Array,
     private readonly cell: number,
   ) {
     this.next = new Int32Array(xy.length / 2).fill(-1);

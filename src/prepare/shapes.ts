@@ -1,7 +1,14 @@
 /** The steps of `prepare` while lines still belong to shapes: which, dashed, cropped, filled. */
 import type { Drawing } from "../drawing/drawing.js";
 import { meanScale } from "../geometry/affine.js";
-import { boxesTouch, intersectBoxes, isEmptyBox, type Box } from "../geometry/box.js";
+import {
+  boxContains,
+  boxesTouch,
+  boxOfPoints,
+  intersectBoxes,
+  isEmptyBox,
+  type Box,
+} from "../geometry/box.js";
 import { clipLinesToBox } from "../geometry/clip.js";
 import { LineBuilder, lineCount, pickLines, totalLength, type Lines } from "../geometry/polyline.js";
 import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
@@ -66,7 +73,7 @@ export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, lim
 const UNNOTICED_CROP = 0.1;
 
 export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {
-  if (limit === null) return lines;
+  if (limit === null || boxContains(limit, boxOfPoints(lines.xy))) return lines;
   const kept = clipLinesToBox(lines, limit);
   const lost = totalLength(lines) - totalLength(kept);
   if (lost > UNNOTICED_CROP) {
