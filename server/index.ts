@@ -3,7 +3,13 @@ import { randomUUID } from "node:crypto";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
-import type { Pairing, PlotSettings, ServerEvent } from "../src/schema/index.js";
+import { machineOf } from "../src/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type Pairing,
+  type PlotSettings,
+  type ServerEvent,
+} from "../src/schema/index.js";
 import { Closing } from "./closing.js";
 import { defaultDataDir, prepareDataDir } from "./data-dir.js";
 import { createApp, type AppParts } from "./http/app.js";
@@ -139,6 +145,7 @@ async function openParts(
     store,
     announce,
     findBoards,
+    mustBeMachine: (machine) => void machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine })),
     firstId: FIRST_PLOTTER,
     firstDevice,
     open: (row, isTaken) => openDriven(row, { virtualSpeed, isTaken, withMachine, log }),

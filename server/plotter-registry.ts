@@ -12,6 +12,8 @@ export interface RegistryParts {
   readonly store: Pick<Store, "plotters" | "savePlotter" | "removePlotter">;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
+  /** Throws `bad-setting` for the id of a machine that there is not. */
+  readonly mustBeMachine?: (id: string) => void;
   readonly findBoards: () => Promise<readonly FoundBoard[]>;
   readonly announce: (event: ServerEvent) => void;
   /** Id of the plotter that a new server has. */
@@ -30,6 +32,9 @@ export class PlotterRegistry {
   readonly #parts: RegistryParts;
   readonly #rows = new Map<string, PlotterRow>();
   readonly #ports = new Map<string, ManagedPlotter>();
+  /** Connections are closed and opened one after the other. */
+  #turn: Promise<unknown> = Promise.resolve();
+  #isClosed = false;
 
   constructor(parts: RegistryParts) {
     this.#parts = parts;
@@ -66,6 +71,7 @@ export class PlotterRegistry {
   /** Throws `conflict` for a name or device that another one has. */
   add({ name, device, machine = null }: NewPlotter): Plotter {
     this.#mustBeFree(name, device, null);
+    if (machine !== null) this.#parts.mustBeMachine?.(machine);
     const row = { id: this.#newId(name), name, device, machine };
     this.#parts.store.savePlotter(row);
     this.#rows.set(row.id, row);
@@ -74,13 +80,19 @@ export class PlotterRegistry {
     return port.snapshot();
   }
 
-  /** Another device or machine makes it connect anew, for which no job may be on it (`busy`). */
-  async patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+  /** Another device makes it connect anew; neither that nor the machine changes under a job (`busy`). */
+  patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+    return this.#inTurn(() => this.#patch(id, patch, use));
+  }
+
+  async #patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
     const { row, port } = this.#find(id);
     const { name = row.name, device = row.device, machine = row.machine } = patch;
     this.#mustBeFree(patch.name ?? null, patch.device ?? null, id);
-    const isMoved = device !== row.device || machine !== row.machine;
-    if (isMoved && use.isBusy(id)) {
+    if (typeof patch.machine === "string") this.#parts.mustBeMachine?.(patch.machine);
+    const isMoved = device !== row.device;
+    const isOther = machine !== row.machine;
+    if ((isMoved || isOther) && use.isBusy(id)) {
       throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
     }
     const next = { id, name, device, machine };
@@ -90,14 +102,21 @@ export class PlotterRegistry {
     this.#rows.set(id, next);
     if (isMoved) {
       await port.close();
-      this.#open(next);
-    } else if (name !== null) port.rename(name);
+      if (!this.#isClosed) this.#open(next);
+    } else {
+      if (isOther) port.useMachine(machine);
+      if (name !== null) port.rename(name);
+    }
     this.#announce();
     return this.#find(id).port.snapshot();
   }
 
   /** Throws `conflict` while it has jobs that are not history, and for the last one. */
-  async remove(id: string, use: PlotterUse): Promise<void> {
+  remove(id: string, use: PlotterUse): Promise<void> {
+    return this.#inTurn(() => this.#remove(id, use));
+  }
+
+  async #remove(id: string, use: PlotterUse): Promise<void> {
     const { port } = this.#find(id);
     const count = use.liveJobCount(id);
     if (count > 0) {
@@ -113,7 +132,14 @@ export class PlotterRegistry {
   }
 
   async close(): Promise<void> {
+    this.#isClosed = true;
     await Promise.all([...this.#ports.values()].map((port) => port.close()));
+  }
+
+  #inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const done = this.#turn.then(work);
+    this.#turn = done.catch(() => undefined);
+    return done;
   }
 
   #open(row: PlotterRow): ManagedPlotter {

@@ -1,5 +1,5 @@
 /** The plotters of one server, as the queue and the routes see them. */
-import { PlotwrightError } from "../src/index.js";
+import { findMachine, PlotwrightError } from "../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -30,12 +30,20 @@ export interface DrivenOptions {
   readonly log: (line: string) => void;
 }
 
+/** A machine of the user's own may have been removed since the plotter was given it. */
+const knownMachine = (settings: PlotSettings): PlotSettings =>
+  findMachine(settings) === null ? DEFAULT_PLOT_SETTINGS : settings;
+
 /** Connects in the background: a server without its board still shows the queue and says what is wrong. */
 export function openDriven(row: PlotterRow, options: DrivenOptions): ManagedPlotter {
   const { virtualSpeed, isTaken, withMachine, log } = options;
   const { machine } = row;
-  const settings = machine === null ? undefined : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine });
-  const plotter = new DrivenPlotter(row, { device: row.device, virtualSpeed, isTaken, settings });
+  const settingsOf = (id: string | null): PlotSettings =>
+    knownMachine(
+      id === null ? DEFAULT_PLOT_SETTINGS : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: id }),
+    );
+  const settings = settingsOf(machine);
+  const plotter = new DrivenPlotter(row, { device: row.device, virtualSpeed, isTaken, settings }, settingsOf);
   let last: string | null = null;
   plotter.onChange(({ name, connection, message, device }) => {
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
@@ -65,13 +73,19 @@ class DrivenPlotter implements ManagedPlotter {
   readonly id: string;
   readonly #driver: PlotterDriver;
   readonly #listeners: ((plotter: Plotter) => void)[] = [];
+  readonly #settingsOf: (machine: string | null) => PlotSettings;
   #name: string | null;
   #machine: string | null;
 
-  constructor({ id, name, machine }: Omit<PlotterRow, "device">, options: PlotterOptions) {
+  constructor(
+    { id, name, machine }: Omit<PlotterRow, "device">,
+    options: PlotterOptions,
+    settingsOf: (machine: string | null) => PlotSettings = () => DEFAULT_PLOT_SETTINGS,
+  ) {
     this.id = id;
     this.#name = name;
     this.#machine = machine;
+    this.#settingsOf = settingsOf;
     this.#driver = new PlotterDriver(options);
     this.#driver.onChange(() => this.#tell());
   }
@@ -92,6 +106,12 @@ class DrivenPlotter implements ManagedPlotter {
 
   rename(name: string): void {
     this.#name = name;
+    this.#tell();
+  }
+
+  useMachine(machine: string | null): void {
+    this.#driver.use(this.#settingsOf(machine));
+    this.#machine = machine;
     this.#tell();
   }
 

@@ -42,8 +42,9 @@ const STILL_S = 2;
 const SETTLE_S = 0.02;
 /** A servo's way from end to end, and some rest. */
 const SERVO_MS = 400;
-/** What the board's layer variable holds while its counters count from home. */
-const PLACE_KNOWN = 113;
+/** What the board's layer variable holds while its counters count from home: this and the mode of microsteps. */
+const PLACE_KNOWN = 112;
+const COARSEST_MODE = 5;
 
 const NO_STROKES: StrokeSet = {
   xy: new Float64Array(0),
@@ -70,6 +71,8 @@ export class Carriage {
   private playing: Streamer | null = null;
   private origin: readonly [number, number] = [0, 0];
   private state: BoardState | null = null;
+  /** What the motors are set to while their place is known. */
+  private microstepMode = 0;
   private readonly queueDepth: number;
 
   constructor(
@@ -86,7 +89,8 @@ export class Carriage {
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
     if (!features.hasStepQuery) return;
     await this.untilStill();
-    if (!(await this.isMarked())) return;
+    this.microstepMode = await this.markedMode();
+    if (this.microstepMode === 0) return;
     await this.findPlace();
     this.motorsOn = true;
     await this.liftWhereLeft();
@@ -129,14 +133,22 @@ export class Carriage {
 
   /**
    * The board's own layer variable, 0 after every start of the board, says that the counters still count from
-   * home. Without the clearing commands of 2.7 they do not always, see `findPlace`.
+   * home, and in which microsteps; 0 where they do not. Without the clearing commands of 2.7 they do not always, see
+   * `findPlace`.
    */
-  private async isMarked(): Promise<boolean> {
+  private async markedMode(): Promise<number> {
     const { session, features } = this.connection;
-    if (!features.hasClear) return false;
+    if (!features.hasClear) return 0;
     // A board that has started anew has its motors off (QE: from 2.8.0).
-    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return false;
-    return Number(await session.query(features.hasFutureSyntax ? "QL,0" : "QL")) === PLACE_KNOWN;
+    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
+    const mode = Number(await session.query(features.hasFutureSyntax ? "QL,0" : "QL")) - PLACE_KNOWN;
+    return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
+  }
+
+  /** Only what counts from home can be found again by the next who connects. */
+  private async markHome(): Promise<void> {
+    const isFromHome = this.origin[0] === 0 && this.origin[1] === 0;
+    await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : 0);
   }
 
   private async mark(value: number): Promise<void> {
@@ -155,15 +167,26 @@ export class Carriage {
     }
   }
 
-  /** Switches the motors on where they are off. Returns where the carriage stands. */
+  /**
+   * Switches the motors on where they are off, or sets them to other microsteps, which zeroes their counters too.
+   * Returns where the carriage stands.
+   */
   async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
-    if (this.state) return this.state;
+    const { state, microstepMode } = this;
+    if (state && microstepMode === machine.microstepMode) return state;
     const { session, features } = this.connection;
     for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
-    await this.mark(PLACE_KNOWN);
-    this.origin = [0, 0];
+    // Each mode's steps are half as many as those of the one before.
+    const share = state ? 2 ** (microstepMode - machine.microstepMode) : 0;
+    const [steps1, steps2] = [
+      Math.round((state?.steps1 ?? 0) * share),
+      Math.round((state?.steps2 ?? 0) * share),
+    ];
+    this.microstepMode = machine.microstepMode;
+    this.origin = [steps1, steps2];
+    await this.markHome();
     this.motorsOn = true;
-    this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+    this.state = { steps1, steps2, acc1: 0, acc2: 0 };
     this.events.changed();
     return this.state;
   }
@@ -327,6 +350,7 @@ export class Carriage {
       await session.send("CS");
       this.origin = [0, 0];
       this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+      await this.markHome();
     } else {
       this.origin = [this.origin[0] - steps1, this.origin[1] - steps2];
       this.state = { steps1: 0, steps2: 0, acc1, acc2 };

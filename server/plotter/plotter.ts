@@ -126,6 +126,13 @@ export class PlotterDriver {
     return run;
   }
 
+  /** Machine, speeds and heights of moves by hand from now on. Home stays: it is a place of the motors. */
+  use(settings: PlotSettings): void {
+    machineOf(settings);
+    this.settings = settings;
+    this.carriageChanged();
+  }
+
   async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
     await this.byHand((carriage) => carriage.movePen(request.up, this.settings, request.heightPct));
   }

@@ -25,4 +25,6 @@ export interface PlotterPort {
 /** A plotter that the server keeps under a name of the user's. */
 export interface ManagedPlotter extends PlotterPort {
   rename(name: string): void;
+  /** Another machine for moves by hand; null: the usual one. It stays connected, and home where it is. */
+  useMachine(machine: string | null): void;
 }

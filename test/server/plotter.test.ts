@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
-import type { PlotwrightError, StrokeSet } from "../../src/index.js";
+import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -335,5 +335,29 @@ describe("a plotter that is closed in mid-plot", () => {
     expect(await outcome(world.run(run.finished, 10))).toMatch(/^disconnected/);
     const never = new Promise<void>(() => undefined);
     await expect(world.run(never, 60)).rejects.toThrow("no timer brings");
+  });
+});
+
+describe("another machine on the same board", () => {
+  it("is driven in its own microsteps from where the carriage stands", async () => {
+    const { world, driver, board } = await newPlotter();
+    await world.run(driver.walkTo(30, 0));
+    expect(board.state()).toMatchObject({ steps1: 2_400, steps2: 2_400 });
+    const coarse: MachineProfile = {
+      ...machineById("axidraw-v3"),
+      id: "coarse",
+      stepsPerMm: 40,
+      microstepMode: 2,
+    };
+    const settings = { ...SETTINGS, machine: "coarse", customMachine: coarse };
+    await world.run(driver.walkTo(60, 0, settings));
+    expect(driver.log()).toContain("> EM,2,2\n");
+    expect(board.state()).toMatchObject({ steps1: 1_200, steps2: 1_200 });
+    expect(driver.state).toMatchObject({ xMm: 60, yMm: 0 });
+    await world.run(driver.home(settings));
+    expect(board.state()).toMatchObject({ steps1: -1_200, steps2: -1_200 });
+    await world.run(driver.setHome(SETTINGS));
+    await world.run(driver.walkTo(1, 0, SETTINGS));
+    expect(board.state()).toMatchObject({ steps1: 80, steps2: 80 });
   });
 });

@@ -155,6 +155,31 @@ describe("the plotters of a server", () => {
   });
 });
 
+describe("a plotter that is said to be another machine", () => {
+  it("stays connected, and home where it is", async () => {
+    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));
+    const server = await createServer({ port: 0, device: "virtual", virtualSpeed: 50, dataDir });
+    const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0]!;
+    try {
+      await expect.poll(async () => (await main()).connection).toBe("idle");
+      expect((await send(server.url, "POST", "/plotters/main/walk", { xMm: 20, yMm: 15 })).status).toBe(200);
+      const patched = await send(server.url, "PATCH", "/plotters/main", { machine: "axidraw-v3-a3" });
+      expect(plotterSchema.parse(await patched.json())).toMatchObject({
+        machine: "axidraw-v3-a3",
+        connection: "idle",
+        xMm: 20,
+        yMm: 15,
+      });
+      const unknown = await send(server.url, "PATCH", "/plotters/main", { machine: "none-such" });
+      expect(await faultOf(unknown)).toEqual({ status: 400, code: "bad-setting" });
+      expect((await main()).machine).toBe("axidraw-v3-a3");
+    } finally {
+      await server.close();
+      rmSync(dataDir, { recursive: true, force: true });
+    }
+  });
+});
+
 describe("a server with two virtual plotters", { timeout: 120_000 }, () => {
   it("plots on both at once and knows them after a restart", async () => {
     const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));

@@ -132,6 +132,10 @@ export class LedPlotter implements ManagedPlotter {
     this.#name = name;
   }
 
+  useMachine(machine: string | null): void {
+    this.asked.push(`machine ${machine ?? "usual"}`);
+  }
+
   plot(_planner: PlotPlanner, _settings: PlotSettings, start: PlotStart = {}): LedRun {
     const run = new LedRun(start);
     this.runs.push(run);
