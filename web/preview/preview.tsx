@@ -93,7 +93,9 @@ const useStage = (
 
 const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
-    if (state.planned !== before?.planned) stage.setScene(state.planned?.scene ?? null);
+    if (state.planned !== before?.planned) {
+      stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
+    }
     if (state.settings !== before?.settings) stage.setDesk(deskOf(state));
     if (
       state.view !== before?.view ||

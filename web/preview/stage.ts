@@ -1,17 +1,15 @@
 /**
- * The preview's machine: three canvases in a stack (desk, strokes, rulers and pen), one view, and at most
- * one frame of strokes in the making.
+ * The preview's machine: three canvases in a stack (desk, strokes, rulers and pen) and one view.
  *
- * Where a frame of strokes takes the graphics card longer than the screen's beat, the last one is moved and
- * scaled as a picture until the next is ready: the paper stays under the finger whatever the drawing's size.
+ * The strokes are drawn elsewhere. Until they have been for a new view, the last picture is moved and scaled: the paper
+ * stays under the finger whatever the drawing's size.
  */
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../ui/moments.js";
-import { createCanvasRenderer } from "./canvas-renderer.js";
-import { createGlRenderer } from "./gl-renderer.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
-import type { Frame, SceneRenderer } from "./renderer.js";
+import type { Frame, Picture } from "./renderer.js";
 import type { Scene } from "./scene.js";
+import { openStrokes, type Strokes } from "./strokes.js";
 import { fitView, zoomAt, type Size, type View } from "./view.js";
 
 export interface StageCanvases {
@@ -21,19 +19,17 @@ export interface StageCanvases {
   readonly overlay: HTMLCanvasElement;
 }
 
-export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio" | "isMoving">;
+export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
 /** The legend and the tools lie here. */
 const BELOW_PX = 54;
-/** A view that has not been moved for so long rests, and is drawn in full. */
-const REST_MS = 160;
 const MAX_RATIO = 2;
 
 export class Stage {
   readonly #canvases: StageCanvases;
   readonly #observer: ResizeObserver;
-  #renderer: SceneRenderer | null;
+  readonly #strokes: Strokes;
   #scene: Scene | null = null;
   #look: FrameLook;
   #desk: Desk;
@@ -48,11 +44,12 @@ export class Stage {
   /** Until the user pans or zooms, the paper is kept whole in sight. */
   #isFitted = true;
   #areStrokesStale = true;
-  /** Not drawn yet. */
+  /** Not to be seen yet. */
   #isSceneNew = true;
+  /** What each frame that was asked for shows. */
+  readonly #scenes = new WeakMap<Frame, Scene | null>();
   /** The 2D canvases are drawn again only when something on them has changed. */
   #areSheetsStale = true;
-  #restTimer: ReturnType<typeof setTimeout> | null = null;
   #request = 0;
 
   constructor(canvases: StageCanvases, desk: Desk, look: FrameLook) {
@@ -60,16 +57,10 @@ export class Stage {
     this.#desk = desk;
     this.#look = look;
     this.#colors = deskColors(canvases.box);
-    this.#renderer = createGlRenderer(canvases.strokes) ?? createCanvasRenderer(canvases.strokes);
+    this.#strokes = openStrokes(canvases.strokes, (frame, isDone) => this.#onShown(frame, isDone));
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(canvases.box);
-    canvases.strokes.addEventListener("webglcontextlost", this.#onLost);
-    canvases.strokes.addEventListener("webglcontextrestored", this.#onRestored);
     this.#resize();
-  }
-
-  get rendererKind(): SceneRenderer["kind"] | null {
-    return this.#renderer?.kind ?? null;
   }
 
   get view(): View {
@@ -84,11 +75,6 @@ export class Stage {
   setView(view: View): void {
     this.#view = view;
     this.#isFitted = false;
-    if (this.#restTimer !== null) clearTimeout(this.#restTimer);
-    this.#restTimer = setTimeout(() => {
-      this.#restTimer = null;
-      this.#refresh(true);
-    }, REST_MS);
     this.#refresh(true);
   }
 
@@ -102,11 +88,12 @@ export class Stage {
     this.setView(zoomAt(this.#view, factor, this.#size.width / 2, this.#size.height / 2));
   }
 
-  setScene(scene: Scene | null): void {
+  /** `copy` is for whoever draws it, and is given away. */
+  setScene(scene: Scene | null, copy: Picture | null): void {
     if (scene === this.#scene) return;
     this.#scene = scene;
     this.#isSceneNew = true;
-    this.#renderer?.setScene(scene);
+    this.#strokes.setScene(scene, copy);
     this.#refresh(true);
   }
 
@@ -150,24 +137,9 @@ export class Stage {
 
   close(): void {
     cancelAnimationFrame(this.#request);
-    if (this.#restTimer !== null) clearTimeout(this.#restTimer);
     this.#observer.disconnect();
-    this.#canvases.strokes.removeEventListener("webglcontextlost", this.#onLost);
-    this.#canvases.strokes.removeEventListener("webglcontextrestored", this.#onRestored);
-    this.#renderer?.close();
-    this.#renderer = null;
+    this.#strokes.close();
   }
-
-  readonly #onLost = (event: Event): void => {
-    event.preventDefault();
-    this.#renderer = null;
-  };
-
-  readonly #onRestored = (): void => {
-    this.#renderer = createGlRenderer(this.#canvases.strokes);
-    this.#renderer?.setScene(this.#scene);
-    this.#refresh(true);
-  };
 
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.#canvases.box;
@@ -204,7 +176,7 @@ export class Stage {
     if (this.#size.width === 0 || this.#size.height === 0) return;
     const ratio = Math.min(MAX_RATIO, window.devicePixelRatio || 1);
     if (this.#areSheetsStale) this.#drawSheets(ratio);
-    if (this.#areStrokesStale) this.#drawStrokes(ratio);
+    if (this.#areStrokesStale) this.#askForStrokes(ratio);
   };
 
   #drawSheets(ratio: number): void {
@@ -220,28 +192,33 @@ export class Stage {
     }
   }
 
-  #drawStrokes(ratio: number): void {
-    const { strokes } = this.#canvases;
-    const frame: Frame = {
-      ...this.#look,
-      ...this.#size,
-      ratio,
-      view: this.#view,
-      isMoving: this.#restTimer !== null,
-    };
-    if (this.#renderer && !this.#renderer.draw(frame)) {
-      strokes.style.transform = this.#drawnView ? transformBetween(this.#drawnView, this.#view) : "";
-      this.#schedule();
-      return;
-    }
-    strokes.style.transform = "";
-    // A picture keeps the size that it was drawn for until the next one: the box may have changed.
-    strokes.style.width = `${this.#size.width}px`;
-    strokes.style.height = `${this.#size.height}px`;
-    this.#drawnView = this.#view;
+  #askForStrokes(ratio: number): void {
     this.#areStrokesStale = false;
-    if (this.#isSceneNew && this.#scene) markMoment("plotwright-picture");
+    const frame: Frame = { ...this.#look, ...this.#size, ratio, view: this.#view };
+    this.#scenes.set(frame, this.#scene);
+    this.#strokes.show(frame);
+    this.#canvases.strokes.ariaBusy = "true";
+    this.#moveStrokes();
+  }
+
+  #onShown(frame: Frame, isDone: boolean): void {
+    const { strokes } = this.#canvases;
+    // A picture keeps the size that it was drawn for until the next one: the box may have changed.
+    strokes.style.width = `${frame.width}px`;
+    strokes.style.height = `${frame.height}px`;
+    this.#drawnView = frame.view;
+    this.#moveStrokes();
+    if (isDone) strokes.ariaBusy = "false";
+    if (!this.#scene || this.#scenes.get(frame) !== this.#scene) return;
+    if (this.#isSceneNew) markMoment("plotwright-picture");
+    if (isDone) markMoment("plotwright-whole-picture");
     this.#isSceneNew = false;
+  }
+
+  #moveStrokes(): void {
+    const { style } = this.#canvases.strokes;
+    const drawn = this.#drawnView ?? this.#view;
+    style.transform = drawn === this.#view ? "" : transformBetween(drawn, this.#view);
   }
 }
 

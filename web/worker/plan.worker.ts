@@ -22,8 +22,9 @@ import {
   type Prepared,
   type Trajectory,
 } from "../../src/index.js";
-import { buildScene, shiftsOf } from "../preview/scene.js";
+import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
+import type { Picture } from "../preview/renderer.js";
 import { penColumnsOf } from "./pen-columns.js";
 import type {
   ExportRequest,
@@ -106,6 +107,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       stats: trajectoryStats(trajectory),
       trajectory,
       scene,
+      picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
     const pens = penColumnsOf(trajectory.penMoves);
@@ -155,6 +157,12 @@ function preparedOf(
 const frameOf = ({ frame: { x0, y0, x1, y1 } }: Placement, turnDeg: number): FrameMm | null =>
   x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0, turnDeg } : null;
 
+const pictureOf = ({ draw, travel, totalS }: Scene): Picture => ({
+  draw: { ...draw, bytes: draw.bytes.slice(0) },
+  travel: { ...travel, bytes: travel.bytes.slice(0) },
+  totalS,
+});
+
 async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
   if (!prepared) return;
   const { result, settings } = prepared;
@@ -180,10 +188,12 @@ const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
 });
 
 /** The trajectory's columns and the scene's buffers, each once. */
-function transferables({ planned: { trajectory, scene }, pens }: PlannedReply): Transferable[] {
+function transferables({ planned: { trajectory, scene, picture }, pens }: PlannedReply): Transferable[] {
   const buffers = new Set<ArrayBufferLike>([
     scene.draw.bytes,
     scene.travel.bytes,
+    picture.draw.bytes,
+    picture.travel.bytes,
     scene.grid.starts.buffer,
     scene.grid.items.buffer,
   ]);

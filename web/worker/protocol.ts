@@ -10,6 +10,7 @@ import type {
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../preview/placing.js";
+import type { Picture } from "../preview/renderer.js";
 import type { Scene } from "../preview/scene.js";
 import type { PenColumns } from "./pen-columns.js";
 
@@ -63,6 +64,8 @@ export interface Planned {
   readonly stats: TrajectoryStats;
   readonly trajectory: Trajectory;
   readonly scene: Scene;
+  /** The scene's pieces once more, to be given away to the thread that draws them: copied here, where time is. */
+  readonly picture: Picture;
   /** How long the worker took, ms, by stage. */
   readonly tookMs: {
     readonly import: number;

@@ -1,0 +1,135 @@
+import { describe, expect, it } from "vitest";
+import type { Frame, Picture } from "../../web/preview/renderer.js";
+import { PIECE_BYTES, type Scene } from "../../web/preview/scene.js";
+import { StrokesAway, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
+import type { DrawReply, DrawRequest } from "../../web/worker/draw-protocol.js";
+
+class WorkerByHand implements DrawWorkerLike {
+  readonly asked: DrawRequest[] = [];
+  isEnded = false;
+  onmessage: ((event: MessageEvent<DrawReply>) => void) | null = null;
+  onerror: ((event: ErrorEvent) => void) | null = null;
+
+  /** Moves what is transferred, as a browser does. */
+  postMessage(message: DrawRequest, transfer: Transferable[]): void {
+    this.asked.push(structuredClone(message, { transfer: transfer as ArrayBuffer[] }));
+  }
+  terminate(): void {
+    this.isEnded = true;
+  }
+  reply(id: number, isWhole: boolean): Bitmap {
+    const bitmap = new Bitmap();
+    const data: DrawReply = { type: "picture", id, isWhole, bitmap };
+    this.onmessage?.({ data } as MessageEvent<DrawReply>);
+    return bitmap;
+  }
+}
+
+class Bitmap implements ImageBitmap {
+  readonly width = 1;
+  readonly height = 1;
+  isClosed = false;
+  close(): void {
+    this.isClosed = true;
+  }
+}
+
+const frame = (offsetX: number): Frame => ({
+  view: { scale: 1, offsetX, offsetY: 0 },
+  width: 100,
+  height: 100,
+  ratio: 1,
+  colorBy: "ink",
+  showTravel: false,
+  lineMm: 0.3,
+  layerColors: [],
+  layerWidthsMm: null,
+  untilS: null,
+});
+const picture = (): Picture => ({
+  draw: { count: 2, bytes: new ArrayBuffer(2 * PIECE_BYTES) },
+  travel: { count: 0, bytes: new ArrayBuffer(0) },
+  totalS: 3,
+});
+const scene = (): Scene => ({ ...picture(), topDrawMmPerS: 1, topTravelMmPerS: 1, grid: {} }) as Scene;
+
+const setUp = () => {
+  const worker = new WorkerByHand();
+  const put: ImageBitmap[] = [];
+  const shown: [Frame, boolean][] = [];
+  const onPage: { scenes: (Scene | null)[]; frames: Frame[] } = { scenes: [], frames: [] };
+  const instead: Strokes = {
+    setScene: (given) => onPage.scenes.push(given),
+    show: (asked) => onPage.frames.push(asked),
+    close: () => undefined,
+  };
+  const strokes = new StrokesAway(
+    worker,
+    (bitmap) => put.push(bitmap),
+    (of, isDone) => shown.push([of, isDone]),
+    () => instead,
+  );
+  return { worker, put, shown, onPage, strokes };
+};
+
+describe("strokes drawn by a worker", () => {
+  it("are given the copy of the scene, not the page's own", () => {
+    const { worker, strokes } = setUp();
+    const own = scene();
+    const copy = picture();
+    strokes.setScene(own, copy);
+    expect(worker.asked).toEqual([{ type: "scene", scene: picture() }]);
+    expect(copy.draw.bytes.byteLength).toBe(0);
+    expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
+  });
+
+  it("copy the page's own where the copy was given away before", () => {
+    const copy = picture();
+    setUp().strokes.setScene(scene(), copy);
+    const { worker, strokes } = setUp();
+    const own = scene();
+    strokes.setScene(own, copy);
+    expect(worker.asked).toEqual([{ type: "scene", scene: picture() }]);
+    expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
+  });
+
+  it("are shown with the frame that they were drawn for, and are done when that is the newest and whole", () => {
+    const { worker, put, shown, strokes } = setUp();
+    const frames = [frame(1), frame(2), frame(3)];
+    for (const one of frames) strokes.show(one);
+    worker.reply(2, true);
+    worker.reply(3, false);
+    const last = worker.reply(3, true);
+    expect(shown).toEqual([
+      [frames[1], false],
+      [frames[2], false],
+      [frames[2], true],
+    ]);
+    expect(put).toHaveLength(3);
+    expect(put[2]).toBe(last);
+  });
+
+  it("never go back to an older frame", () => {
+    const { worker, put, strokes } = setUp();
+    strokes.show(frame(1));
+    strokes.show(frame(2));
+    worker.reply(2, true);
+    const late = worker.reply(1, true);
+    expect(put).toHaveLength(1);
+    expect(late.isClosed).toBe(true);
+  });
+
+  it("are drawn on the page where the worker does not start", () => {
+    const { worker, onPage, strokes } = setUp();
+    const own = scene();
+    const [first, second] = [frame(1), frame(2)];
+    strokes.setScene(own, picture());
+    strokes.show(first);
+    worker.onerror?.({} as ErrorEvent);
+    expect(worker.isEnded).toBe(true);
+    expect(onPage).toEqual({ scenes: [own], frames: [first] });
+    strokes.show(second);
+    strokes.setScene(null, null);
+    expect(onPage).toEqual({ scenes: [own, null], frames: [first, second] });
+  });
+});

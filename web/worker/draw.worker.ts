@@ -1,0 +1,23 @@
+/** Draws the strokes away from the page's thread, where the card or the want of one may take its time. */
+import { paintOn } from "../preview/strokes-canvas.js";
+import type { Frame } from "../preview/renderer.js";
+import type { DrawReply, DrawRequest } from "./draw-protocol.js";
+
+interface WorkerScope {
+  onmessage: ((event: MessageEvent<DrawRequest>) => void) | null;
+  postMessage(reply: DrawReply, transfer: Transferable[]): void;
+}
+const scope = self as unknown as WorkerScope;
+
+const canvas = new OffscreenCanvas(1, 1);
+const ids = new WeakMap<Frame, number>();
+const painter = paintOn(canvas, (frame, isWhole) => {
+  const bitmap = canvas.transferToImageBitmap();
+  scope.postMessage({ type: "picture", id: ids.get(frame) ?? 0, isWhole, bitmap }, [bitmap]);
+});
+
+scope.onmessage = ({ data }) => {
+  if (data.type === "scene") return painter.setScene(data.scene);
+  ids.set(data.frame, data.id);
+  painter.show(data.frame);
+};
