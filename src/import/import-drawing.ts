@@ -73,7 +73,7 @@ function* importDrawingSteps(name: string, text: string, options: ImportOptions)
     case "dxf":
       return importDxf(text, options);
     case "hpgl":
-      return importHpgl(text);
+      return importHpgl(text, options);
     case "json":
       return importPolylines(text);
     case null:

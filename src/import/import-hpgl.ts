@@ -1,15 +1,19 @@
 /**
- * HPGL and HP-GL/2 to a Drawing, by pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP and SC.
+ * HPGL and HP-GL/2 to a Drawing, by pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP and SC, labels by LB.
  * Facts of the language: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is 0.025 mm; y is up.
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import type { Affine } from "../geometry/affine.js";
 import { drawCentreArc } from "./arc.js";
+import type { Box } from "../geometry/box.js";
 import { DrawingBuilder } from "./drawing-builder.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
 import { readEncodedPolyline } from "./hpgl-encoded.js";
+import { HpglLabels } from "./hpgl-label.js";
+import { fontOf, type ImportOptions } from "./import-options.js";
 import { ShapeBuffer } from "./shape-buffer.js";
+import type { TextFont } from "./text-font.js";
 import { Warnings } from "./warnings.js";
 
 const MM_PER_PLOTTER_UNIT = 0.025;
@@ -23,14 +27,14 @@ const PAGE: Affine = { a: MM_PER_PLOTTER_UNIT, b: 0, c: 0, d: -MM_PER_PLOTTER_UN
 
 /** Commands that set what a pen plotter of ours decides itself, or move nothing. */
 const SILENT = new Set(
-  "IN DF VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS SI SR SL DI DR DV DT ES LO NP OA OC OE OI OS OF OP OH OD VA".split(
+  "VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS DV ES NP OA OC OE OI OS OF OP OH OD VA".split(
     " ",
   ),
 );
 
 /** Throws PlotwrightError("bad-file"). */
-export function importHpgl(text: string): Drawing {
-  return new HpglImport(text).run();
+export function importHpgl(text: string, options: ImportOptions): Drawing {
+  return new HpglImport(text, fontOf(options)).run();
 }
 
 class HpglImport {
@@ -50,10 +54,18 @@ class HpglImport {
   private originX = 0;
   private originY = 0;
   private corners: readonly number[] = [0, 0, 10_000, 10_000];
+  private labels = new HpglLabels();
+  private labelEnd = LABEL_END;
+  /** Where the label last drawn began: a new line begins there. */
+  private labelStart = { x: 0, y: 0 };
   private at = 0;
   private commandCount = 0;
 
-  constructor(private readonly text: string) {}
+  constructor(
+    private readonly text: string,
+    /** What labels are drawn with; null where they are only to be reported. */
+    private readonly font: TextFont | null,
+  ) {}
 
   run(): Drawing {
     const { text } = this;
@@ -67,8 +79,10 @@ class HpglImport {
       this.at = COMMAND.lastIndex;
       this.commandCount++;
       const name = match[1].toUpperCase();
-      if (name === "PE") this.encoded(COMMAND.lastIndex - match[2].length);
-      else if (name === "LB") this.label();
+      const start = COMMAND.lastIndex - match[2].length;
+      if (name === "PE") this.encoded(start);
+      else if (name === "LB") this.label(start);
+      else if (name === "DT") this.setLabelEnd(start);
       else this.command(name, numbersIn(match[2]));
     }
     this.flush();
@@ -122,7 +136,16 @@ class HpglImport {
       case "RR":
         if (args.length >= 2) this.rectangle(args, name === "ER" || name === "RR");
         return;
+      case "IN":
+      case "DF":
+        this.labels = new HpglLabels();
+        this.labelEnd = LABEL_END;
+        return;
+      case "CP":
+        this.moveByCells(args);
+        return;
       default:
+        if (this.labels.set(name, args, this.corners)) return;
         if (!SILENT.has(name)) this.warnings.add("not-supported", undefined, name);
     }
   }
@@ -224,26 +247,61 @@ class HpglImport {
     });
   }
 
-  private label(): void {
-    const end = this.text.indexOf(LABEL_END, this.at - 1);
-    this.at = end < 0 ? this.text.length : end + 1;
-    this.warnings.add("text-not-drawn");
+  private setLabelEnd(at: number): void {
+    const char = this.text.charAt(at);
+    const isNamed = char !== "" && char !== ";";
+    this.labelEnd = isNamed ? char : LABEL_END;
+    this.at = at + (isNamed ? 1 : 0);
   }
 
-  private flush(): void {
+  /** Drawn whatever the pen's state. */
+  private label(from: number): void {
+    const { font, text, warnings } = this;
+    const end = text.indexOf(this.labelEnd, from);
+    this.at = end < 0 ? text.length : end + 1;
+    this.flush();
+    if (font === null) {
+      warnings.add("text-not-drawn");
+      return;
+    }
+    this.labelStart = { x: this.x, y: this.y };
+    const label = text.slice(from, end < 0 ? undefined : end);
+    const { pen, missing } = this.labels.draw(label, font, this.shape, this.labelStart);
+    const box = this.flush(font.kind === "outline");
+    for (const char of missing) warnings.add("glyphs-missing", box ?? undefined, `"${char}"`);
+    this.x = pen.x;
+    this.y = pen.y;
+  }
+
+  /** By so many letters and lines; without numbers to the next line. */
+  private moveByCells(args: readonly number[]): void {
+    this.flush();
+    const [cells = 0, lines = 0] = args;
+    const from = { x: this.x, y: this.y };
+    const to =
+      args.length > 0 ? this.labels.moved(from, cells, lines) : this.labels.moved(this.labelStart, 0, -1);
+    this.x = to.x;
+    this.y = to.y;
+  }
+
+  private flush(isFilled = false): Box | null {
     const { shape } = this;
     shape.finish();
+    let box: Box | null = null;
     if (!shape.isEmpty && this.pen > 0) {
+      const color = PEN_COLORS[(this.pen - 1) % PEN_COLORS.length];
       const look = {
-        stroke: PEN_COLORS[(this.pen - 1) % PEN_COLORS.length],
-        fill: null,
+        stroke: isFilled ? null : color,
+        fill: isFilled ? color : null,
         evenOdd: false,
         strokeWidth: 0,
         dash: null,
       };
-      this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, () => `pen ${this.pen}`);
+      const where = (): string => `pen ${this.pen}`;
+      box = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
     }
     shape.clear();
+    return box;
   }
 
   private groupOf(pen: number): number {

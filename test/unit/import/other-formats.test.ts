@@ -164,12 +164,6 @@ describe("HPGL", () => {
     expect(shapesOf(drawing)).toEqual(["M0 0.5L0.5 0.5L0.5 0"]);
   });
 
-  it("passes over labels, and says so", () => {
-    const drawing = hpgl("IN;SP1;PU0,0;LBPD PU hello\u0003;PD400,400;");
-    expect(drawing.paths.count).toBe(1);
-    expect(codes(drawing)).toEqual(["text-not-drawn"]);
-  });
-
   it("needs no separators", () => {
     expect(shapesOf(hpgl("INSP1PU0,0PD400,0PU"))).toEqual(["M0 0L10 0"]);
   });
