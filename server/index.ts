@@ -66,6 +66,8 @@ export interface ServerOptions {
   readonly sharedQueue?: string;
   /** How often a free plotter looks there; 2000 unless told. */
   readonly sharedPollMs?: number;
+  /** Silence after which a server that shares jobs counts as gone; 60 000 unless told. */
+  readonly sharedLostAfterMs?: number;
   /** Gets one line for each thing worth knowing; silent unless given. */
   readonly log?: (line: string) => void;
 }
@@ -211,7 +213,7 @@ async function openParts(
 
 /** Only a server that shares its queue loads what it takes for that. */
 async function openShared(
-  { sharedQueue, sharedPollMs }: ServerOptions,
+  { sharedQueue, sharedPollMs, sharedLostAfterMs }: ServerOptions,
   parts: Pick<SharedParts, "queue" | "files" | "plotters" | "log"> & {
     readonly store: Store;
     readonly notices: Notices;
@@ -229,6 +231,7 @@ async function openShared(
     serverName: hostname(),
     notice: (message) => notices.add(message),
     ...(sharedPollMs === undefined ? {} : { pollMs: sharedPollMs }),
+    ...(sharedLostAfterMs === undefined ? {} : { lostAfterMs: sharedLostAfterMs }),
   });
 }
 

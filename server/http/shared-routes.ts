@@ -21,6 +21,10 @@ export function sharedRoutes(shared: SharedQueue | null): Router {
     const id = await present().send(parseWith(newSharedJobSchema, request.body));
     response.status(201).json({ id });
   });
+  router.post("/:id/give-back", async (request, response) => {
+    await present().giveBack(request.params.id);
+    response.json({ ok: true });
+  });
   router.delete("/:id", async (request, response) => {
     await present().withdraw(request.params.id);
     response.json({ ok: true });

@@ -90,6 +90,12 @@ export const STUDIO_ROUTES: readonly ApiRoute[] = [
     answer: z.object({ id: z.string() }),
     status: 201,
   },
+  {
+    method: "post",
+    path: "/shared-jobs/:id/give-back",
+    about: "Lets another server have what one that has gone took and did not begin",
+    answer: okSchema,
+  },
   { method: "delete", path: "/shared-jobs/:id", about: "Withdraws one that still waits", answer: okSchema },
   { method: "get", path: "/logs", about: "What happened, to be sent to whoever helps", answer: "text" },
 ];

@@ -51,7 +51,7 @@ export class JobBook {
     store.together(() => {
       store.addJob(job, drawing, beforeId);
       if (watched !== undefined) store.saveSeen(watched);
-      if (sharedId !== undefined) store.saveShared(sharedId);
+      if (sharedId !== undefined) store.saveShared(sharedId, job.id);
     });
     this.#jobs.set(job.id, job);
     this.#parts.announce({ type: "job", job });

@@ -73,6 +73,9 @@ const MIGRATIONS: readonly string[] = [
   `CREATE TABLE shared (               -- jobs of the shared queue that have come in
      id         TEXT PRIMARY KEY
    );`,
+  `-- job_id: null for those from before it was kept. is_told: the others know that it has begun.
+   ALTER TABLE shared ADD COLUMN job_id TEXT;
+   ALTER TABLE shared ADD COLUMN is_told INTEGER NOT NULL DEFAULT 0;`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */
@@ -85,6 +88,6 @@ export function migrate(db: Database, path: string): void {
     );
   }
   for (let step = version; step < MIGRATIONS.length; step++) {
-    db.exec(`BEGIN IMMEDIATE; ${MIGRATIONS[step]} PRAGMA user_version = ${step + 1}; COMMIT;`);
+    db.exec(`BEGIN IMMEDIATE; ${MIGRATIONS[step]}\nPRAGMA user_version = ${step + 1}; COMMIT;`);
   }
 }

@@ -127,8 +127,25 @@ export class Store {
     return this.#db.get("SELECT 1 FROM shared WHERE id = ?", [id]) !== null;
   }
 
-  saveShared(id: string): void {
-    this.#run("INSERT INTO shared (id) VALUES (?)", [id]);
+  saveShared(id: string, jobId: string): void {
+    this.#run("INSERT INTO shared (id, job_id) VALUES (?, ?)", [id, jobId]);
+  }
+
+  /** Jobs of the shared queue of which the other servers do not know yet that they have begun. */
+  untoldShared(): { readonly id: string; readonly jobId: string }[] {
+    return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0 AND job_id IS NOT NULL").map((row) => ({
+      id: String(row["id"]),
+      jobId: String(row["job_id"]),
+    }));
+  }
+
+  saveTold(id: string): void {
+    this.#run("UPDATE shared SET is_told = 1 WHERE id = ?", [id]);
+  }
+
+  /** It was given away, and may come in again. */
+  forgetShared(id: string): void {
+    this.#run("DELETE FROM shared WHERE id = ?", [id]);
   }
 
   /** Last in the queue, or before another job of it. */

@@ -23,7 +23,7 @@ export interface SharedParts {
   readonly serverId: string;
   /** For people. */
   readonly serverName: string;
-  readonly store: Pick<Store, "isShared">;
+  readonly store: Pick<Store, "isShared" | "untoldShared" | "saveTold" | "forgetShared">;
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
@@ -31,9 +31,12 @@ export interface SharedParts {
   readonly notice: (message: string) => void;
   /** 2 s unless told. */
   readonly pollMs?: number;
+  /** A server that was not heard of for so long counts as gone; 60 s unless told. */
+  readonly lostAfterMs?: number;
 }
 
 const POLL_MS = 2_000;
+const LOST_AFTER_MS = 60_000;
 const payloadSchema = newSharedJobSchema.omit({ target: true });
 
 export class SharedQueue {
@@ -45,6 +48,8 @@ export class SharedQueue {
   #isCaughtUp = false;
   /** Taken, but not begun as yet. */
   readonly #unstarted = new Set<string>();
+  /** Jobs on servers that have gone, of which has been told. */
+  readonly #toldOf = new Set<string>();
   #lastTrouble: string | null = null;
 
   constructor(parts: SharedParts) {
@@ -62,6 +67,15 @@ export class SharedQueue {
 
   withdraw(id: string): Promise<void> {
     return this.#parts.shared.withdraw(id);
+  }
+
+  /** What a server took that has gone since, and has not begun there, waits again. Throws `conflict`. */
+  giveBack(id: string): Promise<void> {
+    return this.#parts.shared.giveBack(id, this.#lostAfterMs);
+  }
+
+  get #lostAfterMs(): number {
+    return this.#parts.lostAfterMs ?? LOST_AFTER_MS;
   }
 
   /** Looks for work at once, unless it does already: to be called when a plotter may have become free. */
@@ -83,11 +97,15 @@ export class SharedQueue {
   async #round(): Promise<void> {
     const { shared, serverId, log } = this.#parts;
     try {
+      await shared.seen(serverId);
       if (!this.#isCaughtUp) {
+        await this.#letGo();
         for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
         this.#isCaughtUp = true;
       }
+      await this.#tellBegun();
       this.#startThem();
+      await this.#tellLost();
       for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
       if (this.#lastTrouble !== null) log("shared queue: it works again");
       this.#lastTrouble = null;
@@ -100,6 +118,45 @@ export class SharedQueue {
     if (this.#isClosed) return;
     this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
     this.#timer.unref();
+  }
+
+  /** While this server was away, others may have been given what it had taken. */
+  async #letGo(): Promise<void> {
+    const { shared, store, serverId, queue, log, notice } = this.#parts;
+    for (const { id, jobId } of store.untoldShared()) {
+      const job = queue.list().find((one) => one.id === jobId);
+      if (job?.state !== "queued" || (await shared.isStill(id, serverId))) continue;
+      await queue.remove(jobId);
+      store.forgetShared(id);
+      const message = `"${job.name}" was given to another server while this one was away.`;
+      log(`shared queue: ${message}`);
+      notice(message);
+    }
+  }
+
+  /** What has begun here is nobody else's any more. */
+  async #tellBegun(): Promise<void> {
+    const { shared, store, serverId, queue, notice } = this.#parts;
+    for (const { id, jobId } of store.untoldShared()) {
+      const job = queue.list().find((one) => one.id === jobId);
+      if (job?.state === "queued") continue;
+      const isOurs = await shared.begun(id, serverId);
+      store.saveTold(id);
+      if (isOurs || job === undefined) continue;
+      notice(`"${job.name}" was given to another server while this one was away, and may be drawn twice.`);
+    }
+  }
+
+  /** Once for each job: somebody has to say whether it shall wait. */
+  async #tellLost(): Promise<void> {
+    const { shared, notice } = this.#parts;
+    for (const { id, name, server } of await shared.lost(this.#lostAfterMs)) {
+      if (this.#toldOf.has(id)) continue;
+      this.#toldOf.add(id);
+      notice(
+        `"${name}" is with ${server}, which has gone. It waits there until that server is back; to let another one plot it: POST /api/v1/shared-jobs/${id}/give-back.`,
+      );
+    }
   }
 
   /** Where the queue runs on; again and again, since a plotter may have lost its board just now. */

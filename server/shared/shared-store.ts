@@ -24,7 +24,7 @@ export interface Taker {
   readonly plotterId: string;
 }
 
-const TABLE = `CREATE TABLE IF NOT EXISTS plotwright_jobs (
+const TABLES = `CREATE TABLE IF NOT EXISTS plotwright_jobs (
   id         text PRIMARY KEY,
   name       text NOT NULL,
   target     text NOT NULL,
@@ -35,10 +35,20 @@ const TABLE = `CREATE TABLE IF NOT EXISTS plotwright_jobs (
   message    text,
   payload    text,
   created_at timestamptz NOT NULL DEFAULT now()
+);
+ALTER TABLE plotwright_jobs ADD COLUMN IF NOT EXISTS has_begun boolean NOT NULL DEFAULT false;
+CREATE TABLE IF NOT EXISTS plotwright_servers (
+  id         text PRIMARY KEY,
+  seen_at    timestamptz NOT NULL
 )`;
 /** Unfetched jobs are never thrown away: somebody's plotter may be on holiday. */
 const RETENTION_DAYS = 3_650;
 const MOST_LISTED = 500;
+
+/** $1: ms of silence after which a server counts as gone. */
+const LOST = `state IN ('taken', 'stored') AND NOT has_begun AND payload IS NOT NULL AND NOT EXISTS (
+  SELECT 1 FROM plotwright_servers WHERE plotwright_servers.id = job.server_id
+  AND seen_at > now() - make_interval(secs => $1::double precision / 1000))`;
 
 type Row = Record<string, unknown>;
 
@@ -64,7 +74,7 @@ export class SharedStore {
       pool = new pg.Pool({ connectionString: url, max: 3 });
       const tell = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", tell);
-      await pool.query(TABLE);
+      await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
       boss.on("error", tell);
       await boss.start();
@@ -118,12 +128,76 @@ export class SharedStore {
     return rows.map(takenFrom);
   }
 
-  /** It is in the taker's queue now, or can't be: the drawing is not needed here any more. */
+  /** It is in the taker's queue now, or can't be. The drawing is kept until it begins: it may be given back. */
   async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
     await this.#pool.query(
-      "UPDATE plotwright_jobs SET state = $2, message = $3, payload = NULL WHERE id = $1",
+      `UPDATE plotwright_jobs SET state = $2, message = $3,
+       payload = CASE WHEN $2 = 'refused' THEN NULL ELSE payload END WHERE id = $1`,
       [id, state, message],
     );
+  }
+
+  /** Its plot has begun, or it was removed: it stays with its server. False: it is another one's by now. */
+  async begun(id: string, serverId: string): Promise<boolean> {
+    const { rowCount } = await this.#pool.query(
+      "UPDATE plotwright_jobs SET has_begun = true, payload = NULL WHERE id = $1 AND server_id = $2",
+      [id, serverId],
+    );
+    return rowCount !== 0;
+  }
+
+  async isStill(id: string, serverId: string): Promise<boolean> {
+    const { rowCount } = await this.#pool.query(
+      "SELECT 1 FROM plotwright_jobs WHERE id = $1 AND server_id = $2",
+      [id, serverId],
+    );
+    return rowCount !== 0;
+  }
+
+  /** This server lives. */
+  async seen(serverId: string): Promise<void> {
+    await this.#pool.query(
+      `INSERT INTO plotwright_servers (id, seen_at) VALUES ($1, now())
+       ON CONFLICT (id) DO UPDATE SET seen_at = now()`,
+      [serverId],
+    );
+  }
+
+  /** Waits again for any server of its target. Throws `conflict` for what has begun or whose server lives. */
+  async giveBack(id: string, lostAfterMs: number): Promise<void> {
+    const target = await this.#transaction(async (client) => {
+      const { rows } = await client.query<Row>(
+        `UPDATE plotwright_jobs job SET state = 'waiting', server_id = NULL, server = NULL, plotter_id = NULL
+         WHERE ${LOST} AND job.id = $2 RETURNING target`,
+        [lostAfterMs, id],
+      );
+      if (rows[0] === undefined) return null;
+      const text = String(rows[0]["target"]);
+      await this.#boss.send(
+        await this.#queueOf(text),
+        { id },
+        { db: plainDb(client), retentionDays: RETENTION_DAYS },
+      );
+      return text;
+    });
+    if (target !== null) return;
+    const job = (await this.list()).find((one) => one.id === id);
+    throw new PlotwrightError("conflict", whyNot(job));
+  }
+
+  /** What waits on servers that have gone, and has not begun there. */
+  async lost(
+    lostAfterMs: number,
+  ): Promise<{ readonly id: string; readonly name: string; readonly server: string }[]> {
+    const { rows } = await this.#pool.query<Row>(
+      `SELECT id, name, server FROM plotwright_jobs job WHERE ${LOST} ORDER BY created_at LIMIT ${MOST_LISTED}`,
+      [lostAfterMs],
+    );
+    return rows.map(({ id, name, server }) => ({
+      id: String(id),
+      name: String(name),
+      server: String(server),
+    }));
   }
 
   /** Takes back a job that waits; throws `conflict` for one that a server has taken. */
@@ -140,11 +214,17 @@ export class SharedStore {
   /** Newest first. */
   async list(): Promise<SharedJob[]> {
     const { rows } = await this.#pool.query<Row>(
-      `SELECT id, name, target, state, server, message, created_at FROM plotwright_jobs
+      `SELECT job.id, name, target, state, server, message, has_begun, seen_at, created_at
+       FROM plotwright_jobs job LEFT JOIN plotwright_servers ON plotwright_servers.id = job.server_id
        ORDER BY created_at DESC LIMIT ${MOST_LISTED}`,
     );
-    return rows.map(({ created_at: createdAt, ...row }) =>
-      sharedJobSchema.parse({ ...row, createdAt: new Date(createdAt as Date).toISOString() }),
+    return rows.map(({ created_at: createdAt, seen_at: seenAt, has_begun: hasBegun, ...row }) =>
+      sharedJobSchema.parse({
+        ...row,
+        hasBegun,
+        serverSeenAt: seenAt === null ? null : new Date(seenAt as Date).toISOString(),
+        createdAt: new Date(createdAt as Date).toISOString(),
+      }),
     );
   }
 
@@ -188,6 +268,17 @@ const takenFrom = ({ id, plotter_id: plotterId, payload }: Row): TakenJob => ({
   plotterId: String(plotterId),
   payload: String(payload),
 });
+
+function whyNot(job: SharedJob | undefined): string {
+  if (job === undefined) return "There is no such job in the shared queue.";
+  const where = job.server ?? "any server";
+  if (job.state !== "taken" && job.state !== "stored")
+    return `"${job.name}" is ${job.state}: there is nothing to give back.`;
+  if (job.hasBegun) {
+    return `"${job.name}" has begun on ${where}: look at the paper there, and send the drawing anew if it has to be drawn again.`;
+  }
+  return `${where} was heard of just now: it will plot "${job.name}". Remove the job there, or switch that server off first.`;
+}
 
 /** Never the address: it has a password in it. */
 function words(error: unknown): string {

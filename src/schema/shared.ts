@@ -17,7 +17,10 @@ export const newSharedJobSchema = z.object({
 });
 export type NewSharedJob = z.infer<typeof newSharedJobSchema>;
 
-/** waiting ──> taken ──> stored (in the queue of `server`) | refused (it can't be plotted); waiting ──> withdrawn */
+/**
+ * waiting ──> taken ──> stored (in the queue of `server`) | refused (it can't be plotted); waiting ──> withdrawn
+ *    ^──────────┴─────────┘ given back, as long as it has not begun, when its server has gone
+ */
 export const sharedJobSchema = z.object({
   id: z.string(),
   name: z.string(),
@@ -25,6 +28,10 @@ export const sharedJobSchema = z.object({
   state: z.enum(["waiting", "taken", "stored", "refused", "withdrawn"]),
   /** Name of the server that has taken it. */
   server: z.string().nullable(),
+  /** When that server was heard of last (ISO 8601); null when it never was. */
+  serverSeenAt: z.string().nullable().default(null),
+  /** Its plot has begun there, so that it can't be given back. */
+  hasBegun: z.boolean().default(false),
   message: z.string().nullable(),
   createdAt: z.string(),
 });
