@@ -6,40 +6,39 @@
  * Source: parabolic blends as in Oquam and Romi's planners; the two passes over entry and exit speeds, which
  * let the pen change its speed inside dense curves too, are ours.
  *
- *               u1 /      φ       turn angle; s = sin(φ/2), c = cos φ = u0·u1
+ *               u1 /      φ       turn angle; s = sin(φ/2)
  *                 /       L       longest tangent: min(2 δ / s, half of the shorter segment), mm
  *        L1 →   ,´        v0, v1  speed where the curve begins and ends, mm/s
- *     u0      ,´          τ       half the time that the curve takes, s
+ *     u0      ,´          q       |v1 u1 − v0 u0|, mm/s
  *    -----·-´ corner      e       distance of corner and curve, at most L s / 2 ≤ δ
  *        L0
  *
- * From v0 u0 to v1 u1 in time 2 τ under constant acceleration:  a = (v1 u1 − v0 u0) / 2 τ, and the curve is the
- * quadratic Bézier with tangents L0 = v0 τ, L1 = v1 τ. The longer one may be L, so τ = L / max(v0, v1), and
- * |a| ≤ A reads, with w = max and v = min of the two speeds,
+ * From v0 u0 to v1 u1 under |a| = A takes q/A; the curve is the quadratic Bézier with tangents L0 = v0 q/2A ≤ L and
+ * L1 = v1 q/2A ≤ L. For v0 = v1 that is v² ≤ A L / s, the corner speed vc, and both speeds are kept ≤ vc. What the
+ * tangents leave of a segment of length l is straight, and there v² changes by at most 2 A a mm. From a corner to the next
+ * one (its values marked ') that reads
  *
- *     w² (w² + v² − 2 c v w) ≤ 4 L² A²                     (1)
+ *     braking      v1² + v1 q ≤ v0'² − v0' q' + 2 A l
+ *     speeding up  v0'² + v0' q' ≤ v1² − v1 q + 2 A l
  *
- * For v = w that is v² ≤ A L / s, the corner speed vc: the time-optimal way round a lone corner, since
- * |a| = A throughout. Both speeds are kept ≤ vc; then the fastest w for a given v never falls when v rises, so one
- * backward and one forward pass (as in look-ahead.ts) find the greatest speeds that satisfy (1) at
- * every corner and v² ≤ v² + 2 A d on every straight piece between.
+ * One backward and one forward pass (as in look-ahead.ts) take every corner as fast as that allows, which
+ * corner-speeds.ts works out. Where the forward pass has to slow a corner down it has been sped up to from the one before,
+ * which then can brake for it: v1 q + v0' q' ≤ 2 A l, since no tangent is longer than half of its segment.
  *
  * |v| ≤ V and the motors' limits hold inside a curve because velocity runs straight from v0 u0 to v1 u1 in it,
  * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
+import { CornerSpeeds } from "./corner-speeds.js";
 import { capSegments, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { writeStraight, type Straight } from "./straight.js";
 
-/** Below this sin²(φ/2) the way goes straight on: there is nothing to round. */
-const STRAIGHT = 1e-24;
+/** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
+const STRAIGHT = 1e-12;
 
-/**
- * cos φ of a turn so sharp that the curve is made no longer than A needs when V keeps the pen slower than vc:
- * speed dips to cos(φ/2) in the middle of a curve. Gentler turns stay long and soft, as in a dense curve.
- */
-const SHARP = 0.755;
+/** Above this sin(φ/2) a curve is no longer than A needs: speed dips to cos(φ/2) in the middle of it. */
+const SHARP = 0.35;
 
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
@@ -47,13 +46,17 @@ const NO_PIECE = 1e-10;
 export class BlendPlanner {
   /** L of each vertex, mm; 0 at the ends and where the way goes straight on. */
   private tangent = new Float64Array(0);
-  /** cos φ of each vertex. */
-  private cosine = new Float64Array(0);
+  /** s of each vertex, 0 where the way goes straight on. */
+  private sine = new Float64Array(0);
   /** Largest speed at each vertex, mm/s. */
   private limit = new Float64Array(0);
-  /** Speeds where each vertex's curve begins and ends, mm/s. */
+  /** (mm/s)²: how much v1² + v1 q may be at each vertex, for braking. */
+  private behind = new Float64Array(0);
+  /** Speeds where each vertex's curve begins and ends, and its q, mm/s. */
   private vIn = new Float64Array(0);
   private vOut = new Float64Array(0);
+  private change = new Float64Array(0);
+  private readonly corner = new CornerSpeeds();
   private readonly straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, length: 0 };
 
   /** Writes one run from rest to rest. */
@@ -70,25 +73,24 @@ export class BlendPlanner {
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */
   private roundCorners(path: RunPath, limits: RunLimits): void {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
-    const { tangent, cosine, limit } = this;
+    const { tangent, sine, limit } = this;
     tangent[0] = tangent[n] = 0;
-    cosine[0] = cosine[n] = 1;
+    sine[0] = sine[n] = 0;
     limit[0] = limit[n] = 0;
     for (let i = 1; i < n; i++) {
       const dx = ux[i]! - ux[i - 1]!;
       const dy = uy[i]! - uy[i - 1]!;
-      const s2 = (dx * dx + dy * dy) / 4;
+      const s = Math.sqrt(dx * dx + dy * dy) / 2;
       let v2 = cap2[i]! < cap2[i - 1]! ? cap2[i]! : cap2[i - 1]!;
       let reach = 0;
-      if (s2 > STRAIGHT) {
-        const s = Math.sqrt(s2);
+      if (s > STRAIGHT) {
         const half = (length[i - 1]! < length[i]! ? length[i - 1]! : length[i]!) / 2;
         reach = (2 * limits.corner) / s < half ? (2 * limits.corner) / s : half;
         const curve2 = (limits.accel * reach) / s;
         if (curve2 < v2) v2 = curve2;
       }
       tangent[i] = reach;
-      cosine[i] = 1 - 2 * s2;
+      sine[i] = s > STRAIGHT ? s : 0;
       limit[i] = Math.sqrt(v2);
     }
   }
@@ -96,42 +98,42 @@ export class BlendPlanner {
   /** Speed second: the greatest speeds that straights and curves can connect. */
   private lookAhead(path: RunPath, accel: number): void {
     const { segmentCount: n, length } = path;
-    const { tangent, cosine, limit, vIn, vOut } = this;
-    vIn[n] = vOut[n] = 0;
+    const { tangent, sine, limit, behind, vIn, vOut, change, corner } = this;
+    const twoA = 2 * accel;
+    vIn[0] = vOut[0] = change[0] = 0;
+    vIn[n] = vOut[n] = change[n] = 0;
+    let left = 0;
     for (let i = n - 1; i > 0; i--) {
-      const next = vIn[i + 1]!;
-      const straight = length[i]! - tangent[i]! - tangent[i + 1]!;
-      const reached = straight > 0 ? Math.sqrt(next * next + 2 * accel * straight) : next;
-      const v = reached < limit[i]! ? reached : limit[i]!;
-      vOut[i] = v;
-      vIn[i] = fastestAcross(v, limit[i]!, cosine[i]!, tangent[i]! * accel);
+      behind[i] = left + twoA * length[i]!;
+      corner.solve(sine[i]!, twoA * tangent[i]!, limit[i]!, Infinity, behind[i]!);
+      vIn[i] = corner.v0;
+      vOut[i] = corner.v1;
+      change[i] = corner.change;
+      left = corner.v0 * (corner.v0 - corner.change);
     }
-    vIn[0] = vOut[0] = 0;
-    for (let i = 1; i <= n; i++) {
-      const before = vOut[i - 1]!;
-      const straight = length[i - 1]! - tangent[i - 1]! - tangent[i]!;
-      const reached = straight > 0 ? Math.sqrt(before * before + 2 * accel * straight) : before;
-      if (reached < vIn[i]!) vIn[i] = reached;
-      if (i === n || vOut[i]! <= vIn[i]!) continue;
-      const across = fastestAcross(vIn[i]!, limit[i]!, cosine[i]!, tangent[i]! * accel);
-      if (across < vOut[i]!) vOut[i] = across;
+    left = 0;
+    for (let i = 1; i < n; i++) {
+      const before = left + twoA * length[i - 1]!;
+      if (vIn[i]! * (vIn[i]! + change[i]!) > before) {
+        corner.solve(sine[i]!, twoA * tangent[i]!, limit[i]!, before, behind[i]!);
+        vIn[i] = corner.v0;
+        vOut[i] = corner.v1;
+        change[i] = corner.change;
+      }
+      left = vOut[i]! * (vOut[i]! - change[i]!);
     }
   }
 
   /** Pieces last: one parabola a corner, a trapezoid on each straight between. */
   private writeBlocks(path: RunPath, { accel, floorS }: RunLimits, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
-    const { tangent, cosine, vIn, vOut, straight } = this;
+    const { vIn, vOut, straight } = this;
     let along = path.startAlong;
     let used = 0;
     for (let i = 0; i < n; i++) {
       const v0 = vIn[i + 1]!;
       const v1 = vOut[i + 1]!;
-      let tau = tangent[i + 1]! > 0 ? tangent[i + 1]! / (v0 > v1 ? v0 : v1) : 0;
-      if (cosine[i + 1]! < SHARP) {
-        const change2 = v0 * v0 + v1 * v1 - 2 * v0 * v1 * cosine[i + 1]!;
-        tau = Math.min(tau, Math.sqrt(change2) / (2 * accel));
-      }
+      const tau = this.halfTime(i + 1, n, accel);
       const ex = ux[i]!;
       const ey = uy[i]!;
       straight.length = length[i]! - used - v0 * tau;
@@ -159,34 +161,27 @@ export class BlendPlanner {
     }
   }
 
+  /**
+   * Half of the time that the curve at a vertex takes, s: q/2A. Where speed is the same all the way from the corner before to
+   * the one after it takes no longer if it is long and soft instead; unless it is sharp.
+   */
+  private halfTime(i: number, n: number, accel: number): number {
+    const { tangent, sine, vIn, vOut, change } = this;
+    const v = vIn[i]!;
+    const isSteady = i < n && vOut[i] === v && vOut[i - 1] === v && vIn[i + 1] === v;
+    if (isSteady && v > 0 && sine[i]! < SHARP) return tangent[i]! / v;
+    return change[i]! / (2 * accel);
+  }
+
   private reserve(points: number): void {
     if (this.tangent.length >= points) return;
     const size = Math.max(points, 2 * this.tangent.length);
     this.tangent = new Float64Array(size);
-    this.cosine = new Float64Array(size);
+    this.sine = new Float64Array(size);
     this.limit = new Float64Array(size);
+    this.behind = new Float64Array(size);
     this.vIn = new Float64Array(size);
     this.vOut = new Float64Array(size);
+    this.change = new Float64Array(size);
   }
-}
-
-/**
- * The greatest w in [v, limit] for which (1) holds, given the other speed v ≤ limit; `LA` is L A, mm²/s².
- * For c = 1 (1) reads w (w − v) ≤ 2 L A, whose root is never below the true one; from there Newton's steps fall
- * towards it without passing it, since the left side is convex in w.
- */
-function fastestAcross(v: number, limit: number, c: number, LA: number): number {
-  if (LA === 0) return v;
-  const most = 4 * LA * LA;
-  if (limit * limit * (limit * limit + v * v - 2 * c * v * limit) <= most) return limit;
-  let w = (v + Math.sqrt(v * v + 8 * LA)) / 2;
-  if (w > limit) w = limit;
-  for (let i = 0; i < 50; i++) {
-    const excess = w * w * (w * w + v * v - 2 * c * v * w) - most;
-    const slope = 2 * w * (2 * w * w - 3 * c * v * w + v * v);
-    const step = excess / slope;
-    w -= step;
-    if (!(step > 1e-13 * w)) break;
-  }
-  return w > v ? w : v;
 }

@@ -22,7 +22,7 @@
  * vertices of `junction` plans stay at the ends of pieces only.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { FitSource, isBeside } from "./fit-source.js";
+import { FitSource, isBeside, type PlannedRun } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { FitSettings, MotionMode } from "./settings.js";
 import { PieceChain } from "./piece-chain.js";
@@ -44,8 +44,12 @@ const KEPT_S = 0.2;
 /** So are blocks that turn the velocity by more than this, by its cosine. */
 const SHARP = 0.755;
 
-/** Pieces may take so much more time than the plan. */
+/** At full speed pairs may take so much more time than the plan. */
 const LATER = 1.03;
+
+/** Times of the plan that a pair may take, the first that keeps A; and the pace of a steady piece where it cannot keep up. */
+const STRETCHES = [1, 1.02, 1.04, 1.06];
+const SLOWER = 0.95;
 
 /** What knots may use of the slack that limits have. */
 const HARDLY = 1.0004;
@@ -77,6 +81,8 @@ export class AccelerationFitter {
   /** First block that is to be kept, at or after `at.k`. */
   private anchor = 0;
   private guess = FIRST_S;
+  /** Seconds of the plan for each second of a steady piece. */
+  private pace = 1;
   /** What the next piece's length may be by that of the last one, by how near it came to ε. */
   private next = 1;
   /** Steady pieces since the last planned state: what `at`, and the count and clock of `out`, were before each. */
@@ -96,32 +102,23 @@ export class AccelerationFitter {
     this.steady = new SteadyPiece(mode !== "junction");
   }
 
-  /** Appends the run in `from` (all of its blocks, ending at the given place) to `out` in fewer pieces. */
-  write(
-    from: BlockColumns,
-    limits: RunLimits,
-    endX: number,
-    endY: number,
-    endAlong: number,
-    segments: number,
-    out: BlockColumns,
-  ): void {
-    this.source.set(from, endX, endY, endAlong);
+  /** Appends `run` to `out` in fewer pieces. */
+  write(run: PlannedRun, limits: RunLimits, out: BlockColumns): void {
+    this.source.open(run, out);
     this.limits = limits;
     this.bend = this.mode === "junction" ? Infinity : limits.accel;
     this.out = out;
-    out.reserve(Math.min(from.count, segments), segments);
     this.chain.count = 0;
     this.anchor = 0;
     this.guess = FIRST_S;
     this.startPlanned(0);
     // Up to here only pairs and kept blocks: steady pieces have led nowhere.
     let calm = 0;
-    while (this.at.k < from.count) {
+    while (this.at.k < run.blocks.count) {
       this.findAnchor();
       if (this.isPlanned && this.at.k === this.anchor) this.keep();
       else if (this.reachAnchor()) continue;
-      else if (!(this.at.k >= calm && this.advance()) && !this.join()) {
+      else if (!(this.at.k >= calm && (this.advance(1) || this.advance(SLOWER))) && !this.join()) {
         if (this.isPlanned) this.keep();
         else calm = Math.max(calm, this.goBack());
       }
@@ -153,12 +150,13 @@ export class AccelerationFitter {
     this.anchor = k;
   }
 
-  /** Writes the longest steady piece that is found; false where there is none worth it. */
-  private advance(): boolean {
+  /** Writes the longest steady piece at `pace` that is found; false where there is none worth it. */
+  private advance(pace: number): boolean {
     const { at, source } = this;
+    this.pace = pace;
     const left = source.startOf(this.anchor) - at.tau;
     const floor = this.settings.floorMs / 1000;
-    const least = Math.max(floor, source.startOf(at.k + 1) - at.tau);
+    const least = Math.max(floor, (source.startOf(at.k + 1) - at.tau) / pace);
     let most = Math.min(LONGEST_S, left > 3 * this.guess ? left / 2 : left / 3);
     while (most >= least) {
       const h = this.longest(Math.min(this.guess, most), least, most);
@@ -202,7 +200,7 @@ export class AccelerationFitter {
   /** One trial: the distance from the line as a share of what is allowed; 2 where a limit is broken. */
   private tryPiece(h: number): number {
     const { at, steady, limits } = this;
-    steady.solve(this.source.blocks, at, h);
+    steady.solve(this.source.blocks, at, h, this.pace);
     let vx = at.vx + h * steady.ax;
     let vy = at.vy + h * steady.ay;
     const v = Math.sqrt(vx * vx + vy * vy);
@@ -218,14 +216,14 @@ export class AccelerationFitter {
   }
 
   private writeSteady(): void {
-    const { at, h1: h, source } = this;
+    const { at, h1: h, pace, source } = this;
     this.chain.push(at, this.out);
     this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
     this.isPlanned = false;
     // τ goes to where the plan is nearest.
     const { x, y, vx, vy, ax, ay, startS } = source.blocks;
     const end = source.startOf(this.anchor);
-    let tau = at.tau + h;
+    let tau = at.tau + h * pace;
     let k = at.k;
     while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
     const d = tau - startS[k]!;
@@ -235,7 +233,7 @@ export class AccelerationFitter {
     const py = y[k]! + (d * (vy[k]! + wy)) / 2;
     const w2 = wx * wx + wy * wy;
     if (w2 > 0) tau += ((at.x - px) * wx + (at.y - py) * wy) / w2;
-    tau = Math.min(Math.max(tau, at.tau + h / 2), end - h / 2);
+    tau = Math.min(Math.max(tau, at.tau + (h * pace) / 2), end - h / 2);
     while (k > at.k && startS[k]! > tau) k--;
     while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
     at.tau = tau;
@@ -261,7 +259,12 @@ export class AccelerationFitter {
     return false;
   }
 
+  /** Whether a pair leads to the beginning of block m in the plan's time or a little more; leaves it for `writePair`. */
   private tryPair(m: number): boolean {
+    return STRETCHES.some((stretch) => this.tryPairIn(m, stretch));
+  }
+
+  private tryPairIn(m: number, stretch: number): boolean {
     const { at, source, limits } = this;
     const { durationS, vx, vy, ax, ay } = source.blocks;
     const length = source.startOf(m) - at.tau;
@@ -273,7 +276,7 @@ export class AccelerationFitter {
     const dy = source.yOf(m) - at.y;
     const sx = (at.vx + vx1) / 2;
     const sy = (at.vy + vy1) / 2;
-    let T = length;
+    let T = length * stretch;
     let mx = (2 * dx) / T - sx;
     let my = (2 * dy) / T - sy;
     const most2 = (limits.speed * HARDLY) ** 2;
@@ -284,7 +287,7 @@ export class AccelerationFitter {
       const root = along * along - d2 * (sx * sx + sy * sy - most2);
       if (!(root >= 0)) return false;
       T = (2 * d2) / (along + Math.sqrt(root));
-      if (!(T <= length * LATER)) return false;
+      if (!(T <= length * stretch * LATER)) return false;
       mx = (2 * dx) / T - sx;
       my = (2 * dy) / T - sy;
     }
@@ -393,8 +396,8 @@ export class AccelerationFitter {
     const { at, source } = this;
     const { blocks } = source;
     const isPair = length < Infinity;
-    const end = at.tau + (isPair ? length : this.h1);
-    const stretch = isPair ? (this.h1 + this.h2) / length : 1;
+    const end = at.tau + (isPair ? length : this.h1 * this.pace);
+    const stretch = isPair ? (this.h1 + this.h2) / length : 1 / this.pace;
     const most = BETWEEN * this.settings.toleranceMm;
     const often = LOOKS / (end - at.tau);
     for (let i = at.k; i < blocks.count; i++) {

@@ -8,7 +8,7 @@
  * fits (a sharp corner is a few short blocks by its nature) blocks stay as they are.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { FitSource, isBeside } from "./fit-source.js";
+import { FitSource, isBeside, type PlannedRun } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { FitSettings } from "./settings.js";
 import { keepsJerkLimits, solveAxis } from "./three-jerks.js";
@@ -38,25 +38,17 @@ export class JerkFitter {
 
   constructor(private readonly settings: FitSettings) {}
 
-  /** Appends the run in `from` (all of its blocks, ending at the given place) to `out` in fewer pieces. */
-  write(
-    from: BlockColumns,
-    limits: RunLimits,
-    endX: number,
-    endY: number,
-    endAlong: number,
-    segments: number,
-    out: BlockColumns,
-  ): void {
-    this.source.set(from, endX, endY, endAlong);
+  /** Appends `run` to `out` in fewer pieces. */
+  write(run: PlannedRun, limits: RunLimits, out: BlockColumns): void {
+    this.source.open(run, out);
     this.limits = limits;
-    out.reserve(Math.min(from.count, segments), segments);
+    const { blocks } = run;
     let guess = 4;
-    for (let k = 0; k < from.count;) {
+    for (let k = 0; k < blocks.count;) {
       let m = this.longest(k, guess);
       if (this.isWorth(k, m)) {
         const { source } = this;
-        const rest = from.clockS - source.startOf(m);
+        const rest = blocks.clockS - source.startOf(m);
         if (rest > 0 && rest < source.startOf(m) - source.startOf(k)) m = this.balanced(k, m);
         this.fits(k, m);
         this.writePieces(m, out);

@@ -1,18 +1,29 @@
 /** A planned run as the fit reads it: its blocks in columns, and where it ends at rest. */
 import type { BlockColumns } from "./block-columns.js";
 
+/** One run as planned: all of `blocks`, which start their clock at 0, and where they end, mm. */
+export interface PlannedRun {
+  readonly blocks: BlockColumns;
+  readonly endX: number;
+  readonly endY: number;
+  readonly endAlong: number;
+  /** Of the polyline. */
+  readonly segmentCount: number;
+}
+
 export class FitSource {
   blocks!: BlockColumns;
   private endX = 0;
   private endY = 0;
   private endAlong = 0;
 
-  /** All blocks in `blocks`, which starts its clock at 0, ending at the given place. */
-  set(blocks: BlockColumns, endX: number, endY: number, endAlong: number): void {
+  /** Reads `run` from now on; makes room in `out` for what it may become. */
+  open({ blocks, endX, endY, endAlong, segmentCount }: PlannedRun, out: BlockColumns): void {
     this.blocks = blocks;
     this.endX = endX;
     this.endY = endY;
     this.endAlong = endAlong;
+    out.reserve(Math.min(blocks.count, segmentCount), segmentCount);
   }
 
   /** Start of block k, s; of the one after the last: the run's end. */

@@ -30,7 +30,14 @@ export class RunWriter {
     if (this.fitter === null || n < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
     this.writeMode(path, isDense(path, limits.speed) ? this.withMargin(limits) : limits, this.unfitted);
-    this.fitter.write(this.unfitted, limits, path.x[n]!, path.y[n]!, path.endAlong(), n, out);
+    const run = {
+      blocks: this.unfitted,
+      endX: path.x[n]!,
+      endY: path.y[n]!,
+      endAlong: path.endAlong(),
+      segmentCount: n,
+    };
+    this.fitter.write(run, limits, out);
   }
 
   private withMargin(limits: RunLimits): RunLimits {
@@ -48,7 +55,7 @@ export class RunWriter {
 }
 
 /** Room that a dense curve's plan leaves for the fit: pieces longer than its own swing a little around it. */
-const ACCEL_MARGIN = 0.96;
+const ACCEL_MARGIN = 0.98;
 const SPEED_MARGIN = 0.985;
 
 /** A segment passed in less than this is a sample of a curve, s. */

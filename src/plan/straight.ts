@@ -7,7 +7,7 @@
 import type { BlockColumns } from "./block-columns.js";
 import { keepFloor, type Phases } from "./floor-phases.js";
 
-/** A change of speed² below this share of it, or a cruise below this share of the piece, is rounding. */
+/** A change of speed² below this share of it, or a cruise below this share of the piece or of its way from rest, is rounding. */
 const NEGLIGIBLE = 1e-11;
 
 /** A straight piece: where it begins, where it leads, how far. */
@@ -43,17 +43,20 @@ export function writeStraight(
   phases.rise = rise;
   phases.fall = fall;
   if (floorS > 0 && (rise > 0 || fall > 0)) keepFloor(l, v0, v1, accel, floorS, phases);
-  writePhases(piece, v0, v1, out);
+  writePhases(piece, v0, v1, Math.max(NEGLIGIBLE * l, least2 / (2 * accel)), out);
 }
 
 /** Filled anew for every piece. */
 const phases: Phases = { peak: 0, rise: 0, fall: 0 };
 
-/** Each phase ends where the next begins, and the last where the piece does: rounding opens no gap. */
-function writePhases(piece: Straight, v0: number, v1: number, out: BlockColumns): void {
+/**
+ * Each phase ends where the next begins, and the last where the piece does: rounding opens no gap. Steady for `least` mm
+ * or less is what rounding left.
+ */
+function writePhases(piece: Straight, v0: number, v1: number, least: number, out: BlockColumns): void {
   const { peak, rise, fall } = phases;
   const l = piece.length;
-  const cruises = l - rise - fall > NEGLIGIBLE * l;
+  const cruises = l - rise - fall > least;
   let done = 0;
   let w = v0;
   if (rise > 0 && (fall > 0 || cruises)) {

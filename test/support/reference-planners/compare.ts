@@ -41,7 +41,8 @@ export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonR
   return [...others, ...ours];
 }
 
-function linesOf(strokes: StrokeSet): Point[][] {
+/** The strokes as lists of points, without repeated ones and without dots. */
+export function linesOf(strokes: StrokeSet): Point[][] {
   const lines: Point[][] = [];
   for (let s = 0; s + 1 < strokes.offsets.length; s++) {
     const line: Point[] = [];

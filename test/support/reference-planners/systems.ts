@@ -65,7 +65,7 @@ const KLIPPER: ReferencePlanner = {
  * and at most δ away; straight pieces between, with trapezoids.
  *   δ:    v² = 2 A δ / sin²(φ/2)         length: v² = A L / sin(φ/2)
  */
-const OQUAM: ReferencePlanner = {
+export const OQUAM: ReferencePlanner = {
   name: "Oquam",
   cornerRule: "parabolic blend at one speed",
   profile: "trapezoid between blends",

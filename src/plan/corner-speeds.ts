@@ -1,0 +1,79 @@
+/**
+ * How fast one corner's curve may be entered and left: the fastest for what lies before and behind it.
+ *
+ *   s = sin(φ/2)     φ the turn
+ *   L       mm       longest tangent on either side           A  mm/s²
+ *   most    mm/s     greatest speed on either side, at most √(A L/s)
+ *   v0, v1  mm/s     speeds where the curve begins and ends
+ *   q       mm/s     |v1 u1 − v0 u0|: under |a| = A the curve takes q/A, and its tangents are v0 q/2A and v1 q/2A
+ *
+ * A pen that speeds up along a straight from speed z at its beginning has z² + 2 A x after x mm. Measured from the vertex, of
+ * which the curve's tangent falls short, entry at v0 therefore needs
+ *
+ *     v0² + v0 q ≤ F      F  the speed² that acceleration all the way to the vertex would reach
+ *     v1² + v1 q ≤ B      B  the same for braking, from behind
+ *
+ * and what the corner leaves for the straights beyond it is v1² − v1 q (forwards) and v0² − v0 q (backwards).
+ * For a given q the greatest speeds are  v = min(most, 2 A L/q, root of v² + v q = F or B).  They fall as q rises, so the
+ * fastest corner is the smallest q for which they turn by no more than q:  (v0 − v1)² + 4 s² v0 v1 ≤ q².
+ */
+export class CornerSpeeds {
+  v0 = 0;
+  v1 = 0;
+  /** q */
+  change = 0;
+
+  /** Sets v0, v1 and `change`; `reach` is 2 A L, mm²/s². F and B are above 0. */
+  solve(s: number, reach: number, most: number, F: number, B: number): void {
+    this.change = 2 * s * most;
+    const through = most * (most + this.change);
+    if (through <= F && through <= B) {
+      this.v0 = this.v1 = most;
+    } else if (s === 0) {
+      this.v0 = this.v1 = Math.min(most, Math.sqrt(Math.min(F, B)));
+      this.change = 0;
+    } else this.search(s, reach, most, F, B);
+  }
+
+  /** Newton's steps from q = 2 s most, kept between a q too small and one large enough, and halvings now and then. */
+  private search(s: number, reach: number, most: number, F: number, B: number): void {
+    const c = 1 - 2 * s * s;
+    let q = this.change;
+    let low = 0;
+    let high = 2 * most;
+    for (let i = 0; i < 60; i++) {
+      let v0 = most;
+      let slope0 = 0;
+      let v1 = most;
+      let slope1 = 0;
+      if (most * q > reach) {
+        v0 = v1 = reach / q;
+        slope0 = slope1 = -v0 / q;
+      }
+      if (v0 * (v0 + q) > F) {
+        const root = Math.sqrt(q * q + 4 * F);
+        v0 = (2 * F) / (q + root);
+        slope0 = -v0 / root;
+      }
+      if (v1 * (v1 + q) > B) {
+        const root = Math.sqrt(q * q + 4 * B);
+        v1 = (2 * B) / (q + root);
+        slope1 = -v1 / root;
+      }
+      this.v0 = v0;
+      this.v1 = v1;
+      this.change = q;
+      const turned = Math.sqrt((v0 - v1) * (v0 - v1) + 4 * s * s * v0 * v1);
+      const excess = turned - q;
+      if (Math.abs(excess) <= SAME * most) return;
+      if (excess > 0) low = q;
+      else high = q;
+      q -= excess / ((slope0 * (v0 - c * v1) + slope1 * (v1 - c * v0)) / turned - 1);
+      // Where another limit takes over, Newton's steps alone could go to and fro.
+      if (!(q > low && q < high) || i % 4 === 3) q = (low + high) / 2;
+    }
+  }
+}
+
+/** Share of a speed that is rounding. */
+const SAME = 2e-15;
