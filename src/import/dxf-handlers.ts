@@ -1,12 +1,21 @@
 /**
- * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH, group by
- * group (AutoCAD DXF reference, ENTITIES). Registered with the parser, in whose form they come out.
+ * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH; and LWPOLYLINE,
+ * of which it loses vertices, or never ends, where other groups stand between them. Read group by group (AutoCAD DXF
+ * reference, ENTITIES) and registered with the parser, in whose form they come out.
  */
 import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
 import { aciColor } from "./aci-color.js";
-import { readHatchLoops } from "./dxf-hatch.js";
+import { bulgedVertices, readHatchLoops } from "./dxf-hatch.js";
 
 export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
+  class {
+    readonly ForEntityName = "LWPOLYLINE";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      const groups = groupsOf(scanner);
+      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
+      return { ...commonOf("LWPOLYLINE", groups), shape: isClosed, vertices: bulgedVertices(groups) };
+    }
+  },
   class {
     readonly ForEntityName = "TEXT";
     parseEntity(scanner: DxfScanner): DxfEntity {

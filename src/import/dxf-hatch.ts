@@ -26,7 +26,7 @@ export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
   const paths = splitAt(groups.slice(from, style < 0 ? undefined : style), LOOP);
   return paths.map(([flags, ...path]) =>
     (Number(flags.value) & IS_POLYLINE) !== 0
-      ? [polylineOf(path)]
+      ? [{ type: "LWPOLYLINE", shape: true, vertices: bulgedVertices(path) }]
       : splitAt(path, EDGE)
           .map(edgeOf)
           .filter((edge) => edge !== null),
@@ -43,11 +43,13 @@ function splitAt(groups: readonly DxfGroup[], code: number): DxfGroup[][] {
   return parts;
 }
 
-function polylineOf(groups: readonly DxfGroup[]): DxfEntity {
-  const bulges = splitAt(groups, 10).map((vertex) => numbersOf(vertex, 42)[0] ?? 0);
-  const vertices = pointsOf(groups, 10).map((point, i) => ({ ...point, bulge: bulges[i] }));
-  return { type: "LWPOLYLINE", shape: true, vertices };
-}
+/** Vertices as 10, 20 and 42, whatever stands between them. */
+export const bulgedVertices = (groups: readonly DxfGroup[]): DxfPoint[] =>
+  splitAt(groups, 10).map((vertex) => ({
+    x: Number(vertex[0].value),
+    y: numbersOf(vertex, 20)[0] ?? 0,
+    bulge: numbersOf(vertex, 42)[0] ?? 0,
+  }));
 
 function edgeOf([kind, ...groups]: readonly DxfGroup[]): DxfEntity | null {
   const [at] = pointsOf(groups, 10);

@@ -52,7 +52,33 @@ export function importDxf(text: string, options: ImportOptions): Drawing {
       "This DXF is in the binary form. Save it as text (ASCII) DXF and try again.",
     );
   }
+  checkGroups(text);
   return new DxfImport(parse(text), fontOf(options)).run(text);
+}
+
+/**
+ * A DXF is groups of two lines, the first of them a number. Where a line is lost or added the parser would take
+ * values for numbers and the other way round, to the end of the file.
+ */
+function checkGroups(text: string): void {
+  const lineBreak = text.includes("\n") ? "\n" : "\r";
+  const lineEnd = (at: number): number => {
+    const end = text.indexOf(lineBreak, at);
+    return end < 0 ? text.length : end;
+  };
+  for (let at = 0, line = 1; at < text.length; line += 2) {
+    const endOfCode = lineEnd(at);
+    const code = text.slice(at, endOfCode).trim();
+    const endOfValue = lineEnd(endOfCode + 1);
+    if (code === "0" && text.slice(endOfCode + 1, endOfValue).trim() === "EOF") return;
+    if (!/^-?\d{1,4}$/.test(code) && text.slice(at).trim() !== "") {
+      throw new PlotwrightError(
+        "bad-file",
+        `The DXF is damaged at line ${line}: "${code.slice(0, 20)}" is no group code. Save it again, best as DXF R12 or 2000.`,
+      );
+    }
+    at = endOfValue + 1;
+  }
 }
 
 function parse(text: string): Dxf {

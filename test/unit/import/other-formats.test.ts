@@ -69,6 +69,13 @@ describe("DXF", () => {
     expect(shapesOf(draw(body))).toEqual(["M0 10L10 10L10 0Z", "M0 10L10 10L10 0Z"]);
   });
 
+  it("keeps the vertices of a polyline with other groups between them", () => {
+    // 91 is a vertex's number, 40 and 41 its widths.
+    const body =
+      "0 LWPOLYLINE 8 0 90 3 70 0 43 0 10 0 20 0 91 1 10 10 20 0 40 1 41 1 42 0 91 2 10 10 91 3 20 10";
+    expect(shapesOf(draw(body))).toEqual(["M0 10L10 10L10 0"]);
+  });
+
   it("draws a cubic B-spline as the curve that its knots say", () => {
     // Clamped, one span: a Bézier curve.
     const knots = "40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1";
@@ -123,6 +130,16 @@ describe("DXF", () => {
       expect(() => importDrawing("a.dxf", text)).toThrow(PlotwrightError);
     },
   );
+});
+
+describe("a damaged DXF", () => {
+  it("is refused with the line that is out of step", () => {
+    const text = dxf("0 LINE 8 0 10 0 20 0 11 9 21 9").split("\n");
+    const lost = [...text.slice(0, 17), ...text.slice(18)].join("\n");
+    expect(() => importDrawing("a.dxf", lost)).toThrow(/line 27: "ENDSEC" is no group code/);
+    expect(() => importDrawing("a.dxf", text.join("\r"))).not.toThrow();
+    expect(() => importDrawing("a.dxf", `${text.join("\r\n")}\r\n\r\n`)).not.toThrow();
+  });
 });
 
 describe("HPGL", () => {
