@@ -35,18 +35,23 @@ export class CornerSpeeds {
     } else this.search(s, reach, most, F, B);
   }
 
-  /** Newton's steps from q = 2 s most, kept between a q too small and one large enough, and halvings now and then. */
+  /**
+   * Newton's steps from where the tangents begin to matter, kept between a q too small and one large enough; halvings
+   * where another limit takes over and they would go to and fro.
+   */
   private search(s: number, reach: number, most: number, F: number, B: number): void {
     const c = 1 - 2 * s * s;
-    let q = this.change;
     let low = 0;
     let high = 2 * most;
+    let q = reach / most;
+    if (!(q < high)) q = this.change;
+    let before = Infinity;
     for (let i = 0; i < 60; i++) {
       let v0 = most;
       let slope0 = 0;
       let v1 = most;
       let slope1 = 0;
-      if (most * q > reach) {
+      if (most * q >= reach) {
         v0 = v1 = reach / q;
         slope0 = slope1 = -v0 / q;
       }
@@ -68,9 +73,10 @@ export class CornerSpeeds {
       if (Math.abs(excess) <= SAME * most) return;
       if (excess > 0) low = q;
       else high = q;
+      const isSlow = Math.abs(excess) > before / 2;
+      before = isSlow ? Infinity : Math.abs(excess);
       q -= excess / ((slope0 * (v0 - c * v1) + slope1 * (v1 - c * v0)) / turned - 1);
-      // Where another limit takes over, Newton's steps alone could go to and fro.
-      if (!(q > low && q < high) || i % 4 === 3) q = (low + high) / 2;
+      if (isSlow || !(q > low && q < high)) q = (low + high) / 2;
     }
   }
 }
