@@ -70,7 +70,9 @@ keepPresets(store);
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
 listenForShortcuts(shortcuts);
-watchJobs(store, (sentence) => {
+watchJobs(store, (sentence, { state }) => {
+  // What waits, or was interrupted, stands on the page until it is answered.
+  if (state === "done" || state === "failed") actions.notify(state === "done" ? "info" : "error", sentence);
   if (window.Notification?.permission === "granted") new Notification(text.appName, { body: sentence });
 });
 keepPage(() => store.setState({ isOutdated: true }));

@@ -5,7 +5,14 @@ import type { MachineProfile } from "../../src/index.js";
 import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schema/index.js";
 import { launchBrowser } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
-import { dropFile, openTab, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import {
+  dropFile,
+  historyPanel,
+  openTab,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+} from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("machine");
@@ -105,7 +112,7 @@ describe("moving by hand", () => {
     await page.keyboard.press("Escape");
     await button("Cancel", queuePanel(page)).click();
     await button("Cancel the plot", page.getByRole("alertdialog")).click();
-    await page.getByText("Cancelled").waitFor();
+    await historyPanel(page).getByText("Cancelled").waitFor();
   });
 });
 

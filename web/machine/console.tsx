@@ -20,21 +20,21 @@ export const Console = () => {
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const name = usePageState((state) => currentPlotter(state)?.name ?? "");
   const { lines, send } = useConversation();
-  const end = useRef<HTMLLIElement>(null);
+  const end = useRef<HTMLDivElement>(null);
   useEffect(() => {
     // In braces: newer browsers answer with a promise, which is no clean-up.
     void end.current?.scrollIntoView({ block: "end" });
   }, [lines]);
   return (
     <Sheet title={words.title(name)}>
-      <ol className="console" role="log" aria-label={words.log} tabIndex={0}>
+      <div className="console" role="log" aria-label={words.log} tabIndex={0}>
         {lines.map(({ id, kind, text: content }) => (
-          <li key={id} data-kind={kind}>
+          <p key={id} data-kind={kind}>
             {content}
-          </li>
+          </p>
         ))}
-        <li ref={end} aria-hidden="true" />
-      </ol>
+        <div ref={end} aria-hidden="true" />
+      </div>
       {hasJob ? <p className="note">{words.refused}</p> : <CommandLine onSend={send} />}
       <p className="note">{words.hint}</p>
     </Sheet>

@@ -20,6 +20,7 @@ export const waitWords = ({ penName, layerName }: NonNullable<Job["wait"]>): str
   penName === null ? words.waitsForLayer(layerName) : words.waitsForPen(penName);
 
 export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
-  if (connection === "fault" || connection === "absent" || job?.state !== "paused") return connection;
+  if (connection === "fault" || connection === "absent") return connection;
+  if (job?.state !== "paused") return job?.state === "plotting" ? "busy" : connection;
   return job.wait === null ? "held" : "waiting";
 };

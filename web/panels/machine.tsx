@@ -1,6 +1,6 @@
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
-import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
+import { activeJob, currentPlotter, isReady, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Select } from "../ui/choice.js";
@@ -20,7 +20,7 @@ export const MachinePanel = () => {
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterFacts plotter={plotter} />}
       {isMine && <ModelSelect />}
-      {isMine && <HandControls plotter={plotter} />}
+      {isMine && <HandControls />}
       {isMine && <MoreMoves />}
       <p className="link-row">
         {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
@@ -48,6 +48,7 @@ const DialogLink = ({ name, children }: { name: DialogName; children: string }) 
 
 const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   const job = usePageState(activeJob);
+  const isHeard = usePageState((state) => state.link === "connected");
   const { xMm, yMm, boardName } = plotter;
   const place =
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
@@ -59,11 +60,11 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   ] as const;
   return (
     <>
-      <p className="plotter-name" data-lamp={lampOf(plotter, job)}>
+      <p className="plotter-name" data-lamp={isHeard ? lampOf(plotter, job) : "fault"}>
         <span className="lamp" aria-hidden="true" />
         <strong>{plotter.name}</strong>
         {boardName !== null && boardName !== plotter.name && <span className="note">({boardName})</span>}
-        <span className="plotter-doing">{plotterWords(plotter, job)}</span>
+        <span className="plotter-doing">{isHeard ? plotterWords(plotter, job) : words.notHeard}</span>
       </p>
       <PlotterMessage plotter={plotter} />
       <dl className="facts">
@@ -108,10 +109,10 @@ const ModelSelect = () => {
   );
 };
 
-const HandControls = ({ plotter }: { plotter: Plotter | null }) => {
+const HandControls = () => {
   const pen = usePageState((state) => state.settings.pen);
   const { movePen, motorsOff, home } = useActions();
-  const isOff = plotter?.connection !== "idle";
+  const isOff = usePageState((state) => !isReady(state));
   return (
     <div className="button-grid">
       <button type="button" className="button" disabled={isOff} onClick={() => void movePen(true, pen.upPct)}>

@@ -1,5 +1,5 @@
 import type { PlotSettings } from "../../src/schema/index.js";
-import { currentPlotter } from "../state/store.js";
+import { isReady } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Switch } from "../ui/choice.js";
@@ -135,7 +135,7 @@ interface HeightFieldProps {
 }
 
 const HeightField = ({ label, tryLabel, value, isUp, onChange }: HeightFieldProps) => {
-  const isIdle = usePageState((state) => currentPlotter(state)?.connection === "idle");
+  const isIdle = usePageState(isReady);
   const { movePen } = useActions();
   return (
     <div className="field-with-button">

@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { activeJob, mayOperate, otherOperator } from "../state/store.js";
+import { activeJob, currentPlotter, mayOperate, otherOperator } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
@@ -62,6 +62,7 @@ const Buttons = () => {
   const isLinked = usePageState((state) => state.link === "connected" && state.plotters.length > 0);
   const isMine = usePageState((state) => mayOperate(state) && otherOperator(state) === null);
   const isActive = usePageState((state) => activeJob(state) !== null);
+  const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const busy = usePageState((state) => state.busyAction);
   const { plotDrawing, queueDrawing } = useActions();
   const isSending = busy === "add" || busy === "plot" || busy === "save";
@@ -71,7 +72,7 @@ const Buttons = () => {
       <button
         type="button"
         className="button button-primary"
-        disabled={isOff || isActive}
+        disabled={isOff || isActive || isAbsent}
         aria-busy={isSending}
         onClick={() => void plotDrawing()}
       >
@@ -94,12 +95,19 @@ const Buttons = () => {
           onChange={(count) => setCopies(Math.round(count))}
         />
       </div>
-      <Words isSending={isSending} isBusy={isActive && isLinked} />
+      <Words isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
     </div>
   );
 };
 
-const Words = ({ isSending, isBusy }: { isSending: boolean; isBusy: boolean }) => {
+interface WordsProps {
+  readonly isSending: boolean;
+  readonly isBusy: boolean;
+  readonly isAbsent: boolean;
+}
+
+/** Why "Plot" can't be pressed, or what becomes of the press. */
+const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
   const link = usePageState((state) => state.link);
   if (link === "lost") return <p className="note note-error">{words.needsServer}</p>;
   if (isSending) {
@@ -109,7 +117,8 @@ const Words = ({ isSending, isBusy }: { isSending: boolean; isBusy: boolean }) =
       </p>
     );
   }
-  return isBusy ? <p className="note">{words.queueBusy}</p> : null;
+  if (isBusy) return <p className="note">{words.queueBusy}</p>;
+  return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };
 
 /** For a queued job that lies on the paper and whose settings were changed here. */

@@ -4,7 +4,7 @@ import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Segments } from "../ui/choice.js";
-import { formatClockIn, formatDuration } from "../ui/format.js";
+import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { useNow } from "../ui/use-now.js";
 import { NotifyButton } from "./notify-button.js";
@@ -15,7 +15,8 @@ const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).Waiti
 const HistoryList = lazyPart(async () => (await import("./history-list.js")).HistoryList);
 
 export const QueuePanel = () => {
-  const jobs = usePlotterJobs().filter((job) => !ENDED_STATES.includes(job.state));
+  const all = usePlotterJobs();
+  const jobs = all.filter((job) => !ENDED_STATES.includes(job.state));
   const list = useRef<HTMLUListElement>(null);
   const waiting = jobs.filter((job) => job.state === "queued");
   return (
@@ -24,7 +25,7 @@ export const QueuePanel = () => {
         {words.title}
         {jobs.length > 0 && <Totals jobs={jobs} />}
       </h2>
-      {jobs.length === 0 && <p className="note">{words.empty}</p>}
+      {jobs.length === 0 && <Empty ended={all} />}
       <ul className="job-list" ref={list}>
         {jobs.map((job) => (
           <li key={job.id} data-row={job.state === "queued" ? job.id : undefined}>
@@ -39,6 +40,20 @@ export const QueuePanel = () => {
       <BetweenJobs />
       <NotifyButton />
     </section>
+  );
+};
+
+/** With nothing to do: what was done last, since the history may be out of sight. */
+const Empty = ({ ended }: { ended: readonly Job[] }) => {
+  const last = ended.reduce<Job | null>(
+    (latest, job) => ((job.endedAt ?? "") > (latest?.endedAt ?? "") ? job : latest),
+    null,
+  );
+  const when = last?.endedAt && formatWhen(last.endedAt);
+  return (
+    <p className="note">
+      {words.empty} {last && when && words.last(last.name, words.states[last.state], when)}
+    </p>
   );
 };
 

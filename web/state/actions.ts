@@ -180,9 +180,7 @@ export const createActions = (deps: ActionDeps) => {
     },
     plotDrawing: async (): Promise<void> => {
       const job = await addToQueue();
-      if (job && (await attempt("plot", () => api.actOnJob(job.id, "start")))) {
-        notify("info", text.plot.started(job.name));
-      }
+      if (job) await attempt("plot", () => api.actOnJob(job.id, "start"));
     },
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();
@@ -259,9 +257,8 @@ export const createActions = (deps: ActionDeps) => {
       const plotterId = currentPlotter(state)?.id;
       const job = await attempt("add", () => api.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }));
       if (!job) return;
-      const isFree = activeJob(store.getState()) === null;
-      if (isFree) await attempt("plot", () => api.actOnJob(job.id, "start"));
-      notify("info", isFree ? text.plot.started(job.name) : text.plot.added(job.name));
+      if (activeJob(store.getState()) === null) await attempt("plot", () => api.actOnJob(job.id, "start"));
+      else notify("info", text.plot.added(job.name));
     },
     removePreset: (name: string): void =>
       store.setState(({ presets }) => ({ presets: presets.filter((preset) => preset.name !== name) })),

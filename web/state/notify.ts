@@ -1,4 +1,4 @@
-/** Tells the user, with the system's own notifications, when a plot ends or waits: only after they asked for it. */
+/** What a user is told of when a plot ends or waits: here, and by the system's own notifications if they asked for it. */
 import type { Job } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 import { waitWords } from "../panels/machine-words.js";
@@ -20,12 +20,12 @@ export const noticeOfChange = (before: Job | null, now: Job): string | null => {
 };
 
 /** Watches the jobs and hands out sentences; returns a function that stops. */
-export const watchJobs = (store: PageStore, say: (sentence: string) => void): (() => void) =>
+export const watchJobs = (store: PageStore, say: (sentence: string, job: Job) => void): (() => void) =>
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs || before.jobs.length === 0) return;
     const known = new Map(before.jobs.map((job) => [job.id, job]));
     for (const job of state.jobs) {
       const sentence = noticeOfChange(known.get(job.id) ?? null, job);
-      if (sentence !== null) say(sentence);
+      if (sentence !== null) say(sentence, job);
     }
   });

@@ -142,6 +142,10 @@ export type PageStore = ReturnType<typeof createPageStore>;
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
+/** The current plotter would do something now: it is there, free, and heard of. */
+export const isReady = (state: PageState): boolean =>
+  state.link === "connected" && currentPlotter(state)?.connection === "idle";
+
 /** States in which a job has the plotter, or waits to have it back. */
 export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused", "interrupted"];
 

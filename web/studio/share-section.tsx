@@ -12,7 +12,7 @@ export const ShareSection = () => {
   if (!pairing) return <p className="note">{words.pairingWhere}</p>;
   return (
     <>
-      {!pairing.isOnLan && <p className="note note-error">{words.notOnLan}</p>}
+      {!pairing.isOnLan && <p className="note health">{words.notOnLan}</p>}
       <div className="pairings">
         <PairingCard title={words.operate} hint={words.operateHint} {...linkOf(pairing, "operate")} />
         <PairingCard title={words.watch} hint={words.watchHint} {...linkOf(pairing, "watch")} />

@@ -27,15 +27,17 @@ export const enLater = {
     continue: "Continue",
     stop: "Stop",
     recover: "Go on from there",
-    recoverHint: "Nothing is drawn until you press Resume. If the carriage was moved, set it home first.",
-    confirmCancel: (name: string) => `Stop ${name}? The pen lifts and goes home. What is drawn stays drawn.`,
+    recoverHint:
+      "It comes back paused: nothing is drawn until you press Resume. If the carriage was moved, set it home first.",
+    confirmCancel: (name: string) =>
+      `Stop “${name}”? The pen lifts and goes home. What is drawn stays drawn.`,
     cancelPlot: "Cancel the plot",
     keepPlotting: "Keep plotting",
     stopNow: "Stop at once",
     stopNowHint: "Stops where it is. Only cutting the motors’ power is quicker.",
     speedPct: "Speed now",
     speedPctHint: "Percent of the plot’s set speeds; takes effect within a second.",
-    applyHeights: "Apply the pen and speed settings",
+    applyHeights: "Apply pen and speed as they are set now",
     place: (stroke: string, mm: string) => `At stroke ${stroke}, ${mm} mm along it`,
     placeMoves: "Move the place",
     strokeBack: "One stroke back",
@@ -194,7 +196,7 @@ export const enLater = {
     sections: { share: "Share", access: "Access", plotters: "Plotters", hooks: "Webhooks", camera: "Camera" },
     pairingWhere: "Links for other devices are made on the computer that plotwright runs on.",
     notOnLan:
-      "This server listens on its own computer only. Start it with “plotwright serve --lan” to let other devices in.",
+      "No other device can follow these links yet: this server listens on its own computer only. Start it with “npm start -- --lan”, or “plotwright serve --lan”.",
     operate: "Operate",
     operateHint: "Scan it with a phone: it can then do everything that this page can.",
     watch: "Watch",
@@ -213,7 +215,7 @@ export const enLater = {
     revokeNamed: (name: string) => `Shut out ${name}`,
     newKey: "A key for a script",
     keyName: "What it is for",
-    may: "It",
+    may: "The key",
     makeKey: "Make the key",
     keyOnce: "Copy the key now; it is not shown again.",
     port: "Port",
@@ -227,7 +229,8 @@ export const enLater = {
     newPlotter: "One more plotter",
     newPlotterName: "Name of the plotter",
     addPlotter: "Add the plotter",
-    hooksHint: "Addresses that are told, signed, and again until they have heard.",
+    hooksHint:
+      "Other programs are told at their address when a plot is done, waits or has failed: signed, and again until it arrives.",
     noHooks: "None yet.",
     events: { done: "done", waiting: "waits", failed: "failed" },
     pending: (count: number) =>

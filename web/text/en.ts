@@ -124,8 +124,8 @@ export const en = {
     saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
     saved: (name: string) => `${name} has the new settings.`,
     added: (name: string) => `${name} is in the queue.`,
-    started: (name: string) => `Plotting ${name}.`,
-    needsServer: "No connection to plotwright’s server, so nothing can be plotted. It is being tried again.",
+    needsServer: "Without the server nothing can be plotted.",
+    needsPlotter: "No plotter is connected. What is in the queue waits for it.",
   },
 
   machine: {
@@ -155,6 +155,7 @@ export const en = {
     console: "Console",
     log: "Save the log of the connection",
     held: "Paused",
+    notHeard: "No word from it",
     moving: "Moving",
     waitsForPen: (pen: string) => `Waits for the pen “${pen}”`,
     waitsForLayer: (layer: string) => `Waits for the pen for “${layer}”`,
@@ -182,12 +183,13 @@ export const en = {
     read: "I have read it",
     outdated: "plotwright was brought up to date on the server.",
     offline:
-      "plotwright’s server can’t be reached: switched off, or this device has no network. Drawings can be looked at meanwhile; plotting comes back with the server.",
+      "plotwright’s server can’t be reached: switched off, or this device has no network. Drawings can be laid out meanwhile.",
   },
 
   queue: {
     title: "Queue",
     empty: "The queue is empty.",
+    last: (name: string, state: string, when: string) => `Last: ${name}, ${state.toLowerCase()} ${when}.`,
     history: "History",
     historyEmpty: "Finished plots are listed here.",
     startNamed: (name: string) => `Start ${name}`,
