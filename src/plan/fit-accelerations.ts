@@ -22,8 +22,9 @@
  * vertices of `junction` plans stay at the ends of pieces only.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { FitSource, isBeside, type PlannedRun } from "./fit-source.js";
+import { FitSource, isBeside } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
+import type { RunEnd } from "./run-path.js";
 import type { FitSettings, MotionMode } from "./settings.js";
 import { PieceChain } from "./piece-chain.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
@@ -102,9 +103,9 @@ export class AccelerationFitter {
     this.steady = new SteadyPiece(mode !== "junction");
   }
 
-  /** Appends `run` to `out` in fewer pieces. */
-  write(run: PlannedRun, limits: RunLimits, out: BlockColumns): void {
-    this.source.open(run, out);
+  /** Appends the run in `from`, all of its blocks up to `end`, to `out` in fewer pieces. */
+  write(from: BlockColumns, end: RunEnd, limits: RunLimits, out: BlockColumns): void {
+    this.source.open(from, end, out);
     this.limits = limits;
     this.bend = this.mode === "junction" ? Infinity : limits.accel;
     this.out = out;
@@ -114,7 +115,7 @@ export class AccelerationFitter {
     this.startPlanned(0);
     // Up to here only pairs and kept blocks: steady pieces have led nowhere.
     let calm = 0;
-    while (this.at.k < run.blocks.count) {
+    while (this.at.k < from.count) {
       this.findAnchor();
       if (this.isPlanned && this.at.k === this.anchor) this.keep();
       else if (this.reachAnchor()) continue;

@@ -8,8 +8,9 @@
  * fits (a sharp corner is a few short blocks by its nature) blocks stay as they are.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { FitSource, isBeside, type PlannedRun } from "./fit-source.js";
+import { FitSource, isBeside } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
+import type { RunEnd } from "./run-path.js";
 import type { FitSettings } from "./settings.js";
 import { keepsJerkLimits, solveAxis } from "./three-jerks.js";
 
@@ -38,17 +39,16 @@ export class JerkFitter {
 
   constructor(private readonly settings: FitSettings) {}
 
-  /** Appends `run` to `out` in fewer pieces. */
-  write(run: PlannedRun, limits: RunLimits, out: BlockColumns): void {
-    this.source.open(run, out);
+  /** Appends the run in `from`, all of its blocks up to `end`, to `out` in fewer pieces. */
+  write(from: BlockColumns, end: RunEnd, limits: RunLimits, out: BlockColumns): void {
+    this.source.open(from, end, out);
     this.limits = limits;
-    const { blocks } = run;
     let guess = 4;
-    for (let k = 0; k < blocks.count;) {
+    for (let k = 0; k < from.count;) {
       let m = this.longest(k, guess);
       if (this.isWorth(k, m)) {
         const { source } = this;
-        const rest = blocks.clockS - source.startOf(m);
+        const rest = from.clockS - source.startOf(m);
         if (rest > 0 && rest < source.startOf(m) - source.startOf(k)) m = this.balanced(k, m);
         this.fits(k, m);
         this.writePieces(m, out);

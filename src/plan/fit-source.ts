@@ -1,29 +1,16 @@
 /** A planned run as the fit reads it: its blocks in columns, and where it ends at rest. */
 import type { BlockColumns } from "./block-columns.js";
-
-/** One run as planned: all of `blocks`, which start their clock at 0, and where they end, mm. */
-export interface PlannedRun {
-  readonly blocks: BlockColumns;
-  readonly endX: number;
-  readonly endY: number;
-  readonly endAlong: number;
-  /** Of the polyline. */
-  readonly segmentCount: number;
-}
+import type { RunEnd } from "./run-path.js";
 
 export class FitSource {
   blocks!: BlockColumns;
-  private endX = 0;
-  private endY = 0;
-  private endAlong = 0;
+  private end!: RunEnd;
 
-  /** Reads `run` from now on; makes room in `out` for what it may become. */
-  open({ blocks, endX, endY, endAlong, segmentCount }: PlannedRun, out: BlockColumns): void {
+  /** Reads all of `blocks`, which start their clock at 0, from now on; makes room in `out` for what they may become. */
+  open(blocks: BlockColumns, end: RunEnd, out: BlockColumns): void {
     this.blocks = blocks;
-    this.endX = endX;
-    this.endY = endY;
-    this.endAlong = endAlong;
-    out.reserve(Math.min(blocks.count, segmentCount), segmentCount);
+    this.end = end;
+    out.reserve(Math.min(blocks.count, end.segmentCount), end.segmentCount);
   }
 
   /** Start of block k, s; of the one after the last: the run's end. */
@@ -32,17 +19,17 @@ export class FitSource {
   }
 
   xOf(k: number): number {
-    return k < this.blocks.count ? this.blocks.x[k]! : this.endX;
+    return k < this.blocks.count ? this.blocks.x[k]! : this.end.x;
   }
 
   yOf(k: number): number {
-    return k < this.blocks.count ? this.blocks.y[k]! : this.endY;
+    return k < this.blocks.count ? this.blocks.y[k]! : this.end.y;
   }
 
   /** mm along the source polyline at an instant of block k. */
   alongAt(k: number, clock: number): number {
     const { blocks } = this;
-    const next = k + 1 < blocks.count ? blocks.alongMm[k + 1]! : this.endAlong;
+    const next = k + 1 < blocks.count ? blocks.alongMm[k + 1]! : this.end.alongMm;
     const share = (clock - this.startOf(k)) / blocks.durationS[k]!;
     return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * Math.min(1, Math.max(0, share));
   }

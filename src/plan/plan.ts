@@ -73,7 +73,7 @@ class PlanBuilder {
   /** By layer index. */
   private readonly drawLimits: readonly RunLimits[];
   private readonly pens: readonly PenSettings[];
-  /** Seconds before a layer's first stroke. */
+  /** Seconds before a layer's first stroke; not again before one that is a part of it. */
   private readonly waitsS: readonly number[];
   /** The pen that draws, or drew last. */
   private pen: PenSettings;

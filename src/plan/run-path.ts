@@ -14,6 +14,14 @@
  */
 export const SHORTEST_MM = 5e-7;
 
+/** Where a run ends, mm, and how many segments of the drawing it stands for. */
+export interface RunEnd {
+  readonly x: number;
+  readonly y: number;
+  readonly alongMm: number;
+  readonly segmentCount: number;
+}
+
 export class RunPath {
   segmentCount = 0;
   x = new Float64Array(0);
@@ -112,8 +120,13 @@ export class RunPath {
     this.uy[0] = (this.y[1]! - y) / l;
   }
 
+  end(): RunEnd {
+    const { segmentCount: n } = this;
+    return { x: this.x[n]!, y: this.y[n]!, alongMm: this.endAlong(), segmentCount: n };
+  }
+
   /** mm along the whole stroke at the last point. */
-  endAlong(): number {
+  private endAlong(): number {
     let along = this.startAlong;
     for (let i = 0; i < this.segmentCount; i++) along += this.length[i]!;
     return along;

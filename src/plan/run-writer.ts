@@ -25,19 +25,11 @@ export class RunWriter {
   }
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    const n = path.segmentCount;
     // A single straight has no piece too many.
-    if (this.fitter === null || n < 2) return this.writeMode(path, limits, out);
+    if (this.fitter === null || path.segmentCount < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
     this.writeMode(path, isDense(path, limits.speed) ? this.withMargin(limits) : limits, this.unfitted);
-    const run = {
-      blocks: this.unfitted,
-      endX: path.x[n]!,
-      endY: path.y[n]!,
-      endAlong: path.endAlong(),
-      segmentCount: n,
-    };
-    this.fitter.write(run, limits, out);
+    this.fitter.write(this.unfitted, path.end(), limits, out);
   }
 
   private withMargin(limits: RunLimits): RunLimits {

@@ -23,9 +23,8 @@ export class SCurvePlanner {
 
   /** Writes one run from rest to rest; `out` has jerk columns. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    const n = path.segmentCount;
     this.thirdOrder.prepare(path, limits);
-    if (n === 1) return this.thirdOrder.write(path, limits, out);
+    if (path.segmentCount === 1) return this.thirdOrder.write(path, limits, out);
     const accel = Math.min(limits.accel, Math.cbrt(3 * limits.jerk * limits.jerk * limits.corner));
     const window = (2 * accel) / limits.jerk;
     const corner = limits.corner - (accel * window * window) / 24;
@@ -40,7 +39,6 @@ export class SCurvePlanner {
       out.count = count;
       out.clockS = clockS;
     }
-    const alongMm = path.endAlong();
-    writeSmoothed(blended, { x: path.x[n]!, y: path.y[n]!, alongMm, segmentCount: n }, window, out);
+    writeSmoothed(blended, path.end(), window, out);
   }
 }

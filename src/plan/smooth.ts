@@ -12,6 +12,7 @@
  * Source: finite-impulse-response filtering of feed rates, common in machine-tool controls.
  */
 import type { BlockColumns } from "./block-columns.js";
+import type { RunEnd } from "./run-path.js";
 
 /** Ends of blocks nearer in time than this fall together, s. */
 const SAME_TIME = 1e-12;
@@ -32,9 +33,7 @@ class Walker {
 
   constructor(
     private readonly from: BlockColumns,
-    private readonly endX: number,
-    private readonly endY: number,
-    private readonly endAlong: number,
+    private readonly end: RunEnd,
     delay: number,
   ) {
     this.x = from.x[0]!;
@@ -55,7 +54,7 @@ class Walker {
     this.y = from.y[k]! + t * (from.vy[k]! + (t * this.ay) / 2);
     this.vx = from.vx[k]! + t * this.ax;
     this.vy = from.vy[k]! + t * this.ay;
-    const next = k + 1 < from.count ? from.alongMm[k + 1]! : this.endAlong;
+    const next = k + 1 < from.count ? from.alongMm[k + 1]! : this.end.alongMm;
     this.along = from.alongMm[k]! + (next - from.alongMm[k]!) * (t / from.durationS[k]!);
   }
 
@@ -65,32 +64,24 @@ class Walker {
     this.t = 0;
     const inside = k < from.count;
     this.left = inside ? from.durationS[k]! : Infinity;
-    this.x = inside ? from.x[k]! : this.endX;
-    this.y = inside ? from.y[k]! : this.endY;
+    this.x = inside ? from.x[k]! : this.end.x;
+    this.y = inside ? from.y[k]! : this.end.y;
     this.vx = inside ? from.vx[k]! : 0;
     this.vy = inside ? from.vy[k]! : 0;
     this.ax = inside ? from.ax[k]! : 0;
     this.ay = inside ? from.ay[k]! : 0;
-    this.along = inside ? from.alongMm[k]! : this.endAlong;
+    this.along = inside ? from.alongMm[k]! : this.end.alongMm;
   }
 }
 
-/** Where the run in `from` ends at rest, and how many segments of the drawing it stands for. */
-export interface RunEnd {
-  readonly x: number;
-  readonly y: number;
-  readonly alongMm: number;
-  readonly segmentCount: number;
-}
-
-/** Appends the mean over `window` seconds of the run in `from`. */
+/** Appends the mean over `window` seconds of the run in `from`, which ends at rest at `end`. */
 export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, out: BlockColumns): void {
   out.reserve(2 * from.count + 2, end.segmentCount);
   const { durationS, startS, alongMm } = out;
   const jxOut = out.jx!;
   const jyOut = out.jy!;
-  const lead = new Walker(from, end.x, end.y, end.alongMm, 0);
-  const trail = new Walker(from, end.x, end.y, end.alongMm, window);
+  const lead = new Walker(from, end, 0);
+  const trail = new Walker(from, end, window);
   let x = lead.x;
   let y = lead.y;
   let k = out.count;
