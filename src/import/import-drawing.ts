@@ -10,15 +10,15 @@ import { importSvgSteps, type Pause } from "./import-svg.js";
 export const DRAWING_FORMATS = ["svg", "dxf", "hpgl", "json"] as const;
 export type DrawingFormat = (typeof DRAWING_FORMATS)[number];
 
-const FORMAT_OF_ENDING: Readonly<Record<string, DrawingFormat>> = {
-  svg: "svg",
-  dxf: "dxf",
-  hpgl: "hpgl",
-  hpg: "hpgl",
-  hgl: "hpgl",
-  plt: "hpgl",
-  json: "json",
-};
+const FORMAT_OF_ENDING: ReadonlyMap<string, DrawingFormat> = new Map([
+  ["svg", "svg"],
+  ["dxf", "dxf"],
+  ["hpgl", "hpgl"],
+  ["hpg", "hpgl"],
+  ["hgl", "hpgl"],
+  ["plt", "hpgl"],
+  ["json", "json"],
+]);
 const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/;
 const HPGL_START =
   /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
@@ -34,7 +34,7 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
   const commands = head.replace(PORT_SET_UP, "");
   if (HPGL_START.test(commands)) return "hpgl";
   const ending = /\.([a-z]+)$/i.exec(name)?.[1].toLowerCase() ?? "";
-  return FORMAT_OF_ENDING[ending] ?? null;
+  return FORMAT_OF_ENDING.get(ending) ?? null;
 }
 
 /**

@@ -18,16 +18,16 @@ export type Side = "width" | "height" | "both";
 const NUMBER_AND_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;
 
 const PX_PER_MM = 1 / MM_PER_PX;
-const ABSOLUTE: Readonly<Record<string, number>> = {
-  "": 1,
-  px: 1,
-  mm: PX_PER_MM,
-  cm: 10 * PX_PER_MM,
-  q: PX_PER_MM / 4,
-  in: MM_PER_INCH * PX_PER_MM,
-  pt: (MM_PER_INCH * PX_PER_MM) / 72,
-  pc: (MM_PER_INCH * PX_PER_MM) / 6,
-};
+const ABSOLUTE: ReadonlyMap<string, number> = new Map([
+  ["", 1],
+  ["px", 1],
+  ["mm", PX_PER_MM],
+  ["cm", 10 * PX_PER_MM],
+  ["q", PX_PER_MM / 4],
+  ["in", MM_PER_INCH * PX_PER_MM],
+  ["pt", (MM_PER_INCH * PX_PER_MM) / 72],
+  ["pc", (MM_PER_INCH * PX_PER_MM) / 6],
+]);
 
 /** Number and lower-case unit ("" for none), or null where the text is no length. */
 export function splitLength(text: string): { value: number; unit: string } | null {
@@ -41,7 +41,7 @@ export function splitLength(text: string): { value: number; unit: string } | nul
 export function absolutePx(text: string): number | null {
   const parts = splitLength(text);
   if (parts === null) return null;
-  const factor = ABSOLUTE[parts.unit];
+  const factor = ABSOLUTE.get(parts.unit);
   return factor === undefined ? null : parts.value * factor;
 }
 
@@ -53,7 +53,7 @@ export function lengthPx(text: string, basis: LengthBasis, side: Side): number |
   const parts = splitLength(text);
   if (parts === null) return null;
   const { value, unit } = parts;
-  const absolute = ABSOLUTE[unit];
+  const absolute = ABSOLUTE.get(unit);
   if (absolute !== undefined) return value * absolute;
   switch (unit) {
     case "%":

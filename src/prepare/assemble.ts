@@ -4,6 +4,7 @@ import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/strok
 import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import type { LayerTable } from "./layers.js";
 import type { PrepareSettings } from "./settings.js";
+import { setFor } from "./set-for.js";
 import { inkPortions } from "./spread.js";
 
 /** A layer of the file with what it holds on this paper, whether it is drawn or hidden. */
@@ -83,7 +84,7 @@ export function strokeSetOf(
   shifts: PrepareSettings["layerShifts"] = {},
 ): StrokeSet {
   const strokes = unshifted(lines, layers, isVisible, reinkMm);
-  const shiftsMm = strokes.layers.map((layer) => shifts[settingsIdOf(layer)]);
+  const shiftsMm = strokes.layers.map((layer) => setFor(shifts, settingsIdOf(layer)));
   if (shiftsMm.every((shift) => shift === undefined)) return strokes;
   const { offsets, layer } = strokes;
   const xy = strokes.xy.slice();

@@ -9,6 +9,7 @@
  */
 import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
+import { setFor } from "./set-for.js";
 import type { PrepareSettings, ShiftMm } from "./settings.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
@@ -52,7 +53,7 @@ export interface PenStop {
 
 /** The pen that draws a layer, or null for whichever is in the holder. */
 export function penOf({ pens, layerPens }: PenSetup, layer: StrokeLayer): PlotPen | null {
-  const id = layerPens[settingsIdOf(layer)];
+  const id = setFor(layerPens, settingsIdOf(layer));
   return id === undefined ? null : (pens.find((pen) => pen.id === id) ?? null);
 }
 
@@ -80,7 +81,7 @@ export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenSto
 function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, needsOther: boolean): boolean {
   // The further parts of a layer are there for a stop to take up ink.
   if (layer.partOf !== undefined) return true;
-  const own = setup.layerStops[layer.id];
+  const own = setFor(setup.layerStops, layer.id);
   if (own !== undefined) return own;
   if (parseLayerName(layer.name).pause) return true;
   return setup.penStops === "layers" ? !isFirst : needsOther;

@@ -28,6 +28,7 @@ import { repeatLines, travelAsDrawn } from "./layer-passes.js";
 import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
+import { setFor } from "./set-for.js";
 import type { PrepareSettings } from "./settings.js";
 import {
   ANYWHERE,
@@ -113,7 +114,7 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   const layers = countLayers(lines, table, isVisible);
   lines = visibleOnly(lines, isVisible);
   if (lineCount(lines) === 0) warnings.push(emptyWarning(drawing, isVisible));
-  const passesOf = (layer: number): number => settings.layerRepeats[table.layers[layer].id] ?? 1;
+  const passesOf = (layer: number): number => setFor(settings.layerRepeats, table.layers[layer].id) ?? 1;
   const asInFile = repeatLines(lines, passesOf);
   const unordered = travelAsDrawn(asInFile);
   const tour = orderLines(lines, settings, within(options, 0.55, 0.98));

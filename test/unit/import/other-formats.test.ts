@@ -240,6 +240,7 @@ describe("importDrawing", () => {
     ["a", ' { "layers": [] }', "json"],
     ["a.plt", "XX1;", "hpgl"],
     ["a.txt", "just words", null],
+    ["a.constructor", "just words", null],
   ])("knows %s with %j for %s", (name, text, format) => {
     expect(formatOf(name, text)).toBe(format);
   });
