@@ -15,7 +15,7 @@ const QUARTER = Math.PI / 2;
 const MAX_PIECES = 4096;
 
 /** Pieces that keep an arc of `sweep` radians and largest radius `radius` within `tolerance`. */
-export function arcPieceCount(radius: number, sweep: number, tolerance: number): number {
+function arcPieceCount(radius: number, sweep: number, tolerance: number): number {
   const most = QUARTER * Math.min(1, Math.pow(tolerance / (QUARTER_GAP * radius), 1 / 6));
   const pieces = Math.ceil(Math.abs(sweep) / most - 1e-9);
   return pieces >= 1 ? Math.min(pieces, MAX_PIECES) : 1;

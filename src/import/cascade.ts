@@ -9,7 +9,7 @@
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
-import { attributeValue, TEXT_NODE, tagOf, type SvgTree } from "./svg-tree.js";
+import { attribute, attributeValue, TEXT_NODE, tagOf, type SvgTree } from "./svg-tree.js";
 
 /** Properties that the importer uses; the first group may also be written as attributes. */
 const PRESENTATION = [
@@ -65,11 +65,6 @@ export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number]
 const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
 const IS_PRESENTATION = new Set<string>(PRESENTATION);
 const IS_PROPERTY = new Set<string>([...PRESENTATION, ...CSS_ONLY]);
-
-export interface CascadeFaults {
-  readonly importCount: number;
-  readonly faults: readonly string[];
-}
 
 interface FiledRule extends Rule {
   readonly order: number;
@@ -224,8 +219,10 @@ export class Cascade {
 
   private readonly adapter = {
     isTag: (node: ElementRef): node is ElementRef => node.index >= 0,
-    getAttributeValue: (node: ElementRef, name: string): string | undefined => this.attribute(node, name),
-    hasAttrib: (node: ElementRef, name: string): boolean => this.attribute(node, name) !== undefined,
+    getAttributeValue: (node: ElementRef, name: string): string | undefined =>
+      attribute(this.tree, node.index, name),
+    hasAttrib: (node: ElementRef, name: string): boolean =>
+      attribute(this.tree, node.index, name) !== undefined,
     getName: (node: ElementRef): string => tagOf(this.tree, node.index),
     getText: (): string => "",
     getParent: (node: ElementRef): ElementRef | null => {
@@ -243,15 +240,6 @@ export class Cascade {
     },
     removeSubsets: (nodes: ElementRef[]): ElementRef[] => nodes,
   };
-
-  private attribute(node: ElementRef, name: string): string | undefined {
-    const { tree } = this;
-    const end = tree.attributeOffsets[node.index + 1];
-    for (let i = tree.attributeOffsets[node.index]; i < end; i++) {
-      if (tree.names[tree.attributeNames[i]] === name) return attributeValue(tree, i);
-    }
-    return undefined;
-  }
 }
 
 /** Whether n ≥ 1 is among the numbers a k + b, k ≥ 0, of a formula like "2n+1", "odd" or "3" (Selectors 4, §6.6.5). */

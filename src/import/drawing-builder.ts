@@ -17,7 +17,7 @@ import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
 /** A kilometre: far beyond any plotter, near enough that µm survive in single arithmetic steps. */
-export const MAX_COORDINATE_MM = 1e6;
+const MAX_COORDINATE_MM = 1e6;
 
 /** How a shape is painted. Colours "#rrggbb" or null for none; lengths in page mm. */
 export interface Look {

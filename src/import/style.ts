@@ -234,7 +234,7 @@ function setPaint(style: Mutable<Style>, which: "fill" | "stroke", value: string
 
 const paintCache = new Map<string, Paint | null>();
 
-export function parsePaint(text: string): Paint | null {
+function parsePaint(text: string): Paint | null {
   let paint = paintCache.get(text);
   if (paint === undefined) {
     paint = readPaint(text);

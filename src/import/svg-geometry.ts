@@ -41,6 +41,17 @@ export class SvgGeometry {
     return shape;
   }
 
+  /** A length that CSS or an attribute gives; null where neither does. */
+  lengthOf(
+    element: number,
+    declared: Declared,
+    context: Context,
+    name: LengthName,
+    side: Side,
+  ): number | null {
+    return this.source.of(element, declared, context).length(name, side);
+  }
+
   /** The box on the page of a rectangle in user units. */
   placeOf(context: Context, x: number, y: number, width: number, height: number): Box {
     return mapBox(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });

@@ -8,9 +8,9 @@
 import { PlotwrightError } from "../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../geometry/affine.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { Cascade, type Property } from "./cascade.js";
+import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
-import { lengthPx, type Side } from "./length.js";
+import type { Side } from "./length.js";
 import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
@@ -140,8 +140,7 @@ export class SvgWalk {
       if (group !== outer.group) this.hideGroup(group);
       return;
     }
-    const opacity = declaredValue(style, declared, "opacity");
-    if (opacity !== undefined && parseOpacity(opacity) === 0) return;
+    if (this.isTransparent(style)) return;
     const transform = this.transformOf(element, style, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
@@ -298,8 +297,7 @@ export class SvgWalk {
     this.cascade.collect(element, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
-    const opacity = declaredValue(style, declared, "opacity");
-    if (opacity !== undefined && parseOpacity(opacity) === 0) return;
+    if (this.isTransparent(style)) return;
     const context = withStyle(outer, style, this.transformOf(element, style, outer));
     const box = this.svgGeometry.placeOf(
       context,
@@ -318,10 +316,13 @@ export class SvgWalk {
     name: "x" | "y" | "width" | "height",
     side: Side,
   ): number | null {
-    const text =
-      declaredValue(context.style, this.declared, name as Property) ?? attribute(this.tree, element, name);
-    if (text === undefined || text === "auto") return null;
-    return lengthPx(text, context.basis, side);
+    return this.svgGeometry.lengthOf(element, this.declared, context, name, side);
+  }
+
+  /** By its own opacity. Valid while `declared` is of this element, as are the next two. */
+  private isTransparent(style: Context["style"]): boolean {
+    const opacity = declaredValue(style, this.declared, "opacity");
+    return opacity !== undefined && parseOpacity(opacity) === 0;
   }
 
   private transformOf(element: number, style: Context["style"], outer: Context): Affine {
