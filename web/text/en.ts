@@ -125,7 +125,7 @@ export const en = {
     saved: (name: string) => `${name} has the new settings.`,
     added: (name: string) => `${name} is in the queue.`,
     needsServer: "Without the server nothing can be plotted.",
-    needsPlotter: "No plotter is connected. What is in the queue waits for it.",
+    needsPlotter: "No plotter is connected. The queue waits for one.",
   },
 
   machine: {
