@@ -100,14 +100,14 @@ for (const mode of MODES) {
       for (const { xy } of lines) {
         drawnGrid.addPolyline(xy);
         for (let i = 0; i < xy.length; i += 2) {
-          farthest = Math.max(farthest, sourceGrid.distance(xy[i]!, xy[i + 1]!));
+          farthest = Math.max(farthest, sourceGrid.distance(xy[i]!, xy[i + 1]!, farthest));
         }
       }
       expect(lines.length).toBe(DRAWING.offsets.length - 1);
       expect(farthest).toBeLessThan(allowed);
       let missed = 0;
       for (let i = 0; i < DRAWING.xy.length; i += 2) {
-        missed = Math.max(missed, drawnGrid.distance(DRAWING.xy[i]!, DRAWING.xy[i + 1]!));
+        missed = Math.max(missed, drawnGrid.distance(DRAWING.xy[i]!, DRAWING.xy[i + 1]!, missed));
       }
       expect(missed).toBeLessThan(allowed);
     });

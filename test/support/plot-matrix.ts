@@ -116,11 +116,11 @@ function distances(
   fast.board.drawn().forEach(({ penDown, xy }, index) => {
     if (!penDown) return;
     if (index < firstPlotLines) drawn.addPolyline(xy);
-    for (let i = 0; i < xy.length; i += 2) offMm = Math.max(offMm, grid.distance(xy[i]!, xy[i + 1]!));
+    for (let i = 0; i < xy.length; i += 2) offMm = Math.max(offMm, grid.distance(xy[i]!, xy[i + 1]!, offMm));
   });
   let missedMm = 0;
   for (let i = 0; i < strokes.xy.length; i += 2) {
-    missedMm = Math.max(missedMm, drawn.distance(strokes.xy[i]!, strokes.xy[i + 1]!));
+    missedMm = Math.max(missedMm, drawn.distance(strokes.xy[i]!, strokes.xy[i + 1]!, missedMm));
   }
   return { offMm, missedMm };
 }

@@ -1,6 +1,19 @@
 /** A cell's number; the columns and rows of a sheet of paper fit. */
 const keyOf = (column: number, row: number): number => (column + 0x8000) * 0x10000 + (row + 0x8000);
 
+/** A cell and its neighbours, the likeliest first. */
+const AROUND = [
+  [0, 0],
+  [1, 0],
+  [-1, 0],
+  [0, 1],
+  [0, -1],
+  [1, 1],
+  [1, -1],
+  [-1, 1],
+  [-1, -1],
+] as const;
+
 /** Distances from points to a heap of line segments, quickly: a grid of cells over the segments. */
 export class SegmentGrid {
   private readonly segments: number[] = [];
@@ -15,19 +28,24 @@ export class SegmentGrid {
     for (let i = from; i + 3 < to; i += 2) this.addSegment(xy[i]!, xy[i + 1]!, xy[i + 2]!, xy[i + 3]!);
   }
 
-  /** mm to the nearest segment; Infinity when none is within a cell. */
-  distance(x: number, y: number): number {
+  /**
+   * mm to the nearest segment; Infinity when none is within a cell. `enoughMm`: any distance up to that is as good as
+   * the least, for whoever looks for the largest of many.
+   */
+  distance(x: number, y: number, enoughMm = 0): number {
     const column = Math.floor(x / this.cellMm);
     const row = Math.floor(y / this.cellMm);
-    let nearest = Infinity;
-    for (let c = column - 1; c <= column + 1; c++) {
-      for (let r = row - 1; r <= row + 1; r++) {
-        for (const segment of this.cells.get(keyOf(c, r)) ?? []) {
-          nearest = Math.min(nearest, this.toSegment(segment, x, y));
-        }
+    const enough2 = enoughMm * enoughMm;
+    let nearest2 = Infinity;
+    for (const [right, down] of AROUND) {
+      const cell = this.cells.get(keyOf(column + right, row + down));
+      if (!cell) continue;
+      for (const segment of cell) {
+        nearest2 = Math.min(nearest2, this.toSegment2(segment, x, y));
+        if (nearest2 <= enough2) return Math.sqrt(nearest2);
       }
     }
-    return nearest;
+    return Math.sqrt(nearest2);
   }
 
   private addSegment(x0: number, y0: number, x1: number, y1: number): void {
@@ -47,20 +65,23 @@ export class SegmentGrid {
     }
   }
 
-  private toSegment(index: number, x: number, y: number): number {
+  /** mm². */
+  private toSegment2(index: number, x: number, y: number): number {
     const x0 = this.segments[index]!;
     const y0 = this.segments[index + 1]!;
     const dx = this.segments[index + 2]! - x0;
     const dy = this.segments[index + 3]! - y0;
     const length2 = dx * dx + dy * dy;
     const t = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
-    return Math.hypot(x - x0 - t * dx, y - y0 - t * dy);
+    const awayX = x - x0 - t * dx;
+    const awayY = y - y0 - t * dy;
+    return awayX * awayX + awayY * awayY;
   }
 }
 
 /** The largest distance from any of the points (x, y, x, y …) to the grid's segments. */
 export function farthest(points: Iterable<readonly [number, number]>, grid: SegmentGrid): number {
   let most = 0;
-  for (const [x, y] of points) most = Math.max(most, grid.distance(x, y));
+  for (const [x, y] of points) most = Math.max(most, grid.distance(x, y, most));
   return most;
 }
