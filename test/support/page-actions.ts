@@ -37,10 +37,13 @@ export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
-/** How many pixels of each colour (0xrrggbb) the screen shows at an element, decoded by the browser itself. */
-export async function colorCounts(target: Locator): Promise<Map<number, number>> {
-  const png = (await target.screenshot()).toString("base64");
-  const blank = await target.page().context().newPage();
+/** How many pixels of each colour (0xrrggbb) the screen shows at an element or in a box, decoded by the browser itself. */
+export async function colorCounts(
+  ...[target, clip]: [Locator] | [Page, { x: number; y: number; width: number; height: number }]
+): Promise<Map<number, number>> {
+  const png = (await (clip ? target.screenshot({ clip }) : target.screenshot())).toString("base64");
+  const context = "context" in target ? target.context() : target.page().context();
+  const blank = await context.newPage();
   try {
     const entries = await blank.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));

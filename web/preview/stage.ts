@@ -163,6 +163,7 @@ export class Stage {
 
   #refresh(areStrokesStale: boolean): void {
     this.#areStrokesStale ||= areStrokesStale;
+    if (areStrokesStale) this.#canvases.strokes.ariaBusy = "true";
     this.#areSheetsStale = true;
     this.#schedule();
   }
@@ -197,7 +198,6 @@ export class Stage {
     const frame: Frame = { ...this.#look, ...this.#size, ratio, view: this.#view };
     this.#scenes.set(frame, this.#scene);
     this.#strokes.show(frame);
-    this.#canvases.strokes.ariaBusy = "true";
     this.#moveStrokes();
   }
 
@@ -208,7 +208,7 @@ export class Stage {
     strokes.style.height = `${frame.height}px`;
     this.#drawnView = frame.view;
     this.#moveStrokes();
-    if (isDone) strokes.ariaBusy = "false";
+    if (isDone && !this.#areStrokesStale) strokes.ariaBusy = "false";
     if (!this.#scene || this.#scenes.get(frame) !== this.#scene) return;
     if (this.#isSceneNew) markMoment("plotwright-picture");
     if (isDone) markMoment("plotwright-whole-picture");

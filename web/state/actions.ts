@@ -12,7 +12,7 @@ import {
 } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
-import type { ExportFormat } from "../worker/protocol.js";
+import type { DrawingText, ExportFormat } from "../worker/protocol.js";
 import type { Corner } from "./alignment-mark.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
@@ -25,6 +25,13 @@ const UNDO_DEPTH = 100;
 /** Changes of the same thing within this time are one step of undo: a slider's way is one change. */
 const COALESCE_MS = 800;
 const INFO_MS = 5_000;
+/** Files as large as this are kept as they were read: only the worker makes text of them. */
+const LARGE_BYTES = 1_000_000;
+const HEAD_LENGTH = 4_096;
+
+const wholeText = (content: DrawingText): string =>
+  typeof content === "string" ? content : new TextDecoder().decode(content);
+const headOf = (content: DrawingText): string => wholeText(content.slice(0, HEAD_LENGTH));
 
 interface ActionDeps {
   readonly store: PageStore;
@@ -102,7 +109,7 @@ export const createActions = (deps: ActionDeps) => {
     setSettings(target);
   };
 
-  const openDrawing = (name: string, svg: string, jobId: string | null = null): void => {
+  const openDrawing = (name: string, svg: DrawingText, jobId: string | null = null): void => {
     clearErrors();
     const before = store.getState().drawing?.name;
     store.setState(({ settings }) => ({
@@ -116,9 +123,10 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const openFile = async (file: File): Promise<void> => {
-    const svg = await file.text().catch(() => null);
+    const read = file.size > LARGE_BYTES ? file.arrayBuffer() : file.text();
+    const svg = await read.catch(() => null);
     if (svg === null) notify("error", text.drawing.unreadable(file.name));
-    else if (svg.slice(0, 4_096).includes("\0")) notify("error", text.drawing.notText(file.name));
+    else if (headOf(svg).includes("\0")) notify("error", text.drawing.notText(file.name));
     else openDrawing(file.name.replace(/\.(svg|dxf|hpgl|hpg|plt|json)$/i, ""), svg);
   };
 
@@ -146,7 +154,7 @@ export const createActions = (deps: ActionDeps) => {
     const plotterId = currentPlotter(state)?.id;
     const newJob = {
       name: drawing.name,
-      drawing: drawing.text,
+      drawing: wholeText(drawing.text),
       settings,
       ...(plotterId ? { plotterId } : {}),
       ...(copies > 1 ? { copies } : {}),

@@ -12,7 +12,7 @@ import type {
 } from "../../src/schema/index.js";
 import type { Hover } from "../preview/hover.js";
 import type { SnapLines } from "../preview/placing.js";
-import type { PlanFault, Planned } from "../worker/protocol.js";
+import type { DrawingText, PlanFault, Planned } from "../worker/protocol.js";
 import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
@@ -20,7 +20,7 @@ import type { Remembered, ViewSettings } from "./persist.js";
 interface OpenDrawing {
   readonly key: string;
   readonly name: string;
-  readonly text: string;
+  readonly text: DrawingText;
   /** The job that it was opened from or sent as, while the settings are still that job's. */
   readonly jobId: string | null;
   /** The job that it was opened from, whatever has become of the settings since. */

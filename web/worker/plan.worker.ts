@@ -27,6 +27,7 @@ import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";
 import { penColumnsOf } from "./pen-columns.js";
 import type {
+  DrawingText,
   ExportRequest,
   PlanSettings,
   Planned,
@@ -46,7 +47,7 @@ const scope = self as unknown as WorkerScope;
 let newest: PlanRequest | null = null;
 let isRunning = false;
 /** The last text that came, until it has been read. */
-let received: { key: string; text: string } | null = null;
+let received: { key: string; text: DrawingText } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
 let prepared: { key: string; result: Prepared; placement: Placement; settings: PlanSettings } | null = null;
 
@@ -133,7 +134,8 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
 }
 
 /** The readers of other formats than SVG are fetched when the first such file is opened. */
-async function drawingIn(text: string): Promise<Drawing> {
+async function drawingIn(content: DrawingText): Promise<Drawing> {
+  const text = typeof content === "string" ? content : new TextDecoder().decode(content);
   if (/^[\ufeff\s]*</.test(text)) return importSvg(text);
   const { importDrawing } = await import("./other-formats.js");
   return importDrawing("", text);

@@ -6,6 +6,7 @@
  * dropped by mistake never stands in the way of the next one.
  */
 import type {
+  DrawingText,
   ExportFormat,
   PlanFault,
   Planned,
@@ -41,7 +42,7 @@ export interface PlannerListener {
 export interface PlannerDrawing {
   /** Names the text: another text has another key. */
   readonly key: string;
-  readonly text: string;
+  readonly text: DrawingText;
 }
 
 export class Planner {

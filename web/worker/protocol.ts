@@ -17,12 +17,15 @@ import type { PenColumns } from "./pen-columns.js";
 /** The machine's motors bound the plan, so it is part of what is planned with. */
 export type PlanSettings = PlotSettings;
 
+/** A large file's comes as it was read, in UTF-8: to make a string of it, and to copy that, would hold up the page. */
+export type DrawingText = string | ArrayBuffer;
+
 /** `drawingKey` names the text; the worker keeps the last drawing, so the text is sent once. */
 export interface PlanRequest {
   readonly type: "plan";
   readonly id: number;
   readonly drawingKey: string;
-  readonly text: string | null;
+  readonly text: DrawingText | null;
   readonly settings: PlanSettings;
 }
 

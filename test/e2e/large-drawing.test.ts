@@ -1,0 +1,73 @@
+/** A drawing too large to be drawn in one go: what is seen of it, from afar and from near, is all of it in the end. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { colorCounts } from "../support/page-actions.js";
+import { PageTest } from "../support/page-test.js";
+
+/** Waves beside each other, in short pieces and closer than the pen is wide: where one is missing, paper shows. */
+const LINES = 800;
+const POINTS = 221;
+const wave = (line: number): string =>
+  Array.from({ length: POINTS }, (_, i) => {
+    const y = 60 + line / 10 + 0.4 * Math.sin(i * 1.1);
+    return `${20 + i / 2} ${y.toFixed(3)}`;
+  }).join("L");
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="200mm" viewBox="0 0 150 200" fill="none"
+  stroke="#000">${Array.from({ length: LINES }, (_, line) => `<path d="M${wave(line)}"/>`).join("")}</svg>`;
+
+let test: PageTest;
+/** CSS px of the page: the middle of the paper, and of the drawing. */
+let middle: { x: number; y: number };
+
+const canvas = () => test.page.getByRole("img", { name: "Preview", exact: true });
+const allDrawn = () => test.page.locator(".stage canvas[aria-busy=false]").waitFor();
+
+/** How many pixels of the preview within `reach` px of the drawing's middle are as bright as paper. */
+async function paperPixels(reach: number): Promise<number> {
+  const box = (await canvas().boundingBox())!;
+  const clip = { x: middle.x - reach, y: middle.y - reach, width: 2 * reach, height: 2 * reach };
+  expect(clip.x > box.x + 26 && clip.y > box.y + 26).toBe(true);
+  const counts = await colorCounts(test.page, clip);
+  return [...counts].reduce((sum, [color, count]) => sum + ((color & 0xff) > 128 ? count : 0), 0);
+}
+
+beforeAll(async () => {
+  test = await PageTest.open("large-drawing");
+  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.drop("waves", SVG);
+  const box = (await canvas().boundingBox())!;
+  // Between rulers, tools and legend, as stage.ts lays the paper out.
+  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 80) / 2 };
+});
+
+afterAll(async () => test.close());
+
+describe("a large drawing", () => {
+  it("is all there once it is drawn", async () => {
+    await allDrawn();
+    expect(await paperPixels(80)).toBe(0);
+  });
+
+  it("is all there after it has been zoomed and panned", async () => {
+    const { mouse, keyboard } = test.page;
+    await mouse.move(middle.x, middle.y);
+    await keyboard.down("Control");
+    for (let i = 0; i < 5; i++) await mouse.wheel(0, -100);
+    await keyboard.up("Control");
+    await mouse.wheel(0, 60);
+    expect(await canvas().getAttribute("aria-busy")).toBe("true");
+    // Off the paper, so that nothing is told about the stroke under the pointer.
+    await mouse.move(700, 20);
+    await allDrawn();
+    expect(await paperPixels(200)).toBe(0);
+    expect(test.complaints).toEqual([]);
+  });
+
+  it("is all there in another size of window, and back at the whole paper", async () => {
+    await test.page.setViewportSize({ width: 1300, height: 800 });
+    await test.page.getByRole("button", { name: "Whole paper" }).click();
+    await test.page.setViewportSize({ width: 1440, height: 900 });
+    await test.page.mouse.move(700, 20);
+    await allDrawn();
+    expect(await paperPixels(80)).toBe(0);
+  });
+});
