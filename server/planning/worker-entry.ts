@@ -1,20 +1,50 @@
 /**
  * Starts the worker thread whose file stands beside its starter: compiled (.js), or the source (.ts).
- * Sources need tsx in the thread, where Node 20 does not let `--import tsx` take hold: the thread begins
- * with a line that registers it.
+ * A source is bundled first, once in a process: threads that compile each of its modules anew would begin in
+ * seconds. The bundle lies below node_modules, so that it finds the packages that it imports.
  */
+import { createHash, randomBytes } from "node:crypto";
+import { existsSync, mkdirSync, renameSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { pathToFileURL } from "node:url";
+import { dirname, join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { Worker, type WorkerOptions } from "node:worker_threads";
 
 export function startWorker(name: string, starterUrl: string, options: WorkerOptions): Worker {
-  const own = { ...options, execArgv: [] };
-  if (!starterUrl.endsWith(".ts")) return new Worker(new URL(`./${name}.js`, starterUrl), own);
-  const tsx = new URL(
-    "./dist/esm/api/index.mjs",
-    pathToFileURL(createRequire(starterUrl).resolve("tsx/package.json")),
+  const entry = starterUrl.endsWith(".ts") ? bundleOf(name, starterUrl) : new URL(`./${name}.js`, starterUrl);
+  return new Worker(entry, { ...options, execArgv: [] });
+}
+
+const bundles = new Map<string, URL>();
+
+function bundleOf(name: string, starterUrl: string): URL {
+  const known = bundles.get(name);
+  if (known !== undefined) return known;
+  const require = createRequire(starterUrl);
+  const { buildSync } = require("esbuild") as typeof import("esbuild");
+  const { outputFiles } = buildSync({
+    entryPoints: [fileURLToPath(new URL(`./${name}.ts`, starterUrl))],
+    bundle: true,
+    packages: "external",
+    platform: "node",
+    format: "esm",
+    target: "node20",
+    write: false,
+  });
+  const { contents } = outputFiles[0]!;
+  const folder = join(dirname(require.resolve("esbuild/package.json")), "..", ".cache", "plotwright");
+  const path = join(
+    folder,
+    `${name}-${createHash("sha256").update(contents).digest("hex").slice(0, 16)}.mjs`,
   );
-  const entry = new URL(`./${name}.ts`, starterUrl).href;
-  const begin = `import(${JSON.stringify(tsx.href)}).then(({ register }) => { register(); return import(${JSON.stringify(entry)}); })`;
-  return new Worker(begin, { ...own, eval: true });
+  if (!existsSync(path)) {
+    // Renamed into place: other processes may be at it too.
+    mkdirSync(folder, { recursive: true });
+    const draft = `${path}.${randomBytes(4).toString("hex")}`;
+    writeFileSync(draft, contents);
+    renameSync(draft, path);
+  }
+  const url = pathToFileURL(path);
+  bundles.set(name, url);
+  return url;
 }
