@@ -31,7 +31,10 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
   await test.page.waitForTimeout(300);
   const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
   const at = (await canvas.boundingBox())!;
-  // Once the notices over its upper edge, which are as dark as ink, are gone.
+  // Without the notices over its upper edge, which are as dark as ink.
+  await test.page
+    .locator(".notice-close")
+    .evaluateAll((buttons) => buttons.forEach((button) => (button as HTMLElement).click()));
   await test.page.locator(".notice").first().waitFor({ state: "detached" });
   const png = (await canvas.screenshot()).toString("base64");
   const found = await test.page.evaluate(

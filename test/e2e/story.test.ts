@@ -39,7 +39,7 @@ async function openPage(viewport: { width: number; height: number }): Promise<Pa
 
 beforeAll(async () => {
   browser = await launchBrowser();
-  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 20 });
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 60 });
   page = await openPage(DESKTOP);
 });
 
@@ -104,7 +104,7 @@ describe("a newcomer with a drawing", () => {
     const seen: number[] = [];
     while (await progress.isVisible()) {
       seen.push(Number(await progress.getAttribute("aria-valuenow").catch(() => seen.at(-1))));
-      await page.waitForTimeout(200);
+      await page.waitForTimeout(100);
     }
     expect(seen).toEqual([...seen].sort((a, b) => a - b));
     expect(seen.at(-1)).toBeGreaterThan(90);

@@ -17,7 +17,7 @@ let watcher: Page;
 
 beforeAll(async () => {
   browser = await launchBrowser();
-  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 3, args: ["--pair-always"] });
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8, args: ["--pair-always"] });
   const [operatePath, watchPath] = await vi.waitFor(() => {
     const links = server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
     if (links.length < 2) throw new Error(`no links to pair with: ${server.output()}`);
@@ -82,7 +82,7 @@ describe("two browsers and a watcher", () => {
       await page.waitForFunction(
         () => Number(document.querySelector("[role=progressbar]")?.getAttribute("aria-valuenow")) >= 12,
         undefined,
-        // An eighth of minutes of plotting, longer where the computer is busy.
+        // An eighth of a minute and a half, longer where the computer is busy.
         { timeout: 90_000 },
       );
     }
