@@ -44,7 +44,7 @@ export class BlockColumns {
     if (needed <= this.durationS.length) return;
     const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
     // Between a quarter more and eight-fold: the first strokes may be unlike the rest.
-    this.resize(Math.min(Math.max(1.05 * likely, 1.25 * needed), 8 * needed) + 64);
+    this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 8 * needed) + 64);
   }
 
   /** Appends one block and moves the clock on; for what is not a hot loop. */

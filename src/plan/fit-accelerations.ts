@@ -262,14 +262,18 @@ export class AccelerationFitter {
 
   /** Whether a pair leads to the beginning of block m in the plan's time or a little more; leaves it for `writePair`. */
   private tryPair(m: number): boolean {
-    return STRETCHES.some((stretch) => this.tryPairIn(m, stretch));
+    const length = this.source.startOf(m) - this.at.tau;
+    if (!(length > 0) || length > 2 * LONGEST_S) return false;
+    for (const stretch of STRETCHES) {
+      if (this.solvePair(m, length * stretch)) return this.isNear(length);
+    }
+    return false;
   }
 
-  private tryPairIn(m: number, stretch: number): boolean {
+  /** The pair that leads to the beginning of block m in `wanted` seconds or, for V, a little more; whether it keeps the limits. */
+  private solvePair(m: number, wanted: number): boolean {
     const { at, source, limits } = this;
     const { durationS, vx, vy, ax, ay } = source.blocks;
-    const length = source.startOf(m) - at.tau;
-    if (!(length > 0) || length > 2 * LONGEST_S) return false;
     const d = durationS[m - 1]!;
     const vx1 = vx[m - 1]! + d * ax[m - 1]!;
     const vy1 = vy[m - 1]! + d * ay[m - 1]!;
@@ -277,7 +281,7 @@ export class AccelerationFitter {
     const dy = source.yOf(m) - at.y;
     const sx = (at.vx + vx1) / 2;
     const sy = (at.vy + vy1) / 2;
-    let T = length * stretch;
+    let T = wanted;
     let mx = (2 * dx) / T - sx;
     let my = (2 * dy) / T - sy;
     const most2 = (limits.speed * HARDLY) ** 2;
@@ -288,7 +292,7 @@ export class AccelerationFitter {
       const root = along * along - d2 * (sx * sx + sy * sy - most2);
       if (!(root >= 0)) return false;
       T = (2 * d2) / (along + Math.sqrt(root));
-      if (!(T <= length * stretch * LATER)) return false;
+      if (!(T <= wanted * LATER)) return false;
       mx = (2 * dx) / T - sx;
       my = (2 * dy) / T - sy;
     }
@@ -301,8 +305,7 @@ export class AccelerationFitter {
     this.a2y = (vy1 - my) / h;
     const most = (limits.accel * SLACK) ** 2;
     if (this.a1x * this.a1x + this.a1y * this.a1y > most) return false;
-    if (this.a2x * this.a2x + this.a2y * this.a2y > most) return false;
-    return this.isNear(length);
+    return this.a2x * this.a2x + this.a2y * this.a2y <= most;
   }
 
   private writePair(m: number): void {
