@@ -61,10 +61,10 @@ function textToPlan(folder: string): Row {
     MB: Number((lines.length / 1e6).toFixed(2)),
     "import s": seconds(best.importMs),
     "text to plan s": seconds(best.planMs),
-    "processor s, main thread": seconds(best.mainMs ?? NaN),
-    "all threads": seconds(best.allMs),
+    "main thread, processor s": seconds(best.mainMs ?? NaN),
+    "all threads, processor s": seconds(best.allMs),
     "once more s": seconds(best.againMs ?? NaN),
-    "main thread": seconds(best.againMainMs ?? NaN),
+    "once more, main thread s": seconds(best.againMainMs ?? NaN),
   };
 }
 
