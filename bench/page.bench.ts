@@ -1,7 +1,7 @@
 /**
  * What the page's own thread does with large drawings, in real Chromium: the longest task while a file of 25 MB is
  * opened and planned, how soon a million segments are to be seen once they are planned, and the work of a frame
- * while they are panned and zoomed. Needs the built product (`npm run build`).
+ * while they are panned and zoomed; how many frames a second come of that is the graphics card's and the machine's. Needs the built product (`npm run build`).
  */
 import type { Page } from "playwright-core";
 import { PageTest } from "../test/support/page-test.js";
@@ -15,8 +15,10 @@ const FRAMES = 60;
 
 /** Kept by the page for us. */
 interface Watched {
+  /** Of those over 50 ms, which is what a browser tells. */
   longestTaskMs: number;
-  frameMs: number[];
+  /** What moving about took. */
+  movedMs: number;
   file: File | null;
 }
 
@@ -33,7 +35,7 @@ export default async function pageBench(report: Report): Promise<void> {
   report(
     "The page and large drawings",
     rows,
-    "Milliseconds of the page's thread, in Chromium without a graphics card.",
+    "In Chromium without a graphics card; tasks and work are of the page's thread, tasks under 50 ms count as none.",
   );
 }
 
@@ -44,7 +46,7 @@ async function measure(page: Page, strokes: number, points: number): Promise<Row
   const bytes = await page.evaluate(makeFile, { strokes, points });
   await page.evaluate(forget);
   const openedAt = await page.evaluate(open);
-  const moments = await page.evaluate(pictureAfter, openedAt);
+  const moments = await page.evaluate(picturesAfter, openedAt);
   const opening = await page.evaluate(watched);
   await page.evaluate(forget);
   const mean = await moveAbout(page);
@@ -53,16 +55,18 @@ async function measure(page: Page, strokes: number, points: number): Promise<Row
     MB: Number((bytes / 1e6).toFixed(1)),
     "opened to planned s": Number(((moments.plannedMs - openedAt) / 1_000).toFixed(1)),
     "longest task ms": Math.round(opening.longestTaskMs),
-    "planned to picture ms": Math.round(moments.pictureMs - moments.plannedMs),
-    "a frame, mean ms": Number(mean.toFixed(1)),
-    "a frame, worst ms": Number(Math.max(...moving.frameMs).toFixed(1)),
+    "planned to first picture ms": Math.round(moments.pictureMs - moments.plannedMs),
+    "to whole picture ms": Math.round(moments.wholeMs - moments.plannedMs),
+    "work of a frame ms": Number(mean.toFixed(1)),
+    "longest in a frame ms": Math.round(moving.longestTaskMs),
+    "frames a second": Math.round((1_000 * FRAMES) / moving.movedMs),
   };
 }
 
-/** Pans and zooms by the wheel, a step a frame; returns the page's work in ms a frame. */
+/** Pans and zooms by the wheel, a step a frame; returns the processor time that the page's thread took a frame, ms. */
 async function moveAbout(page: Page): Promise<number> {
   const session = await page.context().newCDPSession(page);
-  await session.send("Performance.enable");
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
   const workS = async (): Promise<number> => {
     const { metrics } = await session.send("Performance.getMetrics");
     return metrics.find(({ name }) => name === "TaskDuration")!.value;
@@ -75,19 +79,12 @@ async function moveAbout(page: Page): Promise<number> {
 // What follows runs in the page.
 
 function watch(): void {
-  const watched: Watched = { longestTaskMs: 0, frameMs: [], file: null };
+  const watched: Watched = { longestTaskMs: 0, movedMs: 0, file: null };
   (window as unknown as { watched: Watched }).watched = watched;
   new PerformanceObserver((list) => {
     for (const { duration } of list.getEntries())
       watched.longestTaskMs = Math.max(watched.longestTaskMs, duration);
   }).observe({ type: "longtask" });
-  const request = window.requestAnimationFrame.bind(window);
-  window.requestAnimationFrame = (callback) =>
-    request((time) => {
-      const from = performance.now();
-      callback(time);
-      watched.frameMs.push(performance.now() - from);
-    });
 }
 
 /** A scribble of so many strokes: writes the file in parts, since one text of it would be a long task. */
@@ -123,7 +120,6 @@ async function forget(): Promise<void> {
   await new Promise((resolve) => setTimeout(resolve, 1_000));
   const { watched } = window as unknown as { watched: Watched };
   watched.longestTaskMs = 0;
-  watched.frameMs.length = 0;
   performance.clearMarks();
 }
 
@@ -144,6 +140,7 @@ async function turnWheel(frames: number): Promise<void> {
   const stage = document.querySelector(".preview .stage")!;
   const { left, top, width, height } = stage.getBoundingClientRect();
   const place = { clientX: left + width / 2, clientY: top + height / 2, bubbles: true, cancelable: true };
+  const fromMs = performance.now();
   for (let i = 0; i < frames; i++) {
     const deltaY = i % 20 < 10 ? -30 : 30;
     stage.dispatchEvent(
@@ -151,10 +148,13 @@ async function turnWheel(frames: number): Promise<void> {
     );
     await new Promise((resolve) => requestAnimationFrame(resolve));
   }
+  (window as unknown as { watched: Watched }).watched.movedMs = performance.now() - fromMs;
 }
 
-/** When the plan of what was opened then came, and when the preview first showed it. */
-async function pictureAfter(openedAt: number): Promise<{ plannedMs: number; pictureMs: number }> {
+/** When the plan of what was opened then came, when the preview first showed it, and when all of it. */
+async function picturesAfter(
+  openedAt: number,
+): Promise<{ plannedMs: number; pictureMs: number; wholeMs: number }> {
   const markAfter = async (name: string, fromMs: number): Promise<number> => {
     for (;;) {
       const mark = performance.getEntriesByName(name).find(({ startTime }) => startTime >= fromMs);
@@ -163,12 +163,13 @@ async function pictureAfter(openedAt: number): Promise<{ plannedMs: number; pict
     }
   };
   const plannedMs = await markAfter("plotwright-planned", openedAt);
-  return { plannedMs, pictureMs: await markAfter("plotwright-picture", plannedMs) };
+  const pictureMs = await markAfter("plotwright-picture", plannedMs);
+  return { plannedMs, pictureMs, wholeMs: await markAfter("plotwright-whole-picture", plannedMs) };
 }
 
 /** What has been seen; long tasks are told a little later. */
-async function watched(): Promise<{ longestTaskMs: number; frameMs: number[] }> {
+async function watched(): Promise<{ longestTaskMs: number; movedMs: number }> {
   await new Promise((resolve) => setTimeout(resolve, 1_000));
-  const { longestTaskMs, frameMs } = (window as unknown as { watched: Watched }).watched;
-  return { longestTaskMs, frameMs: [...frameMs] };
+  const { longestTaskMs, movedMs } = (window as unknown as { watched: Watched }).watched;
+  return { longestTaskMs, movedMs };
 }

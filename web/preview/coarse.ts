@@ -51,8 +51,8 @@ const forEachChain = (
       const f = last * PIECE_FLOATS;
       if (last > first && !touches(floats, f)) break;
       if (shorts[last * PIECE_SHORTS + LAYER_SHORT] !== layer) break;
-      way += Math.hypot(floats[f + 2]! - floats[f]!, floats[f + 3]! - floats[f + 1]!);
-      const chord = Math.hypot(floats[f + 2]! - floats[a]!, floats[f + 3]! - floats[a + 1]!);
+      way += distance(floats[f + 2]! - floats[f]!, floats[f + 3]! - floats[f + 1]!);
+      const chord = distance(floats[f + 2]! - floats[a]!, floats[f + 3]! - floats[a + 1]!);
       if (chord < STRAIGHT * way) break;
     }
     visit(first, Math.max(first, last - 1));
@@ -79,3 +79,6 @@ const writeJoined = (source: Columns, first: number, last: number, target: Colum
   target.shorts[s + SPEED_SHORT + 1] = shorts[last * PIECE_SHORTS + SPEED_SHORT + 1]!;
   target.shorts[s + LAYER_SHORT] = shorts[first * PIECE_SHORTS + LAYER_SHORT]!;
 };
+
+/** Several times as quick as Math.hypot, which minds numbers that no paper has. */
+const distance = (dx: number, dy: number): number => Math.sqrt(dx * dx + dy * dy);

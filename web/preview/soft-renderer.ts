@@ -214,7 +214,7 @@ class Brush {
     const left = Math.max(0, Math.ceil(Math.min(ax, bx) - far - 0.5));
     const right = Math.min(this.#width - 1, Math.floor(Math.max(ax, bx) + far - 0.5));
     if (top > bottom || left > right) return;
-    const length = Math.hypot(bx - ax, by - ay);
+    const length = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay));
     const ux = length > 1e-4 ? (bx - ax) / length : 1;
     const uy = length > 1e-4 ? (by - ay) / length : 0;
     const far2 = far * far;
