@@ -7,12 +7,17 @@ import { ruledSheet } from "./drawings.js";
 import { dropFile, historyPanel, openTab, plotBar, queuePanel, waitForPlan } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
+/** The size of a screen. */
 export interface Look {
   readonly name: string;
   readonly width: number;
   readonly height: number;
-  readonly colorScheme: "light" | "dark";
 }
+export const DESK: Look = { name: "desk", width: 1440, height: 900 };
+export const PHONE: Look = { name: "phone", width: 390, height: 844 };
+
+const SCHEMES = ["light", "dark"] as const;
+export type Scheme = (typeof SCHEMES)[number];
 
 interface Stand {
   readonly page: Page;
@@ -26,6 +31,8 @@ export interface PageState {
   readonly virtualSpeed?: number;
   /** Instead of the virtual board. */
   readonly device?: string;
+  /** Leaves nothing behind, once a sheet that it opened is closed. */
+  readonly isPassing?: true;
   reach(stand: Stand): Promise<void>;
 }
 
@@ -62,12 +69,18 @@ async function start(page: Page, name: string, text: string): Promise<void> {
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 
-const button = (page: Page, name: string | RegExp) => queuePanel(page).getByRole("button", { name });
+/** Of a job: in the queue, and on a phone in the bar under the thumb. */
+const button = (page: Page, name: string | RegExp) =>
+  queuePanel(page).or(plotBar(page)).getByRole("button", { name });
 
 export const PAGE_STATES: readonly PageState[] = [
-  { name: "01-first-visit", reach: async () => undefined },
-  { name: "02-loaded", reach: ({ page }) => lay(page, "hills", sampleText("three-colour-hills")) },
-  { name: "03-report", reach: ({ page }) => lay(page, "poster", WITH_WARNINGS) },
+  { name: "01-first-visit", isPassing: true, reach: async () => undefined },
+  {
+    name: "02-loaded",
+    isPassing: true,
+    reach: ({ page }) => lay(page, "hills", sampleText("three-colour-hills")),
+  },
+  { name: "03-report", isPassing: true, reach: ({ page }) => lay(page, "poster", WITH_WARNINGS) },
   {
     name: "04-not-a-drawing",
     reach: async ({ page }) => {
@@ -130,7 +143,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   {
     name: "11-interrupted",
-    virtualSpeed: 2,
+    virtualSpeed: 8,
     reach: async (stand) => {
       await start(stand.page, "lines", ruledSheet());
       await queuePanel(stand.page).getByText("1 %").first().waitFor();
@@ -147,6 +160,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   {
     name: "13-by-hand",
+    isPassing: true,
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Move by hand" }).click();
@@ -156,6 +170,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   {
     name: "14-set-up",
+    isPassing: true,
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Set up a plotter…" }).click();
@@ -166,6 +181,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   {
     name: "15-machines",
+    isPassing: true,
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Machines…" }).click();
@@ -177,6 +193,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   {
     name: "16-console",
+    isPassing: true,
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Console" }).click();
@@ -187,6 +204,7 @@ export const PAGE_STATES: readonly PageState[] = [
   },
   ...(["Share", "Access", "Plotters", "Webhooks", "Camera"] as const).map((section, index) => ({
     name: `${17 + index}-studio-${section.toLowerCase()}`,
+    isPassing: true as const,
     reach: async ({ page }: Stand): Promise<void> => {
       await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
       await page.getByRole("radio", { name: section }).check();
@@ -210,40 +228,64 @@ export const PAGE_STATES: readonly PageState[] = [
   },
 ];
 
-/** Opens the page on a server of its own, brings it into the state, and gives it to `look at it`. */
-export async function inState(
+type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
+
+/**
+ * Brings the page into each of the states and gives it to `lookAtIt`, light and dark. Those that leave nothing behind
+ * are reached one after the other on one page; each of the others has a server of its own.
+ */
+export async function inStates(
   browser: Browser,
-  state: PageState,
+  states: readonly PageState[],
   look: Look,
-  lookAtIt: (page: Page) => Promise<void>,
+  lookAtIt: LookAtIt,
+): Promise<void> {
+  const passing = states.filter(({ isPassing }) => isPassing);
+  const lasting = states.filter(({ isPassing }) => !isPassing);
+  const groups = [passing, ...lasting.map((state) => [state])].filter((group) => group.length > 0);
+  for (const group of groups) await inGroup(browser, group, look, lookAtIt);
+}
+
+async function inGroup(
+  browser: Browser,
+  states: readonly PageState[],
+  { width, height }: Look,
+  lookAtIt: LookAtIt,
 ): Promise<void> {
   const data = temporaryFolder("page-state");
-  const args = state.device === undefined ? [] : ["--device", state.device];
+  const { device, virtualSpeed = 20 } = states[0]!;
   const open = (port: string): Promise<ServerProcess> =>
     startServerProcess({
       dataDir: data.path,
-      virtualSpeed: state.virtualSpeed ?? 20,
-      args: [...args, "--port", port],
+      virtualSpeed,
+      args: [...(device === undefined ? [] : ["--device", device]), "--port", port],
     });
   let server = await open("0");
-  const { width, height, colorScheme } = look;
+  const restart = async (): Promise<void> => {
+    const { port } = new URL(server.url);
+    server.process.kill("SIGKILL");
+    await server.stop();
+    server = await open(port);
+  };
+  // Nothing is on its way from one colour to another while it is looked at.
+  const reducedMotion = "reduce" as const;
   const context = await browser.newContext({
     viewport: { width, height },
-    colorScheme,
     hasTouch: width < 760,
+    reducedMotion,
   });
   const page = await context.newPage();
   try {
     await page.goto(server.url);
     await waitForPlan(page);
-    const restart = async (): Promise<void> => {
-      const { port } = new URL(server.url);
-      server.process.kill("SIGKILL");
-      await server.stop();
-      server = await open(port);
-    };
-    await state.reach({ page, server, restart });
-    await lookAtIt(page);
+    for (const state of states) {
+      await state.reach({ page, server, restart });
+      for (const colorScheme of SCHEMES) {
+        await page.emulateMedia({ colorScheme, reducedMotion });
+        await lookAtIt(page, state, colorScheme);
+      }
+      await page.keyboard.press("Escape");
+    }
   } finally {
     await context.close();
     await server.stop();
