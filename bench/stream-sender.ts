@@ -66,6 +66,13 @@ const { underrunCount, steps1, steps2 } = await streamCommands(session, commands
   clock: nodeClock,
   pacing: task.pacing,
   poll: { lines: ["QG"], everyS: 0.25 },
+}).catch((error: unknown) => {
+  // What was said last tells whether the board, the line or this process went wrong.
+  console.error(session.log.tail(30).join("\n"));
+  console.error(
+    `${session.unansweredCount} unanswered, ${session.lostReplyCount} lost, ${session.strayCount} stray`,
+  );
+  throw error;
 });
 const report: SenderReport = {
   commandCount: commands.count,
