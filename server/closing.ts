@@ -2,7 +2,7 @@
  * What a server has opened, and how it is given back: what plots first, so that pens lift and places are stored,
  * then the rest, the latest first. A part that hangs or fails is named in the log and left, and the others follow.
  */
-export type CloseStep = () => Promise<void> | void;
+type CloseStep = () => Promise<void> | void;
 
 /** A part that takes longer hangs. All of them together end before systemd loses its patience (60 s). */
 const LIMIT_MS = 4_000;

@@ -166,7 +166,7 @@ function summary(board: VirtualBoard): string {
 }
 
 /** The line as drawn, one path a stroke, travel dotted. */
-export function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
+function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
   const { widthMm, heightMm } = machine;
   const parts = [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${widthMm}mm" height="${heightMm}mm" ` +

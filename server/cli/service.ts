@@ -42,7 +42,7 @@ const UNIT = "plotwright.service";
 /** Options of `serve` whose value is a path. */
 const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
 
-export function thisHost(): ServiceHost {
+function thisHost(): ServiceHost {
   return {
     platform: process.platform,
     env: process.env,

@@ -88,7 +88,7 @@ export class DrawingFiles {
 
 const newId = (): string => randomBytes(16).toString("hex");
 
-export function tooLarge(maxBytes: number): PlotwrightError {
+function tooLarge(maxBytes: number): PlotwrightError {
   return new PlotwrightError(
     "too-large",
     `The file is larger than ${Math.round(maxBytes / 1e6)} MB, the most this server takes. Simplify the drawing, or start the server with a larger --max-upload-mb.`,

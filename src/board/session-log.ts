@@ -32,19 +32,18 @@ export class SessionLog {
 
   /** One line each: seconds since the session began, `>` sent, `<` received, `#` a remark. */
   text(): string {
-    const kept = Math.min(this.total, this.sizeLines);
-    const out: string[] = [];
-    for (let i = this.total - kept; i < this.total; i++) {
-      const slot = i % this.sizeLines;
-      out.push(`${this.times[slot]!.toFixed(4)} ${MARKS[this.directions[slot]!]} ${this.lines[slot]}`);
-    }
-    return out.join("\n") + (kept > 0 ? "\n" : "");
+    return this.tail(this.sizeLines)
+      .map((line) => `${line}\n`)
+      .join("");
   }
 
   /** The last lines, for an error message or a panel. */
   tail(count: number): readonly string[] {
-    return this.text()
-      .split("\n")
-      .slice(-count - 1, -1);
+    const out: string[] = [];
+    for (let i = Math.max(0, this.total - Math.min(count, this.sizeLines)); i < this.total; i++) {
+      const slot = i % this.sizeLines;
+      out.push(`${this.times[slot]!.toFixed(4)} ${MARKS[this.directions[slot]!]} ${this.lines[slot]}`);
+    }
+    return out;
   }
 }

@@ -23,7 +23,7 @@ import type { TickArithmetic } from "./firmware.js";
 
 const RANGE = ACCUMULATOR_RANGE;
 const WORD = 2 ** 32;
-export const MAX_PIECE_TICKS = 2 ** 16;
+const MAX_PIECE_TICKS = 2 ** 16;
 /** A command that wraps its registers more often than this counts as one that never ends. */
 const MAX_PIECES = 100_000;
 
