@@ -74,3 +74,46 @@ export function rampPeak(
   }
   return low;
 }
+
+/** A hump of speed from v over v + `change` and back to v, with ramps under `accel`. */
+export interface Hump {
+  readonly change: number;
+  readonly accel: number;
+}
+
+/** Seconds that may be lost to longer holds, as a share of their length. */
+const LOSS = 0.1;
+
+/**
+ * The hump nearest to the fastest one, of `change` under `accel`, whose ramps hold their acceleration for `hold` seconds; or
+ * that one itself where they do so for longer or not at all, or where too much time would be lost.
+ * With a little less acceleration a:
+ *
+ *     Δ = a hold + a²/J        T = hold + 2 a/J        (2 v + Δ) T ≤ length
+ */
+export function heldHump(
+  v: number,
+  change: number,
+  length: number,
+  accel: number,
+  jerk: number,
+  hold: number,
+): Hump {
+  const holds = change / accel - accel / jerk;
+  if (!(holds > 0 && holds < hold)) return { change, accel };
+  const changeOf = (a: number): number => a * hold + (a * a) / jerk;
+  let low = 0;
+  let high = accel;
+  for (let i = 0; i < 60; i++) {
+    const a = (low + high) / 2;
+    const fits = changeOf(a) <= change && (2 * v + changeOf(a)) * (hold + (2 * a) / jerk) <= length;
+    if (fits) low = a;
+    else high = a;
+  }
+  const timeOf = (delta: number, a: number): number => {
+    const ramp = delta / a + a / jerk;
+    return 2 * ramp + (length - (2 * v + delta) * ramp) / (v + delta);
+  };
+  const held = { change: changeOf(low), accel: low };
+  return timeOf(held.change, low) <= timeOf(change, accel) + LOSS * hold ? held : { change, accel };
+}

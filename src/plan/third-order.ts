@@ -18,7 +18,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { capSegments, type RunLimits } from "./limits.js";
-import { rampLength, rampPeak, rampReach, rampTime, steadyReach } from "./ramp.js";
+import { heldHump, rampLength, rampPeak, rampReach, rampTime, steadyReach } from "./ramp.js";
 import type { RunPath } from "./run-path.js";
 
 /** Share of a segment that each of its two corners may use: the rest is left for ramps. */
@@ -141,12 +141,17 @@ export class ThirdOrderPlanner {
     limits: RunLimits,
     out: BlockColumns,
   ): void {
-    const { accel, jerk } = limits;
-    const peak = rampPeak(v0, v1, most, length, accel, jerk);
+    const { jerk, floorS } = limits;
+    const fastest = rampPeak(v0, v1, most, length, limits.accel, jerk);
+    const even = floorS > 0 && v0 === v1;
+    const hump = even ? heldHump(v0, fastest - v0, length, limits.accel, jerk, floorS) : null;
+    const peak = hump ? v0 + hump.change : fastest;
+    const accel = hump ? hump.accel : limits.accel;
+    const own = accel < limits.accel ? { ...limits, accel } : limits;
     // A ramp too small to be written must not be given way either: √Δ in its time makes way of rounding.
     const rise = isRounding(peak - v0, peak) ? 0 : rampLength(v0, peak, accel, jerk);
     const fall = isRounding(peak - v1, peak) ? 0 : rampLength(peak, v1, accel, jerk);
-    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, (v0 + peak) / 2, limits, out);
+    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, (v0 + peak) / 2, own, out);
     const cruise = length - rise - fall;
     if (cruise > NO_PIECE) {
       out.push(cruise / peak, this.x, this.y, ux * peak, uy * peak, 0, 0, this.along);
@@ -154,7 +159,7 @@ export class ThirdOrderPlanner {
       this.y += uy * cruise;
       this.along += cruise;
     }
-    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, (v1 + peak) / 2, limits, out);
+    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, (v1 + peak) / 2, own, out);
   }
 
   /** From one velocity vector to another in two or three blocks; `speed` is that along the drawing. */

@@ -73,6 +73,19 @@ describe("fitting", () => {
     expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
   });
 
+  it("holds the acceleration of scurve ramps for the floor at least, in at most 1.5 ms more", () => {
+    for (const length of [2.6, 2.9, 3.2, 3.5]) {
+      const line = strokeSetOf([[[0, 0], [length, 0]]]); // prettier-ignore
+      const planned = (fit: typeof DEFAULT_FIT | null) => {
+        const t = plan(line, { mode: "scurve", draw, travel: draw, fit }, DEFAULT_PEN, { returnHome: false });
+        return { totalS: t.totalS, shortestS: Math.min(...t.durationS.subarray(0, t.blockCount)) };
+      };
+      expect(planned(null).shortestS).toBeLessThan(0.0145);
+      expect(planned(DEFAULT_FIT).shortestS).toBeGreaterThan(0.015 - 1e-9);
+      expect(planned(DEFAULT_FIT).totalS).toBeLessThan(planned(null).totalS + 0.0015);
+    }
+  });
+
   it("leaves a polygon's blocks as they are", () => {
     const motion: MotionSettings = { mode: "blend", draw, travel: draw };
     const plain = plan(strokeSetOf([square]), motion, DEFAULT_PEN);
