@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importSvg } from "../../../src/import/import-svg.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
+import { generator, mutate } from "./support/mutate.js";
 
 const CASES = 10_000;
 /** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
@@ -11,7 +12,7 @@ const HANGS_MS = 60_000;
 
 const SEEDS = [
   '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm" viewBox="0 0 100 80"><style>.a{stroke:red;fill:none}#b>g:not(.x){stroke-width:2px}</style><defs><symbol id="s" viewBox="0 0 9 9"><circle cx="4" cy="4" r="3"/></symbol><linearGradient id="l"><stop stop-color="#f00"/></linearGradient><clipPath id="c" clipPathUnits="objectBoundingBox"><circle cx=".5" cy=".5" r=".4"/></clipPath><marker id="m" orient="auto" viewBox="0 0 4 4"><path d="M0 0l4 2-4 2z"/></marker></defs><g id="b" transform="translate(5 5) rotate(30)"><use href="#s" x="3" width="20" height="20"/><path class="a" d="M0 0h10v10A5 5 0 01 3 4q1 2 3 4t5 5s1 2 3 4z" stroke-dasharray="1 2" marker-end="url(#m)"/></g><g clip-path="url(#c)"><rect x="10%" y="1cm" width="3em" height="20" rx="2" stroke="url(#l)"/><polygon points="1,2 3,4 5,6"/></g></svg>',
-  '<svg width="200" height="200"><g inkscape:label="L1" inkscape:groupmode="layer"><path style="fill:none;stroke:#123456;stroke-width:1.5;transform:scale(2)" d="m 1e1,2e-1 c 1,2 3,4 5,6 z m 3 3"/></g><switch><g systemLanguage="en"><text x="5" y="9" font-size="12">Hi &amp; bye</text></g></switch><svg x="3" y="4" width="50%" height="50%" viewBox="0 0 1 1" preserveAspectRatio="xMinYMax slice"><ellipse rx=".4" ry=".2"/></svg><image width="5" height="5"/><line x1="1" x2="9" vector-effect="non-scaling-stroke"/></svg>',
+  '<svg width="200" height="200"><g inkscape:label="L1" inkscape:groupmode="layer"><path id="p" style="fill:none;stroke:#123456;stroke-width:1.5;transform:scale(2)" d="m 1e1,2e-1 c 1,2 3,4 5,6 z m 3 3"/></g><switch><g systemLanguage="en"><text x="5" y="9" font-size="12">Hi &amp; bye<textPath href="#p" startOffset="10%" side="right">round<tspan dy="2">about</tspan></textPath></text></g></switch><svg x="3" y="4" width="50%" height="50%" viewBox="0 0 1 1" preserveAspectRatio="xMinYMax slice"><ellipse rx=".4" ry=".2"/></svg><image width="5" height="5"/><line x1="1" x2="9" vector-effect="non-scaling-stroke"/></svg>',
 ];
 
 /** Pieces that files break at. */
@@ -19,35 +20,6 @@ const PIECES =
   'NaN|1e300|-1e308|1e-300|Infinity|0|-1|%|"|\'|<|>|</g>|<g>|/>|&|&#0;|&x;|<!--|-->|<![CDATA[|]]>|url(#c)|url(#|#m|use|href="#b"|<use href="#b"/>|<use href="#s"/>|transform="scale(0)"|matrix(1 0 0|rotate(|,|;|}|{|@media|:not(|var(--x)|--x:var(--x);|!important|M|z|a0 0 0 00 0|\u0000|\ufffd|\ud800|em|viewBox="0 0 0 0"|viewBox="0 0 1e-9 1e9"|width="1e9"|display="none"|<svg|<clipPath id="c" clip-path="url(#c)">|marker="url(#m)"|999999999999999999999'.split(
     "|",
   );
-
-/** mulberry32: small, seeded, the same everywhere. */
-function generator(seed: number): (below: number) => number {
-  return (below) => {
-    seed = (seed + 0x6d2b79f5) | 0;
-    let t = Math.imul(seed ^ (seed >>> 15), 1 | seed);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return Math.floor((((t ^ (t >>> 14)) >>> 0) / 2 ** 32) * below);
-  };
-}
-
-function mutate(text: string, below: (n: number) => number): string {
-  for (let edits = 1 + below(6); edits > 0; edits--) {
-    const at = below(text.length + 1);
-    const length = below(3) === 0 ? below(40) : below(4);
-    const kind = below(5);
-    if (kind === 0) text = text.slice(0, at) + text.slice(at + length);
-    else if (kind === 1) text = text.slice(0, at) + PIECES[below(PIECES.length)] + text.slice(at + below(3));
-    else if (kind === 2) text = text.slice(0, at) + text.slice(at, at + length * 5) + text.slice(at);
-    else if (kind === 3) text = text.slice(0, at) + String.fromCharCode(below(128)) + text.slice(at + 1);
-    else {
-      // A number in place of another keeps the XML whole, so that the mutation gets further in.
-      const rest = text.slice(at);
-      const piece = PIECES[below(8)];
-      text = text.slice(0, at) + rest.replace(/-?\d+(\.\d+)?/, piece);
-    }
-  }
-  return text;
-}
 
 describe("importSvg on damaged files", () => {
   it("would be ended if it hung", () => {
@@ -63,7 +35,7 @@ describe("importSvg on damaged files", () => {
     let refused = 0;
     for (let i = 0; i < CASES; i++) {
       const below = generator(i);
-      const text = mutate(SEEDS[i % SEEDS.length], below);
+      const text = mutate(SEEDS[i % SEEDS.length], PIECES, below);
       try {
         const mark = process.cpuUsage();
         const { paths, clips, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importSvg(text));

@@ -74,6 +74,8 @@ describe("DXF", () => {
     const body =
       "0 LWPOLYLINE 8 0 90 3 70 0 43 0 10 0 20 0 91 1 10 10 20 0 40 1 41 1 42 0 91 2 10 10 91 3 20 10";
     expect(shapesOf(draw(body))).toEqual(["M0 10L10 10L10 0"]);
+    const apart = "0 LWPOLYLINE 8 0 90 2 10 0 91 1 20 0 10 10 91 2 20 10";
+    expect(shapesOf(draw(apart))).toEqual(["M0 10L10 0"]);
   });
 
   it("draws a cubic B-spline as the curve that its knots say", () => {
