@@ -38,7 +38,7 @@ async function drawn(page: Page): Promise<void> {
 async function pictureForReadme(browser: Browser): Promise<void> {
   const data = temporaryFolder("screenshots");
   const server = await startServerProcess({ dataDir: data.path });
-  const page = await browser.newPage({ viewport: { width: 1240, height: 780 }, colorScheme: "light" });
+  const page = await browser.newPage({ viewport: { width: 1240, height: 760 }, colorScheme: "light" });
   try {
     await page.goto(server.url);
     await waitForPlan(page);
