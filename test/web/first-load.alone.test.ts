@@ -14,12 +14,12 @@ const gzippedBytes = (file: string): number =>
 /** Scripts and style sheets that the page names, those it imports at once among them. */
 const named = (): string[] =>
   [...read("index.html").matchAll(/assets\/[\w.-]+\.(?:js|css)/g)].map(([file]) => file);
-const worker = (): string =>
-  `assets/${readdirSync(path.join(folder, "assets")).find((name) => name.startsWith("plan.worker"))!}`;
+const worker = (name: "plan" | "draw"): string =>
+  `assets/${readdirSync(path.join(folder, "assets")).find((file) => file.startsWith(`${name}.worker`))!}`;
 
 describe("the first load of the built page", () => {
-  it("is at most 250 kB gzipped, planning worker and style sheet included", () => {
-    const files = ["index.html", ...named(), worker()];
+  it("is at most 250 kB gzipped, workers and style sheet included", () => {
+    const files = ["index.html", ...named(), worker("plan"), worker("draw")];
     expect(files.filter((file) => file.endsWith(".js")).length).toBeGreaterThanOrEqual(2);
     expect(files.filter((file) => file.endsWith(".css")).length).toBe(1);
     expect(files.reduce((sum, file) => sum + gzippedBytes(file), 0)).toBeLessThanOrEqual(LIMIT_BYTES);
@@ -32,6 +32,6 @@ describe("the first load of the built page", () => {
       );
       expect(named()).toEqual(expect.arrayContaining(imported));
     }
-    expect(read(worker())).not.toMatch(/\b(import|from)\s*["']/);
+    for (const name of ["plan", "draw"] as const) expect(read(worker(name))).not.toMatch(/\b(import|from)\s*["']/);
   });
 });
