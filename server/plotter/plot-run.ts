@@ -155,7 +155,7 @@ export class CarriageRun implements LivePlotRun {
   /** The board can no longer do what it is told: nothing more is written, `finished` rejects. */
   fail(error: PlotwrightError): void {
     this.failure ??= error;
-    this.stream.abandon(error);
+    this.stream.fail(error);
     this.wakeWisher?.();
   }
 

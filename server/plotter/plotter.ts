@@ -58,6 +58,7 @@ export class PlotterDriver {
   /** Once a real board was there, the virtual one never takes its place. */
   private hadSerial = false;
   private powerIsLow = false;
+  private lastSupplyLow = false;
   private cancelSupply: (() => void) | null = null;
   private virtual: VirtualBoard | null = null;
 
@@ -311,7 +312,13 @@ export class PlotterDriver {
   /** Answers that come while a stream plays. */
   private polled(line: string, reply: string): void {
     if (isButtonPressed(line, reply)) this.run?.pause().catch(() => undefined);
-    if (isPowerLow(line, reply)) this.powerLost();
+    if (line === "QC") this.supplyRead(isPowerLow(line, reply));
+  }
+
+  /** Twice in a row: a second program's answers may make one of ours be taken for another. */
+  private supplyRead(isLow: boolean): void {
+    if (isLow && this.lastSupplyLow) this.powerLost();
+    this.lastSupplyLow = isLow;
   }
 
   /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
@@ -327,7 +334,8 @@ export class PlotterDriver {
   }
 
   private async askSupply(carriage: Carriage): Promise<void> {
-    const isLow = isPowerLow("QC", await carriage.supplyReading());
+    const readLow = async (): Promise<boolean> => isPowerLow("QC", await carriage.supplyReading());
+    const isLow = (await readLow()) && (await readLow());
     if (isLow) this.powerLost();
     else if (this.powerIsLow) {
       this.powerIsLow = false;

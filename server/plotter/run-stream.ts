@@ -75,6 +75,8 @@ export class RunStream {
   streamer: Streamer | null = null;
 
   private emergency = false;
+  /** Nothing may be streamed any more. */
+  private failure: PlotwrightError | null = null;
   /** The heights that the board moves the pen to. */
   private boardPen: PenSettings;
 
@@ -102,6 +104,8 @@ export class RunStream {
     const { carriage } = this;
     this.stopped = null;
     if (carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
+    // It may have come while the pen went up.
+    if (this.failure) throw this.failure;
     this.boardPen = this.settings.current.pen;
     this.progress.add({ ...plot, start: carriage.boardState!, afterS });
     const streamer = carriage.streamer();
@@ -150,8 +154,13 @@ export class RunStream {
     this.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
-  /** Stops the motors and fails with an error. */
-  abandon(error: PlotwrightError): void {
+  /** Stops the motors for good: what plays, or would be played next, fails with the error. */
+  fail(error: PlotwrightError): void {
+    this.failure = error;
+    this.abandon(error);
+  }
+
+  private abandon(error: PlotwrightError): void {
     this.carriage.connection.session.write([{ line: "ES" }]);
     this.streamer?.abandon(error);
   }

@@ -243,6 +243,16 @@ describe("what the board tells while it plots", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 
+  it("does not end a plot for one odd reading of the supply", async () => {
+    const { world, board, begin } = await newPlotter();
+    const { run } = await begin();
+    await world.advance(1.4);
+    board.setMotorVolts(5);
+    await world.advance(0.25);
+    board.setMotorVolts(9.1);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+
   it("ends the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
