@@ -8,13 +8,15 @@ import { createPageStore } from "../../web/state/store.js";
 function makePage() {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
-  const api = createApiClient(() =>
-    isServerUp ? Promise.resolve(Response.json({ samples: [] })) : Promise.reject(new Error("refused")),
-  );
+  const sent: string[] = [];
+  const api = createApiClient((_path, init) => {
+    if (typeof init?.body === "string") sent.push(init.body);
+    return isServerUp ? Promise.resolve(Response.json({ samples: [] })) : Promise.reject(new Error("refused"));
+  });
   const planner = { request: () => undefined, export: () => undefined };
   const actions = createActions({ store, api, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
-  return { store, actions, errorCount, startServer: () => (isServerUp = true) };
+  return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };
 }
 
 describe("a message of what went wrong", () => {
@@ -58,5 +60,15 @@ describe("a file that is dropped", () => {
     const { store, actions } = makePage();
     await actions.openFile(new File(["<svg width='9'/>"], "waves.svg"));
     expect(store.getState().drawing?.name).toBe("waves");
+  });
+
+  it("stays as it was read where it is large, and goes to the queue as text", async () => {
+    const { store, actions, sent } = makePage();
+    const svg = `<svg width='9'><!-- ${"größer ".repeat(200_000)} --></svg>`;
+    await actions.openFile(new File([svg], "waves.svg"));
+    const { drawing } = store.getState();
+    expect(drawing?.text).toBeInstanceOf(ArrayBuffer);
+    await actions.queueDrawing();
+    expect((JSON.parse(sent.at(-1)!) as { drawing: string }).drawing).toBe(svg);
   });
 });
