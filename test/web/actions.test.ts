@@ -11,7 +11,9 @@ function makePage() {
   const sent: string[] = [];
   const api = createApiClient((_path, init) => {
     if (typeof init?.body === "string") sent.push(init.body);
-    return isServerUp ? Promise.resolve(Response.json({ samples: [] })) : Promise.reject(new Error("refused"));
+    return isServerUp
+      ? Promise.resolve(Response.json({ samples: [] }))
+      : Promise.reject(new Error("refused"));
   });
   const planner = { request: () => undefined, export: () => undefined };
   const actions = createActions({ store, api, planner, nowMs: () => 0, after: () => undefined });

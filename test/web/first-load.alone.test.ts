@@ -32,6 +32,7 @@ describe("the first load of the built page", () => {
       );
       expect(named()).toEqual(expect.arrayContaining(imported));
     }
-    for (const name of ["plan", "draw"] as const) expect(read(worker(name))).not.toMatch(/\b(import|from)\s*["']/);
+    for (const name of ["plan", "draw"] as const)
+      expect(read(worker(name))).not.toMatch(/\b(import|from)\s*["']/);
   });
 });
