@@ -7,6 +7,7 @@
 import { PlotwrightError } from "../../src/index.js";
 import {
   newSharedJobSchema,
+  SERVER_LOST_AFTER_MS,
   type NewSharedJob,
   type SharedJob,
   type SharedTarget,
@@ -31,12 +32,11 @@ export interface SharedParts {
   readonly notice: (message: string) => void;
   /** 2 s unless told. */
   readonly pollMs?: number;
-  /** A server that was not heard of for so long counts as gone; 60 s unless told. */
+  /** A server that was not heard of for so long counts as gone; SERVER_LOST_AFTER_MS unless told. */
   readonly lostAfterMs?: number;
 }
 
 const POLL_MS = 2_000;
-const LOST_AFTER_MS = 60_000;
 const payloadSchema = newSharedJobSchema.omit({ target: true });
 
 export class SharedQueue {
@@ -75,7 +75,7 @@ export class SharedQueue {
   }
 
   get #lostAfterMs(): number {
-    return this.#parts.lostAfterMs ?? LOST_AFTER_MS;
+    return this.#parts.lostAfterMs ?? SERVER_LOST_AFTER_MS;
   }
 
   /** Looks for work at once, unless it does already: to be called when a plotter may have become free. */

@@ -17,6 +17,9 @@ export const newSharedJobSchema = z.object({
 });
 export type NewSharedJob = z.infer<typeof newSharedJobSchema>;
 
+/** A server that was not heard of for so long counts as gone. */
+export const SERVER_LOST_AFTER_MS = 60_000;
+
 /**
  * waiting ──> taken ──> stored (in the queue of `server`) | refused (it can't be plotted); waiting ──> withdrawn
  *    ^──────────┴─────────┘ given back, as long as it has not begun, when its server has gone

@@ -202,7 +202,7 @@ export const PAGE_STATES: readonly PageState[] = [
       await page.getByText(/EBBv/).waitFor();
     },
   },
-  ...(["Share", "Access", "Plotters", "Webhooks", "Camera"] as const).map((section, index) => ({
+  ...(["Share", "Access", "Plotters", "Servers", "Webhooks", "Camera"] as const).map((section, index) => ({
     name: `${17 + index}-studio-${section.toLowerCase()}`,
     isPassing: true as const,
     reach: async ({ page }: Stand): Promise<void> => {
@@ -212,7 +212,7 @@ export const PAGE_STATES: readonly PageState[] = [
     },
   })),
   {
-    name: "22-no-board",
+    name: "23-no-board",
     device: "/dev/no-such-plotter",
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
@@ -220,7 +220,7 @@ export const PAGE_STATES: readonly PageState[] = [
     },
   },
   {
-    name: "23-server-gone",
+    name: "24-server-gone",
     reach: async ({ page, server }) => {
       await server.stop();
       await page.getByText("server can’t be reached").first().waitFor();

@@ -21,7 +21,7 @@ import {
 } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
 
-class ApiFault extends Error {
+export class ApiFault extends Error {
   override readonly name = "ApiFault";
   readonly code: string;
 

@@ -29,7 +29,7 @@ const INFO_MS = 5_000;
 const LARGE_BYTES = 1_000_000;
 const HEAD_LENGTH = 4_096;
 
-const wholeText = (content: DrawingText): string =>
+export const wholeText = (content: DrawingText): string =>
   typeof content === "string" ? content : new TextDecoder().decode(content);
 const headOf = (content: DrawingText): string => wholeText(content.slice(0, HEAD_LENGTH));
 

@@ -5,19 +5,24 @@ import {
   deviceSchema,
   pairingSchema,
   plotterSchema,
+  sharedJobSchema,
   webhookSchema,
   type NewKey,
   type NewPlotter,
+  type NewSharedJob,
   type NewWebhook,
   type PlotterPatch,
+  type SharedJob,
 } from "../../src/schema/index.js";
-import { okSchema } from "../api/client.js";
+import { ApiFault, okSchema } from "../api/client.js";
 import type { Actions } from "../state/actions.js";
 
 const devicesSchema = z.object({ devices: z.array(deviceSchema) });
 const entriesSchema = z.object({ entries: z.array(accessEntrySchema) });
 const newKeyAnswerSchema = z.object({ entry: accessEntrySchema, secret: z.string() });
 const webhooksSchema = z.object({ webhooks: z.array(webhookSchema) });
+const sharedJobsSchema = z.object({ jobs: z.array(sharedJobSchema) });
+const sentSchema = z.object({ id: z.string() });
 const newWebhookAnswerSchema = z.object({ webhook: webhookSchema, secret: z.string() });
 
 export type StudioApi = ReturnType<typeof studioApi>;
@@ -39,6 +44,16 @@ export const studioApi = ({ ask, attempt }: Actions) => {
     webhooks: () => attempt("webhooks", () => ask(webhooksSchema, "GET", "/webhooks")),
     addWebhook: (webhook: NewWebhook) =>
       attempt("webhook", () => ask(newWebhookAnswerSchema, "POST", "/webhooks", webhook)),
+    /** Asked again and again while it is looked at: a failure leaves what is shown. `jobs` is null where none is shared. */
+    sharedJobs: (): Promise<{ readonly jobs: readonly SharedJob[] | null } | null> =>
+      ask(sharedJobsSchema, "GET", "/shared-jobs").catch((error: unknown) =>
+        error instanceof ApiFault && error.code === "not-found" ? { jobs: null } : null,
+      ),
+    shareJob: (job: NewSharedJob) => attempt("share", () => ask(sentSchema, "POST", "/shared-jobs", job)),
+    giveBackShared: (id: string) =>
+      attempt("shared-job", () => ask(okSchema, "POST", `${one("shared-jobs", id)}/give-back`)),
+    withdrawShared: (id: string) =>
+      attempt("shared-job", () => ask(okSchema, "DELETE", one("shared-jobs", id))),
     removeWebhook: (id: string) => attempt("webhook", () => ask(okSchema, "DELETE", one("webhooks", id))),
   };
 };

@@ -7,6 +7,7 @@ import { CameraSection } from "./camera-section.js";
 import { HooksSection } from "./hooks-section.js";
 import { PlottersSection } from "./plotters-section.js";
 import { ShareSection } from "./share-section.js";
+import { SharedSection } from "./shared-section.js";
 import "../styles/studio.css";
 
 const words = later.studio;
@@ -14,13 +15,14 @@ const SECTIONS = {
   share: ShareSection,
   access: AccessSection,
   plotters: PlottersSection,
+  shared: SharedSection,
   hooks: HooksSection,
   camera: CameraSection,
 } as const;
 type SectionName = keyof typeof SECTIONS;
 const NAMES = Object.keys(SECTIONS) as readonly SectionName[];
 
-/** Everything around the plots: who else may use this server, its plotters, whom it tells, the camera. */
+/** Everything around the plots: who else may use this server, its plotters, the queue it shares, whom it tells, the camera. */
 export const StudioDialog = () => {
   const [name, setName] = useState<SectionName>("share");
   const Section = SECTIONS[name];

@@ -193,7 +193,14 @@ export const enLater = {
 
   studio: {
     title: "Studio",
-    sections: { share: "Share", access: "Access", plotters: "Plotters", hooks: "Webhooks", camera: "Camera" },
+    sections: {
+      share: "Share",
+      access: "Access",
+      plotters: "Plotters",
+      shared: "Servers",
+      hooks: "Webhooks",
+      camera: "Camera",
+    },
     pairingWhere: "Links for other devices are made on the computer that plotwright runs on.",
     notOnLan:
       "No other device can follow these links yet: this server listens on its own computer only. Start it with “npm start -- --lan”, or “plotwright serve --lan”.",
@@ -229,6 +236,33 @@ export const enLater = {
     newPlotter: "One more plotter",
     newPlotterName: "Name of the plotter",
     addPlotter: "Add the plotter",
+    sharedHint:
+      "The queue that several servers have in common: whichever has the plotter for a drawing, with nothing to do, takes it.",
+    notShared:
+      "This server works alone. Started with “plotwright serve --shared-queue postgres://…” it takes jobs from a queue that several servers share.",
+    noShared: "Nothing has been put there yet.",
+    sharedStates: {
+      waiting: "waits",
+      taken: "taken",
+      stored: "taken",
+      refused: "can’t be plotted",
+      withdrawn: "withdrawn",
+    },
+    sharedFor: (target: string) => `for ${target}`,
+    sharedWith: (server: string) => `with ${server}`,
+    sharedBegun: "begun",
+    sharedGone: "its server has gone",
+    withdraw: "Withdraw",
+    withdrawNamed: (name: string) => `Withdraw ${name}`,
+    giveBack: "Let another have it",
+    giveBackNamed: (name: string) => `Let another server have ${name}`,
+    giveBackHint: "Only if that server is off: nothing of it is on paper yet.",
+    shareThis: "Put the drawing there",
+    shareNothing: "Open a drawing to put it there.",
+    shareFor: "For",
+    anyMachine: (machine: string) => `any ${machine}`,
+    shareSend: (name: string) => `Put “${name}” there`,
+    shareSent: (name: string) => `“${name}” is in the queue that the servers share.`,
     hooksHint:
       "Other programs are told at their address when a plot is done, waits or has failed: signed, and again until it arrives.",
     noHooks: "None yet.",

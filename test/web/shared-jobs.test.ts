@@ -1,0 +1,41 @@
+/** What the page offers to do with a job of the queue that several servers share. */
+import { describe, expect, it } from "vitest";
+import { SERVER_LOST_AFTER_MS, sharedJobSchema, type SharedJob } from "../../src/schema/index.js";
+import { isServerGone, wayOut } from "../../web/studio/shared-jobs.js";
+
+const NOW_MS = Date.parse("2026-11-21T12:00:00Z");
+const ago = (ms: number): string => new Date(NOW_MS - ms).toISOString();
+const job = (change: Partial<SharedJob>): SharedJob =>
+  sharedJobSchema.parse({
+    id: "one",
+    name: "fern",
+    target: "any axidraw-v3",
+    state: "waiting",
+    server: null,
+    message: null,
+    createdAt: ago(600_000),
+    ...change,
+  });
+const TAKEN = { state: "stored", server: "Left" } as const;
+
+describe("a shared job", () => {
+  it("can be withdrawn while it waits, and not when it was refused or withdrawn", () => {
+    expect(wayOut(job({}), NOW_MS)).toBe("withdraw");
+    expect(wayOut(job({ state: "refused" }), NOW_MS)).toBeNull();
+    expect(wayOut(job({ state: "withdrawn" }), NOW_MS)).toBeNull();
+  });
+
+  it("is left with a server that is there", () => {
+    const there = job({ ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS - 1_000) });
+    expect(isServerGone(there, NOW_MS)).toBe(false);
+    expect(wayOut(there, NOW_MS)).toBeNull();
+  });
+
+  it("can be given back when its server has gone, unless its plot has begun", () => {
+    const lost = { ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS + 1_000) };
+    expect(wayOut(job(lost), NOW_MS)).toBe("give-back");
+    expect(wayOut(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");
+    expect(isServerGone(job({ ...lost, hasBegun: true }), NOW_MS)).toBe(true);
+    expect(wayOut(job({ ...lost, hasBegun: true }), NOW_MS)).toBeNull();
+  });
+});

@@ -1,0 +1,119 @@
+import { useEffect, useState } from "react";
+import { findMachine } from "../../src/index.js";
+import type { SharedJob, SharedTarget } from "../../src/schema/index.js";
+import { wholeText } from "../state/actions.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { later } from "../text/later.js";
+import { Select } from "../ui/choice.js";
+import { formatWhen } from "../ui/format.js";
+import { useNow } from "../ui/use-now.js";
+import { isServerGone, wayOut } from "./shared-jobs.js";
+import { useAsked, useStudio } from "./use-studio.js";
+
+const words = later.studio;
+const ASK_EVERY_MS = 3_000;
+
+/** The queue that several servers have in common: what waits there, who took what, and the drawing on the paper put there. */
+export const SharedSection = () => {
+  const studio = useStudio();
+  const [answer, askAgain] = useAsked(studio.sharedJobs);
+  useEffect(() => {
+    const timer = setInterval(askAgain, ASK_EVERY_MS);
+    return () => clearInterval(timer);
+  }, [askAgain]);
+  if (answer?.jobs === null) return <p className="note">{words.notShared}</p>;
+  return (
+    <>
+      <p className="note">{words.sharedHint}</p>
+      <ul className="studio-list">
+        {(answer?.jobs ?? []).map((job) => (
+          <SharedRow key={job.id} job={job} onChanged={askAgain} />
+        ))}
+        {answer?.jobs.length === 0 && <li className="note">{words.noShared}</li>}
+      </ul>
+      <ShareForm onSent={askAgain} />
+    </>
+  );
+};
+
+const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) => {
+  const studio = useStudio();
+  const nowMs = useNow();
+  const way = wayOut(job, nowMs);
+  const parts = [
+    words.sharedStates[job.state],
+    words.sharedFor(job.target),
+    ...(job.server !== null ? [words.sharedWith(job.server)] : []),
+    ...(job.hasBegun ? [words.sharedBegun] : []),
+    ...(isServerGone(job, nowMs) ? [words.sharedGone] : []),
+    formatWhen(job.createdAt, nowMs),
+  ];
+  const leave = async (): Promise<void> => {
+    await (way === "withdraw" ? studio.withdrawShared(job.id) : studio.giveBackShared(job.id));
+    onChanged();
+  };
+  return (
+    <li>
+      <span>
+        <strong>{job.name}</strong>
+        <span className="note">{parts.join(", ")}</span>
+        {job.message !== null && <span className="note note-error">{job.message}</span>}
+        {way === "give-back" && <span className="note">{words.giveBackHint}</span>}
+      </span>
+      {way !== null && (
+        <button
+          type="button"
+          className="button button-small"
+          aria-label={(way === "withdraw" ? words.withdrawNamed : words.giveBackNamed)(job.name)}
+          onClick={() => void leave()}
+        >
+          {way === "withdraw" ? words.withdraw : words.giveBack}
+        </button>
+      )}
+    </li>
+  );
+};
+
+const ANY = "machine";
+
+const ShareForm = ({ onSent }: { onSent(): void }) => {
+  const studio = useStudio();
+  const actions = useActions();
+  const drawing = usePageState((state) => state.drawing);
+  const settings = usePageState((state) => state.settings);
+  const plotters = usePageState((state) => state.plotters);
+  const [to, setTo] = useState(ANY);
+  if (!drawing) return <p className="note">{words.shareNothing}</p>;
+  const machine = findMachine(settings)?.name ?? settings.machine;
+  const named = plotters.find(({ id }) => id === to);
+  const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
+  const send = async (): Promise<void> => {
+    const job = { name: drawing.name, drawing: wholeText(drawing.text), settings, target };
+    if (!(await studio.shareJob(job))) return;
+    actions.notify("info", words.shareSent(drawing.name));
+    onSent();
+  };
+  return (
+    <form
+      className="studio-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void send();
+      }}
+    >
+      <h3>{words.shareThis}</h3>
+      <Select
+        label={words.shareFor}
+        value={named ? to : ANY}
+        options={[
+          { value: ANY, label: words.anyMachine(machine) },
+          ...plotters.map(({ id, name }) => ({ value: id, label: name })),
+        ]}
+        onChange={setTo}
+      />
+      <button type="submit" className="button">
+        {words.shareSend(drawing.name)}
+      </button>
+    </form>
+  );
+};
