@@ -21,7 +21,13 @@ export const SharedSection = () => {
     const timer = setInterval(askAgain, ASK_EVERY_MS);
     return () => clearInterval(timer);
   }, [askAgain]);
-  if (answer?.jobs === null) return <p className="note">{words.notShared}</p>;
+  if (answer?.jobs === null) {
+    return (
+      <ul className="studio-list">
+        <li className="note">{words.notShared}</li>
+      </ul>
+    );
+  }
   return (
     <>
       <p className="note">{words.sharedHint}</p>
