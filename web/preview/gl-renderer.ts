@@ -17,6 +17,7 @@ import {
   GHOST_COLOR,
   INK_COLOR,
   lineWidthPx,
+  pictureSize,
   TRAVEL_ALPHA,
   TRAVEL_COLOR,
   TRAVEL_PX,
@@ -27,7 +28,16 @@ import {
   type StrokesCanvas,
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_BYTES, SPEED_SHORT } from "./scene.js";
-import { piecesOf, sheetsOf, tasksOf, type Boxed, type Sheet, type Style, type Task } from "./tasks.js";
+import {
+  drawSome,
+  piecesOf,
+  sheetsOf,
+  tasksOf,
+  type Boxed,
+  type Sheet,
+  type Style,
+  type Task,
+} from "./tasks.js";
 
 const COLOR_CODE = { speed: 0, order: 1, layer: 2, pen: 2, ink: 3 } as const;
 /** The palette's alpha is a pen's width, in 255ths of this. */
@@ -114,17 +124,14 @@ class GlRenderer implements SceneRenderer {
   }
 
   advance(pieceCount: number): number {
-    let drawn = 0;
-    while (this.#frame && drawn < pieceCount && this.#tasks.length > 0) {
-      const task = this.#tasks[0]!;
-      if (!this.#isLoaded(task.of)) break;
-      const until = Math.min(task.to, task.from + pieceCount - drawn);
-      if (task.style !== this.#style) this.#setStyle(this.#frame, task.style);
-      this.#drawRange(task.of.buffer, task.from, until);
-      drawn += until - task.from;
-      task.from = until;
-      if (until === task.to) this.#tasks.shift();
-    }
+    const frame = this.#frame;
+    if (!frame) return 0;
+    const drawn = drawSome(this.#tasks, pieceCount, (task, to) => {
+      if (!this.#isLoaded(task.of)) return false;
+      if (task.style !== this.#style) this.#setStyle(frame, task.style);
+      this.#drawRange(task.of.buffer, task.from, to);
+      return true;
+    });
     const gl = this.#gl;
     if (this.#fence) gl.deleteSync(this.#fence);
     this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -162,9 +169,10 @@ class GlRenderer implements SceneRenderer {
   }
 
   /** The buffer out of sight, of the frame's size and empty. */
-  #clear({ view, width, height, ratio }: Frame): void {
+  #clear(frame: Frame): void {
+    const { view, ratio } = frame;
     const gl = this.#gl;
-    const [w, h] = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
+    const [w, h] = pictureSize(frame);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.#target);
     if (w !== this.#width || h !== this.#height) {
       [this.#width, this.#height] = [w, h];

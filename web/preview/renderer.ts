@@ -57,6 +57,12 @@ export const TRAVEL_ALPHA = 0.6;
 export const TRAVEL_PX = 0.9;
 export const INK_COLOR = "#22242c";
 
+/** Width and height of a frame's picture, device px. */
+export const pictureSize = ({ width, height, ratio }: Frame): readonly [number, number] => [
+  Math.max(1, Math.round(width * ratio)),
+  Math.max(1, Math.round(height * ratio)),
+];
+
 export const lineWidthPx = ({ view }: Frame, lineMm: number): number =>
   Math.max(MIN_LINE_PX, lineMm * view.scale);
 

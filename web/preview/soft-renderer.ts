@@ -14,6 +14,7 @@ import {
   GHOST_COLOR,
   INK_COLOR,
   lineWidthPx,
+  pictureSize,
   TRAVEL_ALPHA,
   TRAVEL_COLOR,
   TRAVEL_PX,
@@ -24,7 +25,16 @@ import {
   type StrokesCanvas,
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT } from "./scene.js";
-import { piecesOf, sheetsOf, tasksOf, type Boxed, type Sheet, type Style, type Task } from "./tasks.js";
+import {
+  drawSome,
+  piecesOf,
+  sheetsOf,
+  tasksOf,
+  type Boxed,
+  type Sheet,
+  type Style,
+  type Task,
+} from "./tasks.js";
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
@@ -71,8 +81,7 @@ class SoftRenderer implements SceneRenderer {
   }
 
   begin(frame: Frame, detail: Detail): number {
-    const width = Math.max(1, Math.round(frame.width * frame.ratio));
-    const height = Math.max(1, Math.round(frame.height * frame.ratio));
+    const [width, height] = pictureSize(frame);
     if (this.#image.width === width && this.#image.height === height) this.#image.data.fill(0);
     else this.#image = new ImageData(width, height);
     this.#frame = frame;
@@ -81,16 +90,12 @@ class SoftRenderer implements SceneRenderer {
   }
 
   advance(pieceCount: number): number {
-    let drawn = 0;
-    while (this.#frame && drawn < pieceCount && this.#tasks.length > 0) {
-      const task = this.#tasks[0]!;
-      const until = Math.min(task.to, task.from + pieceCount - drawn);
-      this.#drawRange(this.#frame, task, until);
-      drawn += until - task.from;
-      task.from = until;
-      if (until === task.to) this.#tasks.shift();
-    }
-    return drawn;
+    const frame = this.#frame;
+    if (!frame) return 0;
+    return drawSome(this.#tasks, pieceCount, (task, to) => {
+      this.#drawRange(frame, task, to);
+      return true;
+    });
   }
 
   isIdle(): boolean {

@@ -18,8 +18,10 @@ export const paintOn = (
     event.preventDefault();
     painter.setRenderer(null);
   });
-  canvas.addEventListener("webglcontextrestored", () => void begin());
-  void begin();
+  // Told as an error of its thread: a page whose worker can't draw then draws by itself.
+  const tryIt = (): void => void begin().catch((error: unknown) => reportError(error));
+  canvas.addEventListener("webglcontextrestored", tryIt);
+  tryIt();
   return painter;
 };
 
@@ -27,7 +29,9 @@ export const paintOn = (
 const rendererOn = async (canvas: StrokesCanvas): Promise<SceneRenderer | null> => {
   if (hasCard(spareCanvas())) {
     const { createGlRenderer } = await import("./gl-renderer.js");
-    return createGlRenderer(canvas);
+    const renderer = createGlRenderer(canvas);
+    // The card may refuse one context more: this canvas has none then, and can still be drawn on without it.
+    if (renderer) return renderer;
   }
   const { createSoftRenderer } = await import("./soft-renderer.js");
   return createSoftRenderer(canvas);

@@ -57,6 +57,24 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel }: Sheet<B
   ];
 };
 
+/** Draws about so many more of the pieces and takes off what is done; returns how many. `draw` says false while it can't. */
+export const drawSome = <B extends Boxed>(
+  tasks: Task<B>[],
+  pieceCount: number,
+  draw: (task: Task<B>, to: number) => boolean,
+): number => {
+  let drawn = 0;
+  while (drawn < pieceCount && tasks.length > 0) {
+    const task = tasks[0]!;
+    const to = Math.min(task.to, task.from + pieceCount - drawn);
+    if (!draw(task, to)) break;
+    drawn += to - task.from;
+    task.from = to;
+    if (to === task.to) tasks.shift();
+  }
+  return drawn;
+};
+
 /** How many pieces that is. */
 export const piecesOf = (tasks: readonly Task<Boxed>[]): number =>
   tasks.reduce((sum, { from, to }) => sum + to - from, 0);
