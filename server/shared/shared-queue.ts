@@ -154,7 +154,7 @@ export class SharedQueue {
       if (this.#toldOf.has(id)) continue;
       this.#toldOf.add(id);
       notice(
-        `"${name}" is with ${server}, which has gone. It waits there until that server is back; to let another one plot it: POST /api/v1/shared-jobs/${id}/give-back.`,
+        `"${name}" is with ${server}, which has gone. It waits there until that server is back; to let another one have it: Studio, Servers.`,
       );
     }
   }
