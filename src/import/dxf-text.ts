@@ -122,7 +122,7 @@ function brokenAt(width: number, paragraph: string, style: string, font: TextFon
 
 const SIGNS: Readonly<Record<string, string>> = { d: "°", c: "Ø", p: "±", "%": "%", u: "", o: "", k: "" };
 
-/** Without %%-codes and with \U+XXXX as the character that it is. */
+/** Without %%-codes, and with the character that a \U+ and four hexadecimal digits stand for. */
 export const plainText = (text: string): string =>
   text
     .replace(/%%(?:(\d{3})|([dcpuok%]))/gi, (_, code: string | undefined, sign: string) =>

@@ -29,8 +29,8 @@ export class SegmentGrid {
   }
 
   /**
-   * mm to the nearest segment; Infinity when none is within a cell. `enoughMm`: any distance up to that is as good as
-   * the least, for whoever looks for the largest of many.
+   * mm to the nearest segment; Infinity when none is within a cell. The search ends at a segment nearer than
+   * `enoughMm`: who looks for the largest of many distances needs no smaller one exactly.
    */
   distance(x: number, y: number, enoughMm = 0): number {
     const column = Math.floor(x / this.cellMm);

@@ -10,7 +10,7 @@ const ETX = "\u0003";
 const draw = (commands: string, options: ImportOptions = {}) =>
   importDrawing("a.plt", `IN;SP1;PU0,0;EA4000,4000;SI0.4,0.8;${commands}`, options);
 
-/** Every letter is a box of the size of a plain capital, in the middle of as wide a place as any. */
+/** Every letter is a box of the size of a plain capital, in the middle of a place of the same width. */
 const boxes: TextFont = {
   kind: "outline",
   layout: (line) => ({
