@@ -27,7 +27,8 @@ import { SharedQueue, type SharedParts } from "./shared/shared-queue.js";
 import { SharedStore } from "./shared/shared-store.js";
 import { Access } from "./security/access.js";
 import { Baton } from "./security/baton.js";
-import { MDNS_NAME, announceOnLan, lanAddresses, pairingLinks } from "./security/network.js";
+import { LocalName, MDNS_NAME } from "./security/local-name.js";
+import { lanAddresses, pairingLinks } from "./security/network.js";
 import { FIRST_PLOTTER, openDriven } from "./plotters.js";
 import { PlotterRegistry } from "./plotter-registry.js";
 import { findBoards } from "./serial/find-boards.js";
@@ -44,7 +45,7 @@ export interface ServerOptions {
   readonly host?: string;
   /** Listen on the network. Other devices have to be paired; the links are in the server's `pairing`. */
   readonly lan?: boolean;
-  /** Announce plotwright.local by mDNS; with `lan` unless told. */
+  /** Announce plotwright.local by mDNS, or plotwright-2.local where that is taken; with `lan` unless told. */
   readonly mdns?: boolean;
   /** PEM texts: serve https. */
   readonly tls?: { readonly cert: string; readonly key: string };
@@ -107,7 +108,14 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       const address = options.lan === true ? (lanAddresses()[0] ?? own.hostname) : own.hostname;
       return pairingLinks(`${own.protocol}//${address}:${own.port}`, options.lan === true, paths);
     };
-    const app = createApp({ ...parts, pairing, log, serverLog: () => readLog(dataDir) });
+    let localName: LocalName | null = null;
+    const app = createApp({
+      ...parts,
+      pairing,
+      log,
+      serverLog: () => readLog(dataDir),
+      localName: () => localName?.name ?? null,
+    });
     const http = httpServer(options.tls, app, log);
     await listen(
       http,
@@ -116,7 +124,11 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     );
     closing.addUrgent("the port", () => stopListening(http, parts.hub));
     const { port } = http.address() as AddressInfo;
-    if (options.mdns ?? options.lan === true) closing.add("the mDNS name", announceOnLan(port, isTls));
+    if (options.mdns ?? options.lan === true) {
+      const name = openLocalName({ port, isTls }, store, parts.hub, log);
+      closing.add("the mDNS name", () => name.close());
+      localName = name;
+    }
     log(`plotwright ${parts.version} listens on port ${port}, with ${registry.list().length} plotter(s)`);
     return { url: urlOf(http, isTls), pairing: paths, close: () => closing.run() };
   } catch (error) {
@@ -132,7 +144,7 @@ async function openParts(
   store: Store,
   log: (line: string) => void,
   closing: Closing,
-): Promise<Omit<AppParts, "pairing" | "log" | "serverLog">> {
+): Promise<Omit<AppParts, "pairing" | "log" | "serverLog" | "localName">> {
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   await files.sweep((drawing) => store.isUsed(drawing));
   const hub = new EventHub();
@@ -209,6 +221,25 @@ async function openParts(
     webDir: packagePath("dist/web"),
     samplesDir: packagePath("samples"),
   };
+}
+
+/** The name that it had last is asked for first. */
+function openLocalName(
+  at: { readonly port: number; readonly isTls: boolean },
+  store: Store,
+  hub: EventHub,
+  log: (line: string) => void,
+): LocalName {
+  const last = store.setting("local-name");
+  return new LocalName({
+    ...at,
+    log,
+    last: typeof last === "string" ? last : undefined,
+    onName: (name) => {
+      if (name !== null) store.saveSetting("local-name", name);
+      hub.announce({ type: "local-name", localName: name });
+    },
+  });
 }
 
 /** Only a server that shares its queue loads what it takes for that. */

@@ -45,6 +45,8 @@ export interface AppParts {
   /** Plotters of the user's own. */
   readonly machines: MachineFiles;
   readonly allowedHosts: readonly string[];
+  /** The name that mDNS gives this server, which it answers to; null while it has none. */
+  readonly localName: () => string | null;
   /** Folders with the built page and with the samples. */
   readonly webDir: string;
   readonly samplesDir: string;
@@ -60,7 +62,7 @@ export function createApp(parts: AppParts): Express {
   const app = express();
   app.disable("x-powered-by");
   app.use(securityHeaders());
-  app.use(guardHosts(parts.allowedHosts, log));
+  app.use(guardHosts(parts.allowedHosts, parts.localName, log));
   app.use(guardPaths(log));
   app.use(limitRequests(access));
   app.use(pairRoutes(access, log));
@@ -125,6 +127,7 @@ function stateRoutes(parts: AppParts, browsers: Browsers): Router {
     queues: queue.allSettings(),
     operator: baton.operator,
     serverNotices: parts.notices.list(),
+    localName: parts.localName(),
     jobs: queue.list(),
   });
   router.get("/openapi.json", async (_request, response) => {

@@ -33,7 +33,11 @@ function decoded(path: string): string {
   }
 }
 
-export function guardHosts(extraNames: readonly string[], log: (line: string) => void): RequestHandler {
+export function guardHosts(
+  extraNames: readonly string[],
+  localName: () => string | null,
+  log: (line: string) => void,
+): RequestHandler {
   const names = new Set(["localhost", ...extraNames.map((name) => name.toLowerCase())]);
   return (request, _response, next) => {
     const refuse = (message: string): never => {
@@ -43,7 +47,10 @@ export function guardHosts(extraNames: readonly string[], log: (line: string) =>
       throw new PlotwrightError("not-allowed", message);
     };
     const host = hostName(request.headers.host);
-    if (host === null || !(isIP(host) > 0 || names.has(host) || host.endsWith(".localhost"))) {
+    if (
+      host === null ||
+      !(isIP(host) > 0 || names.has(host) || host === localName() || host.endsWith(".localhost"))
+    ) {
       refuse(
         `this server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or name it with --allow-host.`,
       );

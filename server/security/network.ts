@@ -1,11 +1,7 @@
-/** How other devices find the server: its addresses, a QR code with the pairing link, and an mDNS name. */
-import type { EventEmitter } from "node:events";
+/** How other devices find the server: its addresses, and a QR code with the pairing link. */
 import { networkInterfaces } from "node:os";
-import { Bonjour } from "bonjour-service";
 import qrcode from "qrcode";
 import type { Pairing } from "../../src/schema/index.js";
-
-export const MDNS_NAME = "plotwright";
 
 /** This computer's addresses on its networks, IPv4 first. */
 export function lanAddresses(): string[] {
@@ -40,30 +36,4 @@ export async function pairingLinks(
     operateQrSvg: await picture(operateUrl),
     watchQrSvg: await picture(watchUrl),
   };
-}
-
-/** Announces http://plotwright.local; returns what takes it back. `line`: a socket other than the system's own. */
-export function announceOnLan(
-  port: number,
-  isTls: boolean,
-  line: { readonly socket?: EventEmitter } = {},
-): () => Promise<void> {
-  const bonjour = new Bonjour(line as Record<string, unknown>, () => undefined);
-  // No network, or a socket that the system refuses: the addresses work without the name. The library tells of it
-  // where it lets nobody listen, and an error that nobody hears ends the process.
-  const { server } = bonjour as unknown as { readonly server: { readonly mdns: EventEmitter } };
-  server.mdns.on("error", () => undefined);
-  bonjour.publish({
-    name: "plotwright",
-    type: isTls ? "https" : "http",
-    port,
-    host: `${MDNS_NAME}.local`,
-  });
-  return () =>
-    new Promise((resolve) => {
-      bonjour.unpublishAll(() => {
-        bonjour.destroy();
-        resolve();
-      });
-    });
 }

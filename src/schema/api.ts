@@ -158,6 +158,8 @@ export const snapshotSchema = z.object({
   /** Null: whoever acts first becomes it. */
   operator: operatorSchema.nullable().default(null),
   serverNotices: z.array(noticeSchema).default([]),
+  /** The server's name on the network, as "plotwright.local"; null while it has none. */
+  localName: z.string().nullable().default(null),
   plotters: z.array(plotterSchema),
   jobs: z.array(jobSchema),
 });
@@ -176,6 +178,7 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
   z.object({ type: z.literal("queues"), queues: queuesSchema }),
   z.object({ type: z.literal("operator"), operator: operatorSchema.nullable() }),
+  z.object({ type: z.literal("local-name"), localName: z.string().nullable() }),
   z.object({ type: z.literal("notice"), notice: noticeSchema }),
   z.object({ type: z.literal("notice-removed"), id: z.string() }),
   /** Several times a second while plotting. */

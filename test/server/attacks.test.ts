@@ -195,6 +195,11 @@ describe("while a plot runs", () => {
     }
   });
 
+  it("only its own name on the network does", async () => {
+    const headers = { Host: "plotwright-2.local:9080", Cookie: cookie };
+    expect((await raw("/api/v1/state", { headers })).status).toBe(200);
+  });
+
   it("no WebSocket is opened, of another site or of none", async () => {
     for (const origin of ["Origin: https://evil.example\r\n", ""]) {
       const lines = `GET /api/v1/events HTTP/1.1\r\nHost: 127.0.0.1\r\nCookie: ${cookie}\r\n${origin}Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n`;

@@ -2,7 +2,7 @@
 import { EventEmitter } from "node:events";
 import { Bonjour, type Service } from "bonjour-service";
 import { describe, expect, it } from "vitest";
-import { announceOnLan } from "../../server/security/network.js";
+import { LocalName, type LocalNameOptions } from "../../server/security/local-name.js";
 
 type Sent = (error: Error | null) => void;
 
@@ -50,42 +50,168 @@ class Line extends EventEmitter {
 const found = (phone: Bonjour, type: string): Promise<Service> =>
   new Promise((resolve) => phone.findOne({ type }, 30_000, (service: Service) => resolve(service)));
 
+const NETWORK = (): Set<Line> => new Set<Line>();
+const PACE = { askEveryMs: 5, yieldMs: 50 };
+
+/** A server on a network; `names` are those that it had, one after the other. */
+class Announcer {
+  readonly names: (string | null)[] = [];
+  readonly logged: string[] = [];
+  readonly local: LocalName;
+  #onChange: () => void = () => undefined;
+
+  constructor(socket: Line, options: Partial<LocalNameOptions> = {}) {
+    this.local = new LocalName({
+      port: 9080,
+      isTls: false,
+      socket,
+      ...PACE,
+      onName: (name) => {
+        this.names.push(name);
+        this.#onChange();
+      },
+      log: (line) => {
+        this.logged.push(line);
+        this.#onChange();
+      },
+      ...options,
+    });
+  }
+
+  until(isSo: (announcer: this) => boolean): Promise<void> {
+    return new Promise((resolve) => {
+      this.#onChange = () => {
+        if (isSo(this)) resolve();
+      };
+      this.#onChange();
+    });
+  }
+
+  async named(name: string): Promise<void> {
+    await this.until(() => this.local.name === name);
+  }
+}
+
+/** A device that says what it likes, as packets. */
+const stranger = (network: Set<Line>): { respond: (records: object[]) => void; destroy: () => void } =>
+  (new Bonjour({ socket: new Line(network) } as object) as unknown as { server: { mdns: never } }).server
+    .mdns;
+
 describe("the name on the network", () => {
   it.each([
     ["http", false],
     ["https", true],
   ] as const)("is plotwright.local, with the port, for %s", async (type, isTls) => {
-    const network = new Set<Line>();
+    const network = NETWORK();
     const phone = new Bonjour({ socket: new Line(network) } as object);
-    const takeBack = announceOnLan(9080, isTls, { socket: new Line(network) });
+    const { local, logged } = new Announcer(new Line(network), { isTls });
     const service = await found(phone, type);
     expect([service.name, service.host, service.port]).toEqual(["plotwright", "plotwright.local", 9080]);
-    await takeBack();
+    expect(logged).toEqual([`this server is at ${type}://plotwright.local:9080 on the network`]);
+    await local.close();
     phone.destroy();
     expect(network.size).toBe(0);
   });
 
   it("is taken back when the server stops", async () => {
-    const network = new Set<Line>();
+    const network = NETWORK();
     const phone = new Bonjour({ socket: new Line(network) } as object);
     const seen = phone.find({ type: "http" });
-    const takeBack = announceOnLan(9080, false, { socket: new Line(network) });
+    const { local } = new Announcer(new Line(network));
     await new Promise((resolve) => seen.once("up", resolve));
     const gone = new Promise<Service>((resolve) => seen.once("down", resolve));
-    await takeBack();
+    await local.close();
     expect((await gone).name).toBe("plotwright");
     phone.destroy();
   });
 
   it.each(["EADDRINUSE", "EACCES", "ENETUNREACH"])(
-    "disturbs nothing where the system refuses: %s",
+    "disturbs nothing where the system refuses, and says so once: %s",
     async (code) => {
       const fault = Object.assign(new Error(`bind ${code}`), { code });
-      const line = new Line(new Set(), fault);
-      const refused = new Promise((resolve) => line.once("error", resolve));
-      const takeBack = announceOnLan(9080, false, { socket: line });
-      expect(await refused).toBe(fault);
-      await takeBack();
+      const server = new Announcer(new Line(new Set(), fault));
+      await server.until(({ logged }) => logged.length > 0);
+      expect(server.logged).toEqual([
+        `plotwright.local cannot be announced on the network (bind ${code}); its address works, and the name is tried again`,
+      ]);
+      expect(server.local.name).toBe(null);
+      await server.local.close();
     },
   );
+});
+
+describe("two servers on one network", () => {
+  it("have two names: the second says that the first is taken, and which one it has", async () => {
+    const network = NETWORK();
+    const first = new Announcer(new Line(network));
+    await first.named("plotwright.local");
+    const second = new Announcer(new Line(network), { port: 9081 });
+    await second.named("plotwright-2.local");
+    const third = new Announcer(new Line(network), { port: 9082 });
+    await third.named("plotwright-3.local");
+    expect(first.names).toEqual(["plotwright.local"]);
+    expect(second.logged).toEqual([
+      "plotwright.local is another server's on this network",
+      "this server is at http://plotwright-2.local:9081 on the network",
+    ]);
+    for (const { local } of [first, second, third]) await local.close();
+  });
+
+  it("have two names when they ask in the same instant", async () => {
+    const network = NETWORK();
+    const servers = [9080, 9081, 9082].map((port) => new Announcer(new Line(network), { port }));
+    await Promise.all(servers.map((server) => server.until(({ local }) => local.name !== null)));
+    expect(new Set(servers.map(({ local }) => local.name)).size).toBe(3);
+    for (const { local } of servers) await local.close();
+  });
+
+  it("have two names when the networks of both are joined later", async () => {
+    const [here, there] = [NETWORK(), NETWORK()];
+    const lines = [new Line(here), new Line(there)] as const;
+    const servers = lines.map((line, index) => new Announcer(line, { port: 9080 + index }));
+    await Promise.all(servers.map((server) => server.named("plotwright.local")));
+    here.add(lines[1]);
+    there.add(lines[0]);
+    // Somebody asks for the name, so that each hears what the other says to that.
+    const phone = new Bonjour({ socket: new Line(here) } as object);
+    phone.find({ type: "http" });
+    await Promise.race(servers.map((server) => server.until(({ names }) => names.includes(null))));
+    await Promise.all(servers.map((server) => server.until(({ local }) => local.name !== null)));
+    await Promise.race(servers.map((server) => server.named("plotwright-2.local")));
+    expect(servers.map(({ local }) => local.name).sort()).toEqual(["plotwright-2.local", "plotwright.local"]);
+    phone.destroy();
+    for (const { local } of servers) await local.close();
+  });
+
+  it("keep their own names over a power cut, whoever is back first", async () => {
+    const network = NETWORK();
+    const second = new Announcer(new Line(network), { port: 9081, last: "plotwright-2.local" });
+    await second.named("plotwright-2.local");
+    const first = new Announcer(new Line(network), { last: "plotwright.local" });
+    await first.named("plotwright.local");
+    for (const { local } of [first, second]) await local.close();
+  });
+
+  it("do not take a stored name that is none of these", async () => {
+    const server = new Announcer(new Line(NETWORK()), { last: "evil.example.local" });
+    await server.until(({ local }) => local.name !== null);
+    expect(server.local.name).toBe("plotwright.local");
+    await server.local.close();
+  });
+
+  it("are not disturbed by a device that takes back the name, nor by one of another name", async () => {
+    const network = NETWORK();
+    const server = new Announcer(new Line(network));
+    await server.named("plotwright.local");
+    const device = stranger(network);
+    device.respond([{ name: "plotwright.local", type: "A", ttl: 0, data: "203.0.113.7" }]);
+    device.respond([{ name: "printer.local", type: "A", ttl: 120, data: "203.0.113.7" }]);
+    await new Promise((resolve) => setImmediate(() => setImmediate(() => setImmediate(resolve))));
+    expect(server.names).toEqual(["plotwright.local"]);
+    device.respond([{ name: "Plotwright.local", type: "A", ttl: 120, data: "203.0.113.7" }]);
+    await server.until(({ names }) => names.length === 3);
+    expect(server.names).toEqual(["plotwright.local", null, "plotwright.local"]);
+    device.destroy();
+    await server.local.close();
+  });
 });

@@ -18,6 +18,7 @@ const snapshot = (...ids: string[]): ServerEvent => ({
     queues: {},
     operator: null,
     serverNotices: [],
+    localName: null,
     plotters: [makePlotter("virtual")],
     jobs: ids.map((id) => makeJob(id)),
   },

@@ -24,6 +24,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return { queues: event.queues };
     case "operator":
       return { operator: event.operator };
+    case "local-name":
+      return { localName: event.localName };
     case "notice":
       return { serverNotices: upserted(state.serverNotices, event.notice) };
     case "notice-removed":
@@ -35,7 +37,7 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
 
 /** Everything at once, when the page has connected: what was live before is not known to go on. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
-  const { version, plotters, jobs, queues, operator, serverNotices } = snapshot;
+  const { version, plotters, jobs, queues, operator, serverNotices, localName } = snapshot;
   const isGoing = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
     ...withPlotters(state, plotters),
@@ -46,6 +48,7 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
     queues,
     operator,
     serverNotices,
+    localName,
   };
 };
 

@@ -89,6 +89,8 @@ export interface PageState {
   readonly operator: Operator | null;
   /** What went wrong on the server with nobody asking. */
   readonly serverNotices: readonly ServerNotice[];
+  /** The server's name on the network; null while it has none. */
+  readonly localName: string | null;
   readonly live: LivePlot | null;
   readonly samples: readonly SampleInfo[];
 
@@ -127,6 +129,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     me: null,
     operator: null,
     serverNotices: [],
+    localName: null,
     live: null,
     samples: [],
     machines: [],

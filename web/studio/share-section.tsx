@@ -1,5 +1,5 @@
 import type { Pairing } from "../../src/schema/index.js";
-import { useActions } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
@@ -9,16 +9,26 @@ const words = later.studio;
 export const ShareSection = () => {
   const studio = useStudio();
   const [pairing] = useAsked(studio.pairing);
+  const localName = usePageState((state) => state.localName);
   if (!pairing) return <p className="note">{words.pairingWhere}</p>;
   return (
     <>
       {!pairing.isOnLan && <p className="note health">{words.notOnLan}</p>}
+      {localName !== null && (
+        <p className="note">{words.nameOnNetwork(namedOrigin(pairing.operateUrl, localName))}</p>
+      )}
       <div className="pairings">
         <PairingCard title={words.operate} hint={words.operateHint} {...linkOf(pairing, "operate")} />
         <PairingCard title={words.watch} hint={words.watchHint} {...linkOf(pairing, "watch")} />
       </div>
     </>
   );
+};
+
+/** Where the page is by the server's name: with its port, which the name does not say. */
+const namedOrigin = (url: string, name: string): string => {
+  const { protocol, port } = new URL(url);
+  return `${protocol}//${name}${port === "" ? "" : `:${port}`}`;
 };
 
 const linkOf = (pairing: Pairing, role: "operate" | "watch") =>

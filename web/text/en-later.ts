@@ -204,6 +204,7 @@ export const enLater = {
     pairingWhere: "Links for other devices are made on the computer that plotwright runs on.",
     notOnLan:
       "No other device can follow these links yet: this server listens on its own computer only. Start it with “npm start -- --lan”, or “plotwright serve --lan”.",
+    nameOnNetwork: (address: string) => `On most networks this server is also at ${address}.`,
     operate: "Operate",
     operateHint: "Scan it with a phone: it can then do everything that this page can.",
     watch: "Watch",

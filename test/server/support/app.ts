@@ -115,6 +115,7 @@ export async function startApp(
     serverLog: () => logged.join("\n"),
     machines: new MachineFiles(dir),
     allowedHosts: ["plotter.lan"],
+    localName: () => "plotwright-2.local",
     webDir: join(dir, "web"),
     samplesDir: new URL("../../../samples", import.meta.url).pathname,
     access,
