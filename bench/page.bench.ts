@@ -1,7 +1,8 @@
 /**
  * What the page's own thread does with large drawings, in real Chromium: the longest task while a file of 25 MB is
- * opened and planned, how soon a million segments are to be seen once they are planned, and the work of a frame
- * while they are panned and zoomed; how many frames a second come of that is the graphics card's and the machine's. Needs the built product (`npm run build`).
+ * opened and planned, and while it is put in the queue; how soon a million segments are to be seen once they are
+ * planned; and the work of a frame while they are panned and zoomed: how many frames a second come of that is the
+ * graphics card's and the machine's. Needs the built product (`npm run build`).
  */
 import type { Page } from "playwright-core";
 import { PageTest } from "../test/support/page-test.js";
@@ -27,7 +28,7 @@ export default async function pageBench(report: Report): Promise<void> {
   for (const { what, strokes, points } of FILES) {
     const test = await PageTest.open("bench");
     try {
-      rows.push({ what, ...(await measure(test.page, strokes, points)) });
+      rows.push({ what, ...(await measure(test, strokes, points)) });
     } finally {
       await test.close();
     }
@@ -39,7 +40,8 @@ export default async function pageBench(report: Report): Promise<void> {
   );
 }
 
-async function measure(page: Page, strokes: number, points: number): Promise<Row> {
+async function measure(test: PageTest, strokes: number, points: number): Promise<Row> {
+  const { page } = test;
   // The runner that compiles this wraps named functions in a helper that the page does not have.
   await page.evaluate("window.__name = (named) => named");
   await page.evaluate(watch);
@@ -51,10 +53,14 @@ async function measure(page: Page, strokes: number, points: number): Promise<Row
   await page.evaluate(forget);
   const mean = await moveAbout(page);
   const moving = await page.evaluate(watched);
+  await page.evaluate(forget);
+  await test.queue();
+  const queueing = await page.evaluate(watched);
   return {
     MB: Number((bytes / 1e6).toFixed(1)),
     "opened to planned s": Number(((moments.plannedMs - openedAt) / 1_000).toFixed(1)),
     "longest task ms": Math.round(opening.longestTaskMs),
+    "longest while queued ms": Math.round(queueing.longestTaskMs),
     "planned to first picture ms": Math.round(moments.pictureMs - moments.plannedMs),
     "to whole picture ms": Math.round(moments.wholeMs - moments.plannedMs),
     "work of a frame ms": Number(mean.toFixed(1)),

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, newJobSchema } from "../../src/schema/index.js";
 import { createApiClient } from "../../web/api/client.js";
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -8,9 +8,9 @@ import { createPageStore } from "../../web/state/store.js";
 function makePage() {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
-  const sent: string[] = [];
+  const sent: (string | Blob)[] = [];
   const api = createApiClient((_path, init) => {
-    if (typeof init?.body === "string") sent.push(init.body);
+    if (typeof init?.body === "string" || init?.body instanceof Blob) sent.push(init.body);
     return isServerUp
       ? Promise.resolve(Response.json({ samples: [] }))
       : Promise.reject(new Error("refused"));
@@ -64,13 +64,19 @@ describe("a file that is dropped", () => {
     expect(store.getState().drawing?.name).toBe("waves");
   });
 
-  it("stays as it was read where it is large, and goes to the queue as text", async () => {
+  it("stays as it was read where it is large, and goes to the queue part by part as text", async () => {
     const { store, actions, sent } = makePage();
-    const svg = `<svg width='9'><!-- ${"größer ".repeat(200_000)} --></svg>`;
+    // Letters of two and four bytes, of which parts cut some in two; what JSON escapes; three parts and a rest.
+    const svg = `<svg width="9">\n<!-- ${"größer \t\u{1f58b}\u0001".repeat(200_000)} --></svg>`;
     await actions.openFile(new File([svg], "waves.svg"));
     const { drawing } = store.getState();
     expect(drawing?.text).toBeInstanceOf(ArrayBuffer);
     await actions.queueDrawing();
-    expect((JSON.parse(sent.at(-1)!) as { drawing: string }).drawing).toBe(svg);
+    const body = sent.at(-1) as Blob;
+    expect(body.type).toBe("application/json");
+    const { drawing: text, ...rest } = newJobSchema.parse(JSON.parse(await body.text()));
+    // Not by toBe: it would print all of both.
+    expect(text === svg).toBe(true);
+    expect(rest).toEqual({ name: "waves", settings: DEFAULT_PLOT_SETTINGS });
   });
 });

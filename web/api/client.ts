@@ -20,6 +20,10 @@ import {
   type QueueSettings,
 } from "../../src/schema/index.js";
 import { text } from "../text/text.js";
+import type { DrawingText } from "../worker/protocol.js";
+
+/** Files as large as this are kept as they were read: only the worker makes text of them. */
+export const LARGE_BYTES = 1_000_000;
 
 export class ApiFault extends Error {
   override readonly name = "ApiFault";
@@ -46,7 +50,7 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
   const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
     const init: RequestInit = { method };
     if (body !== undefined) {
-      init.body = JSON.stringify(body);
+      init.body = body instanceof Blob ? body : JSON.stringify(body);
       init.headers = { "content-type": "application/json" };
     }
     let response: Response;
@@ -66,7 +70,8 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
   return {
     /** For the parts that are loaded later, which bring their own list of routes. */
     ask,
-    addJob: (newJob: NewJob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
+    /** `newJob`: a blob is its JSON. */
+    addJob: (newJob: NewJob | Blob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
     patchJob: (id: string, patch: JobPatch): Promise<Job> => ask(jobSchema, "PATCH", job(id), patch),
     actOnJob: (id: string, action: JobAction): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/${action}`),
     changeJob: (id: string, change: JobChange): Promise<Job> =>
@@ -80,7 +85,10 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     takeOver: () => ask(operatorAnswerSchema, "POST", "/operator/take"),
     dismissNotice: (id: string) => ask(okSchema, "DELETE", `/notices/${encodeURIComponent(id)}`),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
-    jobDrawing: async (id: string): Promise<string> => (await send("GET", `${job(id)}/drawing`)).text(),
+    jobDrawing: async (id: string): Promise<DrawingText> => {
+      const bytes = await (await send("GET", `${job(id)}/drawing`)).arrayBuffer();
+      return bytes.byteLength < LARGE_BYTES ? new TextDecoder().decode(bytes) : bytes;
+    },
     setPlotterMachine: (id: string, machine: string): Promise<Plotter> =>
       ask(plotterSchema, "PATCH", plotter(id), { machine }),
     movePen: (id: string, request: PenRequest): Promise<Plotter> =>

@@ -1,5 +1,5 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import type { JobAction, ApiClient } from "../api/client.js";
+import { LARGE_BYTES, type JobAction, type ApiClient } from "../api/client.js";
 import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
 import {
   machineProfileSchema,
@@ -25,13 +25,21 @@ const UNDO_DEPTH = 100;
 /** Changes of the same thing within this time are one step of undo: a slider's way is one change. */
 const COALESCE_MS = 800;
 const INFO_MS = 5_000;
-/** Files as large as this are kept as they were read: only the worker makes text of them. */
-const LARGE_BYTES = 1_000_000;
 const HEAD_LENGTH = 4_096;
 
-export const wholeText = (content: DrawingText): string =>
-  typeof content === "string" ? content : new TextDecoder().decode(content);
-const headOf = (content: DrawingText): string => wholeText(content.slice(0, HEAD_LENGTH));
+const headOf = (content: DrawingText): string => {
+  const head = content.slice(0, HEAD_LENGTH);
+  return typeof head === "string" ? head : new TextDecoder().decode(head);
+};
+
+/** What is sent of a job with the drawing on the paper. */
+export const bodyOf = async <T extends { readonly name: string }>(
+  job: T,
+  drawing: DrawingText,
+): Promise<(T & { readonly drawing: string }) | Blob> =>
+  typeof drawing === "string"
+    ? { ...job, drawing }
+    : (await import("./job-body.js")).jobBody({ ...job, drawing });
 
 interface ActionDeps {
   readonly store: PageStore;
@@ -123,7 +131,7 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const openFile = async (file: File): Promise<void> => {
-    const read = file.size > LARGE_BYTES ? file.arrayBuffer() : file.text();
+    const read = file.size >= LARGE_BYTES ? file.arrayBuffer() : file.text();
     const svg = await read.catch(() => null);
     if (svg === null) notify("error", text.drawing.unreadable(file.name));
     else if (headOf(svg).includes("\0")) notify("error", text.drawing.notText(file.name));
@@ -154,12 +162,11 @@ export const createActions = (deps: ActionDeps) => {
     const plotterId = currentPlotter(state)?.id;
     const newJob = {
       name: drawing.name,
-      drawing: wholeText(drawing.text),
       settings,
       ...(plotterId ? { plotterId } : {}),
       ...(copies > 1 ? { copies } : {}),
     };
-    const job = await attempt("add", () => api.addJob(newJob));
+    const job = await attempt("add", async () => api.addJob(await bodyOf(newJob, drawing.text)));
     if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
       store.setState({ drawing: { ...drawing, jobId: job.id } });
     }

@@ -1,7 +1,6 @@
 import { useEffect, useState } from "react";
 import { findMachine } from "../../src/index.js";
 import type { SharedJob, SharedTarget } from "../../src/schema/index.js";
-import { wholeText } from "../state/actions.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
@@ -94,8 +93,7 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
   const named = plotters.find(({ id }) => id === to);
   const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
   const send = async (): Promise<void> => {
-    const job = { name: drawing.name, drawing: wholeText(drawing.text), settings, target };
-    if (!(await studio.shareJob(job))) return;
+    if (!(await studio.shareJob({ name: drawing.name, settings, target }, drawing.text))) return;
     actions.notify("info", words.shareSent(drawing.name));
     onSent();
   };

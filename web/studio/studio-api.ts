@@ -15,7 +15,8 @@ import {
   type SharedJob,
 } from "../../src/schema/index.js";
 import { ApiFault, okSchema } from "../api/client.js";
-import type { Actions } from "../state/actions.js";
+import { bodyOf, type Actions } from "../state/actions.js";
+import type { DrawingText } from "../worker/protocol.js";
 
 const devicesSchema = z.object({ devices: z.array(deviceSchema) });
 const entriesSchema = z.object({ entries: z.array(accessEntrySchema) });
@@ -49,7 +50,8 @@ export const studioApi = ({ ask, attempt }: Actions) => {
       ask(sharedJobsSchema, "GET", "/shared-jobs").catch((error: unknown) =>
         error instanceof ApiFault && error.code === "not-found" ? { jobs: null } : null,
       ),
-    shareJob: (job: NewSharedJob) => attempt("share", () => ask(sentSchema, "POST", "/shared-jobs", job)),
+    shareJob: (job: Omit<NewSharedJob, "drawing">, drawing: DrawingText) =>
+      attempt("share", async () => ask(sentSchema, "POST", "/shared-jobs", await bodyOf(job, drawing))),
     giveBackShared: (id: string) =>
       attempt("shared-job", () => ask(okSchema, "POST", `${one("shared-jobs", id)}/give-back`)),
     withdrawShared: (id: string) =>
