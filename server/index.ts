@@ -23,7 +23,7 @@ import { JobQueue } from "./queue/job-queue.js";
 import { Notices } from "./queue/notices.js";
 import { packagePath, packageVersion } from "./package-files.js";
 import { Store } from "./queue/store.js";
-import { SharedQueue, type SharedParts } from "./shared/shared-queue.js";
+import { SharedQueue, claimsOf, type SharedParts } from "./shared/shared-queue.js";
 import { SharedStore } from "./shared/shared-store.js";
 import { Access } from "./security/access.js";
 import { Baton } from "./security/baton.js";
@@ -179,6 +179,7 @@ async function openParts(
     nowIso,
     log,
     withChange: (before, after) => webhooks.note(before, after),
+    claims: claimsOf(store, () => shared),
     afterChange: () => {
       webhooks.wake();
       shared?.wake();

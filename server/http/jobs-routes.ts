@@ -71,14 +71,14 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   }
 
   // Just after its start the server is still looking for its boards.
-  const onBoard: Readonly<Record<string, (id: string) => Job>> = {
+  const onBoard: Readonly<Record<string, (id: string) => Job | Promise<Job>>> = {
     start: (id) => queue.start(id),
     recover: (id) => queue.recover(id),
   };
   for (const [name, act] of Object.entries(onBoard)) {
     router.post(`/:id/${name}`, async (request, response) => {
       await queue.plotterSettled(request.params["id"] as string);
-      response.json(act(request.params["id"] as string));
+      response.json(await act(request.params["id"] as string));
     });
   }
 

@@ -20,6 +20,8 @@ export class JobQueue {
   readonly #parts: QueueParts;
   readonly #book: JobBook;
   readonly #runs: PlotRuns;
+  /** By job, while it is asked whether it may begin. */
+  readonly #beginning = new Map<string, Promise<Job | string>>();
 
   /** Loads what is on disk; a job that was plotting when the server ended becomes interrupted. */
   constructor(parts: QueueParts) {
@@ -166,8 +168,14 @@ export class JobQueue {
     return this.#runs.isBusy(plotterId);
   }
 
-  start(id: string): Job {
-    return this.#runs.start(id);
+  /**
+   * A job that servers share begins only once it is certain that no other one has it. Rejects with `busy` while its
+   * plotter plots another job, with `conflict` for what another server has or may have.
+   */
+  async start(id: string): Promise<Job> {
+    const started = await this.#begin(id);
+    if (typeof started === "string") throw new PlotwrightError("conflict", started);
+    return started;
   }
 
   recover(id: string): Job {
@@ -212,6 +220,30 @@ export class JobQueue {
     return this.#runs.close();
   }
 
+  /** The job, or why another server may have it. Asked for twice at once, it is the same start. */
+  #begin(id: string): Promise<Job | string> {
+    const running = this.#beginning.get(id);
+    if (running !== undefined) return running;
+    const begun = this.#claimAndStart(id).finally(() => this.#beginning.delete(id));
+    this.#beginning.set(id, begun);
+    return begun;
+  }
+
+  async #claimAndStart(id: string): Promise<Job | string> {
+    const { claims } = this.#parts;
+    if (claims === undefined) return this.#runs.start(id);
+    this.#runs.mustBeStartable(id);
+    const why = await claims.claim(id);
+    if (why !== null) return why;
+    try {
+      return this.#runs.start(id);
+    } catch (error) {
+      // Whatever came between: the plotter was taken, the job removed.
+      await claims.release(id);
+      throw error;
+    }
+  }
+
   #done(job: Job): void {
     const { plotterId } = job;
     for (const waiting of this.list()) {
@@ -219,18 +251,30 @@ export class JobQueue {
       const expected = this.#expectedS(waiting);
       if (expected !== waiting.expectedS) this.#book.save({ ...waiting, expectedS: expected });
     }
-    if (this.settings(plotterId).runOn && !this.#runs.isClosing) this.#startNext(plotterId);
+    if (this.settings(plotterId).runOn && !this.#runs.isClosing) void this.#startNext(plotterId);
   }
 
-  /** The next job of that plotter, when the operator lets the queue run on. */
-  #startNext(plotterId: string): void {
-    const next = this.list().find((job) => job.plotterId === plotterId && job.state === "queued");
-    if (next === undefined) return;
-    try {
-      this.#runs.start(next.id);
-    } catch (error) {
-      this.#book.note(next.id, error instanceof Error ? error.message : String(error));
+  /**
+   * The next job of that plotter, when the operator lets the queue run on. What another server may have is left, and
+   * the one behind it begins.
+   */
+  async #startNext(plotterId: string): Promise<void> {
+    const waiting = this.list().filter((job) => job.plotterId === plotterId && job.state === "queued");
+    for (const { id } of waiting) {
+      try {
+        const begun = await this.#begin(id);
+        if (typeof begun !== "string") return;
+        this.#note(id, begun);
+      } catch (error) {
+        this.#note(id, error instanceof Error ? error.message : String(error));
+        return;
+      }
     }
+  }
+
+  /** Of a job that may be gone by now, as may the disk. */
+  #note(id: string, message: string): void {
+    if (!this.#runs.isClosing && this.list().some((job) => job.id === id)) this.#book.note(id, message);
   }
 
   #fresh(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {

@@ -14,6 +14,7 @@ import {
 } from "../../src/schema/index.js";
 import type { PlotProgress } from "../plotter/types.js";
 import type { JobBook } from "./job-book.js";
+import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MovingTimer } from "./queued-job.js";
@@ -63,6 +64,12 @@ export class PlotRuns {
 
   get isClosing(): boolean {
     return this.#closing;
+  }
+
+  /** Throws what `start` would. */
+  mustBeStartable(id: string): void {
+    this.#freePlotter(id);
+    applyJobEvent(this.#book.get(id), { type: "start" }, this.#parts.nowIso());
   }
 
   /** Throws `busy` while its plotter plots another job. */

@@ -14,6 +14,13 @@ export interface Planning {
   open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
 }
 
+export interface Claims {
+  /** Null: it is this server's, which is known to all from now on. Else why it must not begin; never rejects. */
+  claim(jobId: string): Promise<string | null>;
+  /** It has not begun after all; never rejects. */
+  release(jobId: string): Promise<void>;
+}
+
 export interface QueueParts {
   readonly store: Store;
   readonly files: DrawingFiles;
@@ -26,6 +33,8 @@ export interface QueueParts {
   readonly log?: ((line: string) => void) | undefined;
   /** Writes what follows from a job's change, in the same transaction. */
   readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
+  /** For jobs that servers share: makes sure that no other one plots it; absent where none is shared. */
+  readonly claims?: Claims | undefined;
   /** After the change has been announced. */
   readonly afterChange?: (() => void) | undefined;
 }

@@ -15,6 +15,7 @@ import {
 import type { PlotterPort } from "../queue/plotter-port.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
+import type { Claims } from "../queue/queue-parts.js";
 import type { Store } from "../queue/store.js";
 import type { SharedStore, TakenJob } from "./shared-store.js";
 
@@ -50,6 +51,8 @@ export class SharedQueue {
   readonly #unstarted = new Set<string>();
   /** Jobs on servers that have gone, of which has been told. */
   readonly #toldOf = new Set<string>();
+  /** Plotters of no known model, of which has been told. */
+  readonly #toldNameless = new Set<string>();
   #lastTrouble: string | null = null;
 
   constructor(parts: SharedParts) {
@@ -72,6 +75,30 @@ export class SharedQueue {
   /** What a server took that has gone since, and has not begun there, waits again. Throws `conflict`. */
   giveBack(id: string): Promise<void> {
     return this.#parts.shared.giveBack(id, this.#lostAfterMs);
+  }
+
+  /** Before a job of this queue begins: why it must not, or null. Others learn of it in the same step. */
+  async claim(jobId: string): Promise<string | null> {
+    const { shared, store, serverId, queue, log } = this.#parts;
+    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    if (known === undefined) return null;
+    const { name } = queue.get(jobId);
+    try {
+      if (await shared.claim(known.id, serverId)) return null;
+      return await this.#leave(known);
+    } catch (error) {
+      log(
+        `shared queue: "${name}" does not begin: ${error instanceof Error ? error.message : String(error)}`,
+      );
+      return `The queue that the servers share can't be reached, so another one may have been given "${name}". It can begin when the database is back; a duplicate of it begins at any time.`;
+    }
+  }
+
+  async release(jobId: string): Promise<void> {
+    const { shared, store, serverId, log } = this.#parts;
+    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    if (known === undefined) return;
+    await shared.release(known.id, serverId).catch((error: unknown) => log(`shared queue: ${String(error)}`));
   }
 
   get #lostAfterMs(): number {
@@ -104,7 +131,7 @@ export class SharedQueue {
         this.#isCaughtUp = true;
       }
       await this.#tellBegun();
-      this.#startThem();
+      await this.#startThem();
       await this.#tellLost();
       for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
       if (this.#lastTrouble !== null) log("shared queue: it works again");
@@ -122,16 +149,22 @@ export class SharedQueue {
 
   /** While this server was away, others may have been given what it had taken. */
   async #letGo(): Promise<void> {
-    const { shared, store, serverId, queue, log, notice } = this.#parts;
-    for (const { id, jobId } of store.untoldShared()) {
-      const job = queue.list().find((one) => one.id === jobId);
-      if (job?.state !== "queued" || (await shared.isStill(id, serverId))) continue;
-      await queue.remove(jobId);
-      store.forgetShared(id);
-      const message = `"${job.name}" was given to another server while this one was away.`;
-      log(`shared queue: ${message}`);
-      notice(message);
+    const { shared, store, serverId, queue } = this.#parts;
+    for (const known of store.untoldShared()) {
+      const job = queue.list().find((one) => one.id === known.jobId);
+      if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.#leave(known);
     }
+  }
+
+  /** Takes what is another server's out of the own queue; returns what was said of it. */
+  async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
+    const { store, queue, log, notice } = this.#parts;
+    const message = `"${queue.get(jobId).name}" was given to another server while this one was away.`;
+    await queue.remove(jobId);
+    store.forgetShared(id);
+    log(`shared queue: ${message}`);
+    notice(message);
+    return message;
   }
 
   /** What has begun here is nobody else's any more. */
@@ -160,20 +193,24 @@ export class SharedQueue {
   }
 
   /** Where the queue runs on; again and again, since a plotter may have lost its board just now. */
-  #startThem(): void {
+  async #startThem(): Promise<void> {
     const { queue } = this.#parts;
     for (const id of this.#unstarted) {
       const job = queue.list().find((one) => one.id === id);
       if (job?.state !== "queued") this.#unstarted.delete(id);
-      else if (queue.settings(job.plotterId).runOn) startIfFree(queue, id);
+      else if (queue.settings(job.plotterId).runOn) await startIfFree(queue, id);
     }
   }
 
   /** Only a plotter that is there and has nothing to do takes work, or it would keep it from one that is free. */
   async #feed(plotter: PlotterPort): Promise<void> {
-    const { shared, serverId, serverName, queue } = this.#parts;
+    const { shared, serverId, serverName, queue, log } = this.#parts;
     const { name, machine, connection } = plotter.snapshot();
     if (this.#isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
+    if (machine === null && !this.#toldNameless.has(plotter.id)) {
+      this.#toldNameless.add(plotter.id);
+      log(`shared queue: ${name} takes only jobs for ${name} itself: nobody has said what model it is`);
+    }
     const targets: SharedTarget[] = [{ plotter: name }, ...(machine === null ? [] : [{ machine }])];
     for (const target of targets) {
       const taker = { serverId, server: serverName, plotterId: plotter.id };
@@ -200,7 +237,7 @@ export class SharedQueue {
       log(`shared queue: took "${name}" as ${job.id}`);
       await shared.finish(id, "stored", null);
       this.#unstarted.add(job.id);
-      this.#startThem();
+      await this.#startThem();
     } catch (error) {
       if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
       const message = `A job of the shared queue can't be plotted: ${error.message}`;
@@ -211,13 +248,27 @@ export class SharedQueue {
   }
 }
 
+/**
+ * For a server's own queue, which is there before it shares one, or shares none any more: what it took from others
+ * then waits, since it may have been given away.
+ */
+export const claimsOf = (store: Pick<Store, "untoldShared">, shared: () => SharedQueue | null): Claims => ({
+  claim: async (jobId) => {
+    const queue = shared();
+    if (queue !== null) return queue.claim(jobId);
+    if (!store.untoldShared().some((one) => one.jobId === jobId)) return null;
+    return "It is of the queue that servers share, so another one may have been given it: start this server with --shared-queue, or duplicate the job and start the copy.";
+  },
+  release: async (jobId) => shared()?.release(jobId),
+});
+
 const targetText = (target: SharedTarget): string =>
   "plotter" in target ? `plotter ${target.plotter.toLowerCase()}` : `machine ${target.machine}`;
 
 /** It may have been started, or the plotter taken, by somebody meanwhile. */
-function startIfFree(queue: JobQueue, id: string): void {
+async function startIfFree(queue: JobQueue, id: string): Promise<void> {
   try {
-    queue.start(id);
+    await queue.start(id);
   } catch (error) {
     if (!(error instanceof PlotwrightError)) throw error;
   }

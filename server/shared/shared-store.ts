@@ -3,7 +3,7 @@
  * it. Both change in one transaction, so that a server that dies at any instant has either taken a job, and finds
  * it again when it comes back, or has not, and another one gets it.
  */
-import type { Pool, PoolClient } from "pg";
+import type { Pool, PoolClient, QueryConfig } from "pg";
 import type PgBoss from "pg-boss";
 import { createHash, randomUUID } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
@@ -44,6 +44,8 @@ CREATE TABLE IF NOT EXISTS plotwright_servers (
 /** Unfetched jobs are never thrown away: somebody's plotter may be on holiday. */
 const RETENTION_DAYS = 3_650;
 const MOST_LISTED = 500;
+/** Of somebody who waits for his plot to begin. A network that is cut tells nobody. */
+const SHORT_MS = 5_000;
 
 /** $1: ms of silence after which a server counts as gone. */
 const LOST = `state IN ('taken', 'stored') AND NOT has_begun AND payload IS NOT NULL AND NOT EXISTS (
@@ -71,7 +73,7 @@ export class SharedStore {
     let pool: Pool | null = null;
     try {
       const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
-      pool = new pg.Pool({ connectionString: url, max: 3 });
+      pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: SHORT_MS });
       const tell = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", tell);
       await pool.query(TABLES);
@@ -134,6 +136,24 @@ export class SharedStore {
       `UPDATE plotwright_jobs SET state = $2, message = $3,
        payload = CASE WHEN $2 = 'refused' THEN NULL ELSE payload END WHERE id = $1`,
       [id, state, message],
+    );
+  }
+
+  /** Its plot is about to begin, so that nobody is given it. False: it is another one's, or waits for one. */
+  async claim(id: string, serverId: string): Promise<boolean> {
+    const { rowCount } = await this.#pool.query({
+      text: "UPDATE plotwright_jobs SET has_begun = true WHERE id = $1 AND server_id = $2",
+      values: [id, serverId],
+      query_timeout: SHORT_MS,
+    } as QueryConfig);
+    return rowCount !== 0;
+  }
+
+  /** It has not begun after all. */
+  async release(id: string, serverId: string): Promise<void> {
+    await this.#pool.query(
+      "UPDATE plotwright_jobs SET has_begun = false WHERE id = $1 AND server_id = $2 AND payload IS NOT NULL",
+      [id, serverId],
     );
   }
 

@@ -7,7 +7,7 @@ import { prepareDataDir } from "../../server/data-dir.js";
 import { DrawingFiles } from "../../server/queue/drawing-files.js";
 import { JobQueue } from "../../server/queue/job-queue.js";
 import { SERVER_STOPPED } from "../../server/queue/plot-runs.js";
-import type { Planning } from "../../server/queue/queue-parts.js";
+import type { Claims, Planning } from "../../server/queue/queue-parts.js";
 import { Store } from "../../server/queue/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
@@ -32,7 +32,7 @@ afterEach(async () => {
   rmSync(dir, { recursive: true, force: true });
 });
 
-function openQueue(planning: Planning = LED_PLANNING): void {
+function openQueue(planning: Planning = LED_PLANNING, claims?: Claims): void {
   store = Store.open(dir);
   plotter = new LedPlotter();
   events = [];
@@ -49,6 +49,7 @@ function openQueue(planning: Planning = LED_PLANNING): void {
     },
     nowIso: () => new Date().toISOString(),
     log: (line) => logged.push(line),
+    claims,
   });
 }
 
@@ -60,7 +61,7 @@ const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state
 describe("the queue", () => {
   it("plots a job through progress and hold to its end, telling each step", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     run.progress({ progress: 0.5, elapsedS: 6, remainingS: 6, planS: 6, xMm: 1, yMm: 2, penUp: false });
@@ -83,7 +84,7 @@ describe("the queue", () => {
   it("tells what the failure was, keeps the rest of the queue, and can plot again", async () => {
     const first = await add("fern");
     await add("moss");
-    queue.start(first.id);
+    await queue.start(first.id);
     const run = await plotter.nextRun();
     await settled();
     run.fail(new PlotwrightError("out-of-bounds", "It is larger than the machine."));
@@ -92,7 +93,7 @@ describe("the queue", () => {
     expect(queue.get(first.id).message).toBe("It is larger than the machine.");
     queue.requeue(first.id);
     expect(names()).toEqual(["moss queued", "fern queued"]);
-    queue.start(first.id);
+    await queue.start(first.id);
     (await plotter.nextRun()).end({ kind: "done" });
     await settled();
     expect(names()).toEqual(["moss queued", "fern done"]);
@@ -101,15 +102,36 @@ describe("the queue", () => {
   it("refuses a second job while one is on the plotter", async () => {
     const first = await add("fern");
     const second = await add("moss");
-    queue.start(first.id);
-    expect(() => queue.start(second.id)).toThrow(/"fern" is on the plotter/);
+    await queue.start(first.id);
+    await expect(queue.start(second.id)).rejects.toThrow(/"fern" is on the plotter/);
     expect(queue.get(second.id).state).toBe("queued");
+  });
+
+  it("gives up its claim on a job that servers share where the board goes before it begins", async () => {
+    const asked: string[] = [];
+    await queue.close();
+    store.close();
+    openQueue(LED_PLANNING, {
+      claim: (id) => {
+        asked.push(`claim ${id}`);
+        plotter.connection = "absent";
+        return Promise.resolve(null);
+      },
+      release: (id) => Promise.resolve(void asked.push(`release ${id}`)),
+    });
+    const { id } = await add("fern");
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(asked).toEqual([`claim ${id}`, `release ${id}`]);
+    // Without a board nobody is asked at all.
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(asked.length).toBe(2);
+    expect(names()).toEqual(["fern queued"]);
   });
 
   it("refuses to start without a board, and the job stays queued", async () => {
     const { id } = await add("fern");
     plotter.connection = "absent";
-    expect(() => queue.start(id)).toThrow(expect.objectContaining({ code: "no-board" }));
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
     expect(queue.get(id).state).toBe("queued");
   });
 
@@ -124,7 +146,7 @@ describe("the queue", () => {
         }),
     });
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     queue.cancel(id);
     await settled();
     expect(queue.get(id).state).toBe("cancelled");
@@ -146,7 +168,7 @@ describe("the queue", () => {
   it("marks what was plotting as interrupted after a restart, and keeps the others' order", async () => {
     const jobs = [await add("fern"), await add("moss"), await add("ivy")];
     queue.move(jobs[2]!.id, jobs[1]!.id);
-    queue.start(jobs[0]!.id);
+    await queue.start(jobs[0]!.id);
     await plotter.nextRun();
     store.close();
     openQueue();
@@ -156,7 +178,7 @@ describe("the queue", () => {
 
   it("takes an interrupted job up where the journal says, held, and the place can be moved", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const broken = await plotter.nextRun();
     await settled();
     broken.record({ place: { stroke: 3, alongMm: 4.5 } });
@@ -184,7 +206,7 @@ describe("the queue", () => {
 
   it("offers a plot whose board failed before anything was drawn, held at its beginning", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const broken = await plotter.nextRun();
     await settled();
     broken.fail(new PlotwrightError("board-timeout", "The board has stopped answering."));
@@ -203,7 +225,7 @@ describe("the queue", () => {
 
   it("offers a plot that has begun to draw, whatever ended it", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const broken = await plotter.nextRun();
     await settled();
     broken.record({ place: { stroke: 3, alongMm: 4.5 } });
@@ -214,12 +236,12 @@ describe("the queue", () => {
 
   it("begins at the beginning when it is plotted again, though it is interrupted before it draws", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
     store.close();
     openQueue();
     queue.requeue(id);
-    queue.start(id);
+    await queue.start(id);
     await plotter.nextRun();
     store.close();
     openQueue();
@@ -228,7 +250,7 @@ describe("the queue", () => {
 
   it("plots on with a full disk, and says once that it can't write", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     const { saveJournal } = store;
@@ -247,7 +269,7 @@ describe("the queue", () => {
 
   it("knows after a kill how far a job had come, and nothing moves before the user's word", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
     store.close();
     openQueue();
@@ -260,7 +282,7 @@ describe("the queue", () => {
 
   it("keeps heights and speeds that were changed while plotting", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     await plotter.nextRun();
     await settled();
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
@@ -286,13 +308,13 @@ describe("the queue", () => {
 
   it("waits between jobs for the paper, or runs on when it is told to", async () => {
     const [a, b] = [await add("fern"), await add("moss")];
-    queue.start(a.id);
+    await queue.start(a.id);
     (await plotter.nextRun()).end({ kind: "done" });
     await settled();
     expect(queue.get(b.id).state).toBe("queued");
     queue.saveSettings({ runOn: true });
     await add("ivy");
-    queue.start(b.id);
+    await queue.start(b.id);
     (await plotter.nextRun()).end({ kind: "done" });
     await settled();
     expect(names().slice(0, 1)).toEqual(["ivy plotting"]);
@@ -314,7 +336,7 @@ describe("the queue", () => {
 
   it("keeps a job until its plot has ended", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     await expect(queue.remove(id)).rejects.toMatchObject({ code: "conflict" });
     (await plotter.nextRun()).end({ kind: "done" });
     await settled();
@@ -352,7 +374,7 @@ describe("the queue", () => {
             open = open.filter((id) => id !== one);
           }
           if (ask === "start" && one !== undefined && plotting === null) {
-            queue.start(one);
+            await queue.start(one);
             plotting = one;
           }
           if ((ask === "end" || ask === "fail") && plotting !== null) {

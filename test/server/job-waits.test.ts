@@ -54,7 +54,7 @@ const add = (name: string): Promise<Job> =>
 const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
 async function plot(id: string, tookS: number): Promise<void> {
-  queue.start(id);
+  await queue.start(id);
   const run = await plotter.nextRun();
   await settled();
   nowMs += tookS * 1000;
@@ -65,7 +65,7 @@ async function plot(id: string, tookS: number): Promise<void> {
 describe("a stop for a pen", () => {
   it("holds the job with what it waits for, on disk too, until somebody resumes it", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     run.holdPlace = { stroke: 2, alongMm: 0 };
@@ -81,7 +81,7 @@ describe("a stop for a pen", () => {
 
   it("is asked for again after a crash, and not once it was answered", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     run.record({ place: { stroke: 2, alongMm: 0 } });
@@ -106,7 +106,7 @@ describe("a stop for a pen", () => {
 
   it.each(["cancel", "finish"] as const)("is over when the job ends (%s)", async (end) => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     run.held(true, BLUE);
@@ -119,7 +119,7 @@ describe("a stop for a pen", () => {
 
   it("is left out of the time that the plot took", async () => {
     const { id } = await add("fern");
-    queue.start(id);
+    await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     nowMs += 5_000;

@@ -84,7 +84,7 @@ const nothingPending = (): Promise<void> =>
 
 async function plot(end: "done" | Error): Promise<Job> {
   const job = await add();
-  app.queue.start(job.id);
+  await app.queue.start(job.id);
   const run = await app.plotter.nextRun();
   if (end === "done") run.end({ kind: "done" });
   else run.fail(end);
@@ -115,7 +115,7 @@ describe("a webhook", () => {
     await heard(1);
     expect(received[0]?.message).toMatchObject({ event: "failed", job: { message: "The planner broke." } });
     const { id } = await add();
-    app.queue.start(id);
+    await app.queue.start(id);
     const run = await app.plotter.nextRun();
     await expect.poll(() => app.queue.get(id).state).toBe("plotting");
     run.held(true, { kind: "pen", layerName: "sky", penName: "Blue 0.3", color: "#00f" });

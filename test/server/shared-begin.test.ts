@@ -1,0 +1,120 @@
+/** A shared job begins only where all servers know that it does; a plotter of no known model is told what it is. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { PlotwrightServer } from "../../server/index.js";
+import { temporaryFolder } from "../support/server-process.js";
+import {
+  MACHINE,
+  SharedDatabase,
+  jobsOf,
+  noticesOf,
+  send,
+  share,
+  sharedOf,
+  stateOf,
+} from "./support/shared-servers.js";
+
+const data = temporaryFolder("shared-begin");
+const logged: string[] = [];
+let database: SharedDatabase;
+let server: PlotwrightServer;
+
+const jobNamed = async (name: string): Promise<string> =>
+  (await stateOf(server)).jobs.find((job) => job.name === name)!.id;
+const start = async (name: string): Promise<Response> =>
+  send(server.url, "POST", `/jobs/${await jobNamed(name)}/start`);
+
+beforeAll(async () => {
+  database = await SharedDatabase.open();
+  server = await database.serve(data.path, { log: (line) => logged.push(line) });
+  await send(server.url, "PATCH", "/plotters/main", { name: "Left" });
+});
+afterAll(async () => {
+  await server.close();
+  await database.close();
+  data.remove();
+});
+
+describe("a plotter whose model nobody has named", () => {
+  it("is not given what is for any plotter of a model, says so, and is once it is named", async () => {
+    await expect
+      .poll(() => logged)
+      .toContainEqual(expect.stringMatching(/takes only jobs for .* itself: nobody has said what model/));
+    await share(server, "fern", { machine: MACHINE });
+    await share(server, "moss", { plotter: "Left" });
+    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["moss queued"]);
+    await send(server.url, "DELETE", `/jobs/${await jobNamed("moss")}`);
+    expect((await stateOf(server)).plotters[0]!.machine).toBe(null);
+    await send(server.url, "PATCH", "/plotters/main", { machine: MACHINE });
+    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["fern queued"]);
+  });
+});
+
+describe("a shared job that was taken and has not begun", () => {
+  it("does not begin while the database is away, which says why, and a copy of it does", async () => {
+    await database.cut();
+    const refused = await start("fern");
+    expect([refused.status, await refused.text()]).toEqual([
+      409,
+      expect.stringContaining("another one may have been given"),
+    ]);
+    expect(await jobsOf(server)).toEqual(["fern queued"]);
+    await send(server.url, "PATCH", `/jobs/${await jobNamed("fern")}`, { name: "fern here" });
+    const copy = (await (
+      await send(server.url, "POST", `/jobs/${await jobNamed("fern here")}/duplicate`)
+    ).json()) as { id: string };
+    await send(server.url, "PATCH", `/jobs/${copy.id}`, { name: "copy" });
+    expect((await start("copy")).status).toBe(200);
+    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["fern here queued", "copy done"]);
+  });
+
+  it("is left by a queue that runs on, and the job behind it begins", async () => {
+    const duplicate = async (name: string): Promise<void> => {
+      const id = await jobNamed("copy");
+      const answer = await send(server.url, "POST", `/jobs/${id}/duplicate`);
+      const { id: fresh } = (await answer.json()) as { id: string };
+      await send(server.url, "PATCH", `/jobs/${fresh}`, { name });
+    };
+    await duplicate("behind");
+    await duplicate("first");
+    await send(server.url, "PATCH", "/queue", { runOn: true });
+    await start("first");
+    await expect
+      .poll(async () => (await jobsOf(server)).slice(0, 3), { timeout: 20_000 })
+      .toEqual(["fern here queued", "behind done", "first done"]);
+    const { jobs } = await stateOf(server);
+    expect(jobs[0]!.message).toMatch(/can't be reached/);
+    await send(server.url, "PATCH", "/queue", { runOn: false });
+  });
+
+  it("begins when the database is back, and is nobody else's from that instant on", async () => {
+    await database.restore();
+    await expect.poll(() => start("fern here").then(({ status }) => status), { timeout: 20_000 }).toBe(200);
+    expect(await sharedOf(server)).toMatchObject({ hasBegun: true });
+    await expect
+      .poll(async () => (await jobsOf(server)).includes("fern here done"), { timeout: 20_000 })
+      .toBe(true);
+  });
+
+  it("is taken out of the queue when it proves to be another server's", async () => {
+    await share(server, "ivy", { plotter: "left" });
+    await expect.poll(async () => (await jobsOf(server))[0], { timeout: 20_000 }).toBe("ivy queued");
+    await database.query("UPDATE plotwright_jobs SET server_id = 'other' WHERE name = 'ivy'");
+    const refused = await start("ivy");
+    expect([refused.status, await refused.text()]).toEqual([
+      409,
+      expect.stringContaining("was given to another server"),
+    ]);
+    expect((await jobsOf(server)).some((job) => job.startsWith("ivy"))).toBe(false);
+    expect(await noticesOf(server)).toEqual(['"ivy" was given to another server while this one was away.']);
+  });
+
+  it("begins once when two ask for it in the same instant", async () => {
+    await share(server, "oak", { plotter: "left" });
+    await expect.poll(async () => (await jobsOf(server))[0], { timeout: 20_000 }).toBe("oak queued");
+    const answers = await Promise.all([start("oak"), start("oak")]);
+    expect(answers.map(({ status }) => status)).toEqual([200, 200]);
+    await expect
+      .poll(async () => (await jobsOf(server)).includes("oak done"), { timeout: 20_000 })
+      .toBe(true);
+  });
+});
