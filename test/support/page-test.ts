@@ -24,10 +24,15 @@ export class PageTest {
     });
   }
 
-  static async open(name: string, options: BrowserContextOptions = {}): Promise<PageTest> {
+  /** `args`: for the server. */
+  static async open(
+    name: string,
+    options: BrowserContextOptions = {},
+    args: readonly string[] = [],
+  ): Promise<PageTest> {
     const data = temporaryFolder(name);
     const browser = await launchBrowser();
-    const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50 });
+    const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
     const context = await browser.newContext({ viewport: DESKTOP, colorScheme: "light", ...options });
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
     await test.page.goto(server.url);

@@ -1,7 +1,12 @@
 /** What the page offers to do with a job of the queue that several servers share. */
 import { describe, expect, it } from "vitest";
-import { SERVER_LOST_AFTER_MS, sharedJobSchema, type SharedJob } from "../../src/schema/index.js";
-import { isServerGone, wayOut } from "../../web/studio/shared-jobs.js";
+import {
+  SERVER_LOST_AFTER_MS,
+  sharedJobSchema,
+  type Plotter,
+  type SharedJob,
+} from "../../src/schema/index.js";
+import { isServerGone, leftOut, machineWanted, wayOut } from "../../web/studio/shared-jobs.js";
 
 const NOW_MS = Date.parse("2026-11-21T12:00:00Z");
 const ago = (ms: number): string => new Date(NOW_MS - ms).toISOString();
@@ -37,5 +42,18 @@ describe("a shared job", () => {
     expect(wayOut(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");
     expect(isServerGone(job({ ...lost, hasBegun: true }), NOW_MS)).toBe(true);
     expect(wayOut(job({ ...lost, hasBegun: true }), NOW_MS)).toBeNull();
+  });
+
+  it("names the plotters that it does not go to only since their model was never said", () => {
+    const plotter = (id: string, machine: string | null): Plotter =>
+      ({ id, name: id, machine }) as Partial<Plotter> as Plotter;
+    const plotters = [plotter("new", null), plotter("big", "axidraw-v3-a3"), plotter("fits", "axidraw-v3")];
+    const idsFor = (change: Partial<SharedJob>): string[] =>
+      leftOut(job({ target: "machine axidraw-v3", ...change }), plotters).map(({ id }) => id);
+    expect(idsFor({})).toEqual(["new"]);
+    expect(idsFor({ target: "plotter new" })).toEqual([]);
+    expect(idsFor({ state: "withdrawn" })).toEqual([]);
+    expect(machineWanted(job({ target: "machine axidraw-v3" }))).toBe("axidraw-v3");
+    expect(machineWanted(job({ target: "plotter machine" }))).toBe(null);
   });
 });

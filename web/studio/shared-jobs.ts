@@ -1,5 +1,5 @@
 /** What may be done with a job of the queue that several servers share. */
-import { SERVER_LOST_AFTER_MS, type SharedJob } from "../../src/schema/index.js";
+import { SERVER_LOST_AFTER_MS, type Plotter, type SharedJob } from "../../src/schema/index.js";
 
 /** The server that took it has not been heard of for long; it may be off, or only cut off. */
 export const isServerGone = ({ state, serverSeenAt }: SharedJob, nowMs: number): boolean =>
@@ -10,3 +10,13 @@ export const wayOut = (job: SharedJob, nowMs: number): "withdraw" | "give-back" 
   if (job.state === "waiting") return "withdraw";
   return isServerGone(job, nowMs) && !job.hasBegun ? "give-back" : null;
 };
+
+/** Id of the machine whose every plotter may have the job; null for a job that is one plotter's. */
+export const machineWanted = ({ target }: SharedJob): string | null =>
+  /^machine (.+)$/.exec(target)?.[1] ?? null;
+
+/** This server's plotters that are not given a job that waits only since nobody has said what model they are. */
+export const leftOut = (job: SharedJob, plotters: readonly Plotter[]): readonly Plotter[] =>
+  job.state === "waiting" && machineWanted(job) !== null
+    ? plotters.filter(({ machine }) => machine === null)
+    : [];

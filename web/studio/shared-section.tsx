@@ -1,12 +1,12 @@
 import { useEffect, useState } from "react";
-import { findMachine } from "../../src/index.js";
-import type { SharedJob, SharedTarget } from "../../src/schema/index.js";
+import { findMachine, MACHINES } from "../../src/index.js";
+import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
-import { isServerGone, wayOut } from "./shared-jobs.js";
+import { isServerGone, leftOut, machineWanted, wayOut } from "./shared-jobs.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
 const words = later.studio;
@@ -45,9 +45,11 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
   const studio = useStudio();
   const nowMs = useNow();
   const way = wayOut(job, nowMs);
+  const plotters = usePageState((state) => state.plotters);
+  const machine = useMachine(machineWanted(job));
   const parts = [
     words.sharedStates[job.state],
-    words.sharedFor(job.target),
+    machine === null ? words.sharedFor(job.target) : words.sharedForAny(machine.name),
     ...(job.server !== null ? [words.sharedWith(job.server)] : []),
     ...(job.hasBegun ? [words.sharedBegun] : []),
     ...(isServerGone(job, nowMs) ? [words.sharedGone] : []),
@@ -64,6 +66,9 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
         <span className="note">{parts.join(", ")}</span>
         {job.message !== null && <span className="note note-error">{job.message}</span>}
         {way === "give-back" && <span className="note">{words.giveBackHint}</span>}
+        {leftOut(job, plotters).map((plotter) => (
+          <LeftOut key={plotter.id} plotter={plotter} machine={machine} />
+        ))}
       </span>
       {way !== null && (
         <button
@@ -76,6 +81,37 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
         </button>
       )}
     </li>
+  );
+};
+
+/** A machine that this server knows, by its id. */
+const useMachine = (id: string | null): { readonly id: string; readonly name: string } | null => {
+  const made = usePageState((state) => state.machines);
+  return [...MACHINES, ...made].find((machine) => machine.id === id) ?? null;
+};
+
+interface LeftOutProps {
+  readonly plotter: Plotter;
+  readonly machine: { readonly id: string; readonly name: string } | null;
+}
+
+/** A plotter of this server, and to say that it is what the job waits for. */
+const LeftOut = ({ plotter, machine }: LeftOutProps) => {
+  const studio = useStudio();
+  return (
+    <span className="note left-out">
+      {words.modelUnknown(plotter.name)}
+      {machine !== null && (
+        <button
+          type="button"
+          className="button button-small"
+          aria-label={words.isOfModelNamed(machine.name, plotter.name)}
+          onClick={() => void studio.patchPlotter(plotter.id, { machine: machine.id })}
+        >
+          {words.isOfModel(machine.name)}
+        </button>
+      )}
+    </span>
   );
 };
 

@@ -1,0 +1,33 @@
+/** The queue that servers share, on the page: a job that waits for a model, and a plotter whose model nobody has named. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { SharedDatabase } from "../server/support/shared-servers.js";
+import { PageTest } from "../support/page-test.js";
+
+let database: SharedDatabase;
+let test: PageTest;
+
+beforeAll(async () => {
+  database = await SharedDatabase.open();
+  test = await PageTest.open("shared-page", {}, ["--shared-queue", database.url]);
+});
+afterAll(async () => {
+  await test.close();
+  await database.close();
+});
+
+describe("a drawing put in the servers' queue for any plotter of a model", () => {
+  it("waits, with the plotter that is left out beside it, and goes there with one press", async () => {
+    const { page } = test;
+    await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
+    await page.getByRole("radio", { name: "Servers" }).check();
+    await page.getByRole("button", { name: /^Put .* there$/ }).click();
+    const row = page.getByRole("listitem").filter({ hasText: "for any AxiDraw V3" });
+    await row.getByText(/is left out: nobody has said what model it is/).waitFor();
+    expect(await test.jobs()).toEqual([]);
+    await row.getByRole("button", { name: /^Its model: AxiDraw V3/ }).click();
+    await row.getByText("taken", { exact: false }).waitFor();
+    await row.getByText(/is left out/).waitFor({ state: "detached" });
+    expect((await test.jobs()).map(({ state }) => state)).toEqual(["queued"]);
+    expect(test.complaints).toEqual([]);
+  });
+});
