@@ -39,6 +39,13 @@ export class PointBuffer {
   }
 }
 
+/** A copy of twice the length. */
+export function grown<T extends Column>(column: T): T {
+  const longer = new (column.constructor as new (length: number) => T)(2 * column.length);
+  longer.set(column);
+  return longer;
+}
+
 type Column = Uint8Array | Uint32Array | Int32Array | Float32Array | Float64Array;
 
 /**

@@ -2,10 +2,14 @@
  * A k-d tree over points, for nearest-neighbour questions while points are taken away one by one.
  *
  * Method: ids in one array, the median of each range at its middle, ranges split in x and y by turns
- * (J. Bentley, CACM 18(9), 1975; the array form after V. Agafonkin's kdbush). Every range of more than
- * LEAF points counts how many of its points are left, so that emptied parts are passed over at once.
+ * (J. Bentley, CACM 18(9), 1975; the array form after V. Agafonkin's kdbush). Ranges are nodes, numbered
+ * as they are split; each counts what is left in it, so that emptied parts are passed over at once.
  *
- *   ids   [ … left half … | m | … right half … ]        left[m] = points left in the whole range
+ *   ids   [ … left half … | m | … right half … ]        node n
+ *           node n + 1          node rights[n]
+ *
+ * A question about a point of the index starts in that point's own range and goes up from there, into the other
+ * halves only where something nearer may be: mostly a few ranges, where the way from the top is log n of them.
  *
  * Built in n log n, asked and removed from in log n on average, whether points are spread evenly,
  * stand in clusters or all at one place: no cell size to get wrong.
@@ -21,13 +25,23 @@ export class PointIndex {
   /** Where each point stands in `ids`. */
   private readonly places: Uint32Array;
   private readonly gone: Uint8Array;
-  /** By the middle of each split range: points left in it. */
-  private readonly left: Uint32Array;
+  /** By place in `ids`: the range that the point is a leaf's of, or the middle of. */
+  private readonly nodes: Uint32Array;
+  /** By node: first and last place in it, the node that it is a half of (−1: none), its right half, how it is split. */
+  private readonly starts: Uint32Array;
+  private readonly ends: Uint32Array;
+  private readonly parents: Int32Array;
+  private readonly rights: Uint32Array;
+  private readonly axes: Uint8Array;
+  /** By node: points left in a leaf; of a split range those of its two halves and middle that are not empty. */
+  private readonly live: Uint8Array;
+  private nodeCount = 0;
   private remaining: number;
 
   // The question under way; fields, because a closure for each would cost more than the search.
   private qx = 0;
   private qy = 0;
+  /** Where it stands in `ids`. */
   private best = -1;
   private best2 = Infinity;
 
@@ -47,9 +61,17 @@ export class PointIndex {
     }
     this.places = new Uint32Array(xy.length / 2);
     this.gone = new Uint8Array(this.ids.length);
-    this.left = new Uint32Array(this.ids.length);
     this.remaining = this.ids.length;
-    this.build(0, this.ids.length - 1, 0);
+    this.nodes = new Uint32Array(this.ids.length);
+    // Leaves have at least LEAF / 2 points, and there is one split range fewer than leaves.
+    const most = Math.ceil((4 * this.ids.length) / LEAF) + 1;
+    this.starts = new Uint32Array(most);
+    this.ends = new Uint32Array(most);
+    this.parents = new Int32Array(most);
+    this.rights = new Uint32Array(most);
+    this.axes = new Uint8Array(most);
+    this.live = new Uint8Array(most);
+    this.build(0, this.ids.length - 1, 0, -1);
     for (let k = 0; k < this.ids.length; k++) this.places[this.ids[k]] = k;
   }
 
@@ -64,18 +86,11 @@ export class PointIndex {
   }
 
   remove(id: number): void {
+    const { live } = this;
     const place = this.places[id];
     this.gone[place] = 1;
     this.remaining--;
-    let from = 0;
-    let to = this.ids.length - 1;
-    while (to - from >= LEAF) {
-      const middle = (from + to) >> 1;
-      this.left[middle]--;
-      if (place === middle) return;
-      if (place < middle) to = middle - 1;
-      else from = middle + 1;
-    }
+    for (let node = this.nodes[place]; node >= 0; node = this.parents[node]) if (--live[node] > 0) return;
   }
 
   /** The nearest point left, or −1. */
@@ -84,8 +99,30 @@ export class PointIndex {
     this.qy = y;
     this.best = -1;
     this.best2 = Infinity;
-    if (this.remaining > 0) this.searchNearest(0, this.ids.length - 1, 0);
-    return this.best;
+    this.search(0);
+    return this.best < 0 ? -1 : this.ids[this.best];
+  }
+
+  /** The nearest point left to point `id`, itself if that is left; −1 for none. */
+  nearestTo(id: number): number {
+    const { xs, ys, starts, ends, parents } = this;
+    const place = this.places[id];
+    const x = (this.qx = xs[place]);
+    const y = (this.qy = ys[place]);
+    this.best = -1;
+    this.best2 = Infinity;
+    let node = this.nodes[place];
+    this.search(node);
+    for (let parent = parents[node]; parent >= 0; parent = parents[node]) {
+      const middle = (starts[parent] + ends[parent]) >> 1;
+      const gap = this.axes[parent] === 0 ? x - xs[middle] : y - ys[middle];
+      if (gap * gap < this.best2) {
+        if (this.gone[middle] === 0) this.offer(middle);
+        this.search(node === parent + 1 ? this.rights[parent] : parent + 1);
+      }
+      node = parent;
+    }
+    return this.best < 0 ? -1 : this.ids[this.best];
   }
 
   /**
@@ -96,18 +133,31 @@ export class PointIndex {
     this.qx = this.xy[2 * id];
     this.qy = this.xy[2 * id + 1];
     const list = new NearestList(count, out, at, id, except);
-    this.searchMany(0, this.ids.length - 1, 0, list);
+    this.searchMany(0, list);
     return list.size;
   }
 
-  private build(from: number, to: number, axis: 0 | 1): void {
-    if (to - from < LEAF) return;
+  /** Answers the number of the range [from, to], a half of `parent`. */
+  private build(from: number, to: number, axis: 0 | 1, parent: number): number {
+    const node = this.nodeCount++;
+    this.starts[node] = from;
+    this.ends[node] = to;
+    this.parents[node] = parent;
+    this.axes[node] = axis;
+    if (to - from < LEAF) {
+      this.nodes.fill(node, from, to + 1);
+      this.live[node] = to - from + 1;
+      return node;
+    }
     const middle = (from + to) >> 1;
     if (axis === 0) this.select(this.xs, this.ys, middle, from, to);
     else this.select(this.ys, this.xs, middle, from, to);
-    this.left[middle] = to - from + 1;
-    this.build(from, middle - 1, axis === 0 ? 1 : 0);
-    this.build(middle + 1, to, axis === 0 ? 1 : 0);
+    this.nodes[middle] = node;
+    this.live[node] = 3;
+    const other = axis === 0 ? 1 : 0;
+    this.build(from, middle - 1, other, node);
+    this.rights[node] = this.build(middle + 1, to, other, node);
+    return node;
   }
 
   /** Puts the point that belongs at `k` in the order of `keys` there, smaller ones before it (Hoare's quickselect). */
@@ -138,31 +188,36 @@ export class PointIndex {
     }
   }
 
-  private searchNearest(from: number, to: number, axis: 0 | 1): void {
+  private search(node: number): void {
+    if (this.live[node] === 0) return;
+    const { xs, ys, qx, qy } = this;
+    const from = this.starts[node];
+    const to = this.ends[node];
     if (to - from < LEAF) {
-      for (let k = from; k <= to; k++) this.offer(k);
+      const { gone } = this;
+      for (let k = from; k <= to; k++) {
+        const dx = xs[k] - qx;
+        const dy = ys[k] - qy;
+        const d2 = dx * dx + dy * dy;
+        if (d2 >= this.best2 || gone[k] === 1) continue;
+        this.best2 = d2;
+        this.best = k;
+      }
       return;
     }
     const middle = (from + to) >> 1;
-    if (this.left[middle] === 0) return;
-    this.offer(middle);
-    const gap = axis === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
-    const next = axis === 0 ? 1 : 0;
-    if (gap <= 0) {
-      this.searchNearest(from, middle - 1, next);
-      if (gap * gap < this.best2) this.searchNearest(middle + 1, to, next);
-    } else {
-      this.searchNearest(middle + 1, to, next);
-      if (gap * gap < this.best2) this.searchNearest(from, middle - 1, next);
-    }
+    if (this.gone[middle] === 0) this.offer(middle);
+    const gap = this.axes[node] === 0 ? qx - xs[middle] : qy - ys[middle];
+    const right = this.rights[node];
+    this.search(gap <= 0 ? node + 1 : right);
+    if (gap * gap < this.best2) this.search(gap <= 0 ? right : node + 1);
   }
 
   private offer(place: number): void {
-    if (this.gone[place] === 1) return;
     const d2 = this.distance2(place);
     if (d2 >= this.best2) return;
     this.best2 = d2;
-    this.best = this.ids[place];
+    this.best = place;
   }
 
   private distance2(place: number): number {
@@ -171,23 +226,20 @@ export class PointIndex {
     return dx * dx + dy * dy;
   }
 
-  private searchMany(from: number, to: number, axis: 0 | 1, list: NearestList): void {
+  private searchMany(node: number, list: NearestList): void {
+    if (this.live[node] === 0) return;
+    const from = this.starts[node];
+    const to = this.ends[node];
     if (to - from < LEAF) {
       for (let k = from; k <= to; k++) if (this.gone[k] === 0) list.offer(this.ids[k], this.distance2(k));
       return;
     }
     const middle = (from + to) >> 1;
-    if (this.left[middle] === 0) return;
     if (this.gone[middle] === 0) list.offer(this.ids[middle], this.distance2(middle));
-    const gap = axis === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
-    const next = axis === 0 ? 1 : 0;
-    if (gap <= 0) {
-      this.searchMany(from, middle - 1, next, list);
-      if (gap * gap < list.worst2) this.searchMany(middle + 1, to, next, list);
-    } else {
-      this.searchMany(middle + 1, to, next, list);
-      if (gap * gap < list.worst2) this.searchMany(from, middle - 1, next, list);
-    }
+    const gap = this.axes[node] === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
+    const right = this.rights[node];
+    this.searchMany(gap <= 0 ? node + 1 : right, list);
+    if (gap * gap < list.worst2) this.searchMany(gap <= 0 ? right : node + 1, list);
   }
 }
 

@@ -25,18 +25,20 @@ export class LineBuilder {
   private tags = new Uint32Array(256);
   private points = 0;
   private lines = 0;
+  /** First point of the line that is being built. */
+  private first = 0;
   private skipped = false;
   private skippedX = 0;
   private skippedY = 0;
 
   /** Points of the line that is being built. */
   get openPoints(): number {
-    return this.points - this.offsets[this.lines];
+    return this.points - this.first;
   }
 
   point(x: number, y: number): void {
     const at = 2 * this.points;
-    if (this.openPoints > 0) {
+    if (this.points > this.first) {
       const dx = x - this.xy[at - 2];
       const dy = y - this.xy[at - 1];
       if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) {
@@ -55,9 +57,9 @@ export class LineBuilder {
 
   /** Ends the line; one without points leaves no trace. */
   end(tag: number): void {
-    if (this.openPoints === 0) return;
+    if (this.points === this.first) return;
     // A line keeps its very last point, so that one closed in the input stays closed to the bit.
-    if (this.skipped && this.openPoints > 1) {
+    if (this.skipped && this.points > this.first + 1) {
       this.xy[2 * this.points - 2] = this.skippedX;
       this.xy[2 * this.points - 1] = this.skippedY;
     }
@@ -67,22 +69,46 @@ export class LineBuilder {
       this.tags = grownIndices(this.tags);
     }
     this.tags[this.lines] = tag;
-    this.offsets[++this.lines] = this.points;
+    this.offsets[++this.lines] = this.first = this.points;
   }
 
   /** Forgets the line that is being built. */
   drop(): void {
     this.skipped = false;
-    this.points = this.offsets[this.lines];
+    this.points = this.first;
   }
 
   /** Adds line `i` of `lines`, backwards if asked. */
   copy(lines: Lines, i: number, tag: number, reversed = false): void {
     const first = lines.offsets[i];
     const last = lines.offsets[i + 1] - 1;
+    if (this.copyWhole(lines.xy, first, last, reversed)) return this.end(tag);
     if (reversed) for (let p = last; p >= first; p--) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
     else for (let p = first; p <= last; p++) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
     this.end(tag);
+  }
+
+  /** As a line of its own and without a call for each point. False, and nothing done, where a point would be left out. */
+  private copyWhole(xy: Float64Array, first: number, last: number, reversed: boolean): boolean {
+    if (this.points > this.first) return false;
+    let at = 2 * this.points;
+    while (at + 2 * (last - first + 1) > this.xy.length) this.xy = grownFloats(this.xy);
+    const out = this.xy;
+    const step = reversed ? -2 : 2;
+    let from = 2 * (reversed ? last : first);
+    let x = (out[at] = xy[from]);
+    let y = (out[at + 1] = xy[from + 1]);
+    for (let left = last - first; left > 0; left--) {
+      from += step;
+      at += 2;
+      const dx = xy[from] - x;
+      const dy = xy[from + 1] - y;
+      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return false;
+      x = out[at] = xy[from];
+      y = out[at + 1] = xy[from + 1];
+    }
+    this.points += last - first + 1;
+    return true;
   }
 
   finish(): Lines {

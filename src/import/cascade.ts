@@ -84,6 +84,8 @@ export class Cascade {
   private readonly byType = new Map<string, FiledRule[]>();
   private readonly forAll: FiledRule[] = [];
   private readonly hasRules: boolean;
+  /** Whether elements of one type whose attributes are the same, ids apart, have the same style from the same parent. */
+  readonly goesByAttributes: boolean;
   /** By name number of the tree: whether the attribute is a presentation attribute. */
   private readonly isPresentation: Uint8Array;
   private readonly refs = new Map<number, ElementRef>();
@@ -96,13 +98,18 @@ export class Cascade {
     const faults: string[] = [];
     let importCount = 0;
     let order = 0;
+    let goesByAttributes = true;
     for (const text of styleTexts(tree)) {
       const sheet = parseStyleSheet(text);
       importCount += sheet.importCount;
       faults.push(...sheet.faults);
-      for (const rule of sheet.rules) this.file(rule, order++, faults);
+      for (const rule of sheet.rules) {
+        this.file(rule, order++, faults);
+        goesByAttributes &&= rule.isKeyAlone && rule.key.kind !== "id";
+      }
     }
     this.hasRules = order > 0;
+    this.goesByAttributes = goesByAttributes;
     this.importCount = importCount;
     this.faults = faults;
   }

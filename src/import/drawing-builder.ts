@@ -14,6 +14,7 @@ import { clipIndexFor, type ClipNode } from "./clip-node.js";
 import { CoordColumn } from "./coord-column.js";
 import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
+import { ShapeColumns } from "./shape-columns.js";
 import type { Warnings } from "./warnings.js";
 
 /** A kilometre: far beyond any plotter, near enough that µm survive in single arithmetic steps. */
@@ -37,23 +38,17 @@ export class DrawingBuilder {
   private readonly dashIndex = new Map<string, number>();
   private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
   private readonly coords = new CoordColumn();
-  private readonly verbOffsets = new ColumnBuffer(Uint32Array, 256);
-  private readonly coordOffsets = new ColumnBuffer(Uint32Array, 256);
-  private readonly group = new ColumnBuffer(Uint32Array, 256);
-  private readonly stroke = new ColumnBuffer(Int32Array, 256);
-  private readonly fill = new ColumnBuffer(Int32Array, 256);
-  private readonly fillRule = new ColumnBuffer(Uint8Array, 256);
-  private readonly strokeWidth = new ColumnBuffer(Float32Array, 256);
-  private readonly dash = new ColumnBuffer(Int32Array, 256);
-  private readonly clip = new ColumnBuffer(Int32Array, 256);
+  private readonly shapes = new ShapeColumns();
+  /** The look of the shape before, and its numbers. */
+  private look: Look | null = null;
+  private lookStroke = -1;
+  private lookFill = -1;
+  private lookDash = -1;
 
-  constructor(private readonly warnings: Warnings) {
-    this.verbOffsets.push(0);
-    this.coordOffsets.push(0);
-  }
+  constructor(private readonly warnings: Warnings) {}
 
   get shapeCount(): number {
-    return this.group.length;
+    return this.shapes.count;
   }
 
   /** Numbers held so far: what memory and time go by. */
@@ -76,8 +71,7 @@ export class DrawingBuilder {
   }
 
   /**
-   * Adds `shape`, mapped to page mm. Returns its box, or null where it is out of range and left out:
-   * `where` names it in the warning.
+   * Adds `shape`, mapped to page mm. False where it is out of range and left out: `where` names it in the warning.
    */
   addShape(
     shape: ShapeBuffer,
@@ -86,44 +80,50 @@ export class DrawingBuilder {
     group: number,
     clip: ClipNode | null,
     where: () => string,
-  ): Box | null {
-    const { coords } = this;
+  ): boolean {
+    const { coords, verbs, shapes } = this;
     coords.reserve(shape.coords.length);
     if (!writeMapped(shape.coords, map, coords.data, coords.length)) {
       this.warnings.add("coordinates-out-of-range", undefined, where());
-      return null;
+      return false;
     }
-    const box = coords.boxOf(coords.length, coords.length + shape.coords.length);
     coords.length += shape.coords.length;
-    const { verbs } = this;
     const count = shape.verbs.length;
     verbs.reserve(count);
     for (let i = 0; i < count; i++) verbs.data[verbs.length + i] = shape.verbs.data[i];
     verbs.length += count;
-    this.verbOffsets.push(verbs.length);
-    this.coordOffsets.push(coords.length);
-    this.group.push(group);
-    this.stroke.push(this.colorOf(look.stroke));
-    this.fill.push(this.colorOf(look.fill));
-    this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
-    this.strokeWidth.push(look.strokeWidth);
-    this.dash.push(look.dash === null ? -1 : this.dashOf(look.dash));
-    this.clip.push(clip === null ? -1 : clipIndexFor(clip, box, this.clips));
-    return box;
+    if (look !== this.look) this.takeLook(look);
+    shapes.reserve();
+    const i = shapes.count++;
+    shapes.verbOffsets[i + 1] = verbs.length;
+    shapes.coordOffsets[i + 1] = coords.length;
+    shapes.group[i] = group;
+    shapes.stroke[i] = this.lookStroke;
+    shapes.fill[i] = this.lookFill;
+    shapes.fillRule[i] = look.evenOdd ? RULE_EVENODD : RULE_NONZERO;
+    shapes.strokeWidth[i] = look.strokeWidth;
+    shapes.dash[i] = this.lookDash;
+    shapes.clip[i] = clip === null ? -1 : clipIndexFor(clip, this.boxOfShapes(i, i + 1), this.clips);
+    return true;
   }
 
   /** The box of shapes [from, to). */
   boxOfShapes(from: number, to: number): Box {
-    return this.coords.boxOf(this.coordOffsets.data[from], this.coordOffsets.data[to]);
+    const { coordOffsets } = this.shapes;
+    return this.coords.boxOf(coordOffsets[from], coordOffsets[to]);
+  }
+
+  boxOfLast(): Box {
+    return this.boxOfShapes(this.shapeCount - 1, this.shapeCount);
   }
 
   /** The box of all curves themselves, where `boxOfShapes` has that of their control points. */
   extent(): Box {
     let box = EMPTY_BOX;
-    const verbs = this.verbOffsets.data;
+    const { verbOffsets, coordOffsets } = this.shapes;
     for (let i = 0; i < this.shapeCount; i++) {
-      const at = this.coordOffsets.data[i];
-      box = uniteBoxes(box, curveBoxOf(this.verbs.data, verbs[i], verbs[i + 1], this.coords.data, at));
+      const [from, to] = [verbOffsets[i], verbOffsets[i + 1]];
+      box = uniteBoxes(box, curveBoxOf(this.verbs.data, from, to, this.coords.data, coordOffsets[i]));
     }
     return box;
   }
@@ -140,7 +140,8 @@ export class DrawingBuilder {
   }
 
   finish(widthMm: number, heightMm: number): Drawing {
-    if (this.shapeCount === 0) this.warnings.add("empty-drawing");
+    const { shapes, shapeCount: count } = this;
+    if (count === 0) this.warnings.add("empty-drawing");
     return {
       widthMm,
       heightMm,
@@ -149,21 +150,28 @@ export class DrawingBuilder {
       dashes: this.dashes,
       clips: this.clips,
       paths: {
-        count: this.shapeCount,
+        count,
         verbs: this.verbs.view(),
         coords: this.coords.data.subarray(0, this.coords.length),
-        verbOffsets: this.verbOffsets.view(),
-        coordOffsets: this.coordOffsets.view(),
-        group: this.group.view(),
-        stroke: this.stroke.view(),
-        fill: this.fill.view(),
-        fillRule: this.fillRule.view(),
-        strokeWidth: this.strokeWidth.view(),
-        dash: this.dash.view(),
-        clip: this.clip.view(),
+        verbOffsets: shapes.verbOffsets.subarray(0, count + 1),
+        coordOffsets: shapes.coordOffsets.subarray(0, count + 1),
+        group: shapes.group.subarray(0, count),
+        stroke: shapes.stroke.subarray(0, count),
+        fill: shapes.fill.subarray(0, count),
+        fillRule: shapes.fillRule.subarray(0, count),
+        strokeWidth: shapes.strokeWidth.subarray(0, count),
+        dash: shapes.dash.subarray(0, count),
+        clip: shapes.clip.subarray(0, count),
       },
       warnings: this.warnings.toArray(),
     };
+  }
+
+  private takeLook(look: Look): void {
+    this.look = look;
+    this.lookStroke = this.colorOf(look.stroke);
+    this.lookFill = this.colorOf(look.fill);
+    this.lookDash = look.dash === null ? -1 : this.dashOf(look.dash);
   }
 
   private colorOf(color: string | null): number {

@@ -201,8 +201,8 @@ class DxfImport {
       dash: null,
     };
     const where = (): string => `${entity.type} on layer ${layerName}`;
-    const box = this.builder.addShape(shape, map, look, group, null, where);
-    paint.report?.(box ?? undefined);
+    const isDrawn = this.builder.addShape(shape, map, look, group, null, where);
+    paint.report?.(isDrawn ? this.builder.boxOfLast() : undefined);
   }
 
   /** Into `shape`; null for what is not drawn. */

@@ -298,7 +298,8 @@ class HpglImport {
         dash: null,
       };
       const where = (): string => `pen ${this.pen}`;
-      box = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
+      const isDrawn = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
+      if (isDrawn) box = this.builder.boxOfLast();
     }
     shape.clear();
     return box;

@@ -83,6 +83,17 @@ export class NumberReader {
     return true;
   }
 
+  /** As `skipSeparator` and then `read`, without the calls for the separators that nearly all files have. */
+  readNext(): boolean {
+    const c = this.text.charCodeAt(this.at);
+    if (c <= 44) {
+      // What is above the comma begins a number, if it belongs to one, and is no separator.
+      if ((c === 32 || c === 44) && this.text.charCodeAt(this.at + 1) > 44) this.at++;
+      else this.skipSeparator();
+    }
+    return this.read();
+  }
+
   /** An arc flag: one character, so that "a1 1 0 01.5.5" reads as 0, 1, .5, .5. */
   readFlag(): boolean {
     const c = this.text.charCodeAt(this.at);
@@ -167,10 +178,9 @@ class PathDataReader {
     reader.skipBlanks();
     for (;;) {
       for (let i = 0; i < count; i++) {
-        const ok = kind === 97 && (i === 3 || i === 4) ? reader.readFlag() : reader.read();
-        if (!ok) return reader.at < text.length ? reader.at : Math.max(0, text.length - 1);
+        if (!this.readArgument(kind, i))
+          return reader.at < text.length ? reader.at : Math.max(0, text.length - 1);
         args[i] = reader.value;
-        if (i + 1 < count) reader.skipSeparator();
       }
       this.draw(kind, relative);
       this.previous = kind;
@@ -185,6 +195,14 @@ class PathDataReader {
       const startsNumber = (c >= 48 && c <= 57) || c === 45 || c === 46 || c === 43;
       if (!startsNumber) return -1;
     }
+  }
+
+  private readArgument(kind: number, i: number): boolean {
+    const { reader } = this;
+    if (i === 0) return reader.read();
+    if (kind !== 97 || (i !== 3 && i !== 4)) return reader.readNext();
+    reader.skipSeparator();
+    return reader.readFlag();
   }
 
   private draw(kind: number, relative: boolean): void {

@@ -46,16 +46,15 @@ export interface LayerPlan {
 export function planLayers(tree: SvgTree): LayerPlan {
   let parent = 0;
   for (let depth = 0; depth < MAX_WRAPPERS; depth++) {
-    const content = contentOf(tree, parent);
-    if (content.length !== 1 || !WRAPPERS.has(tagOf(tree, content[0]))) break;
-    const inner = contentOf(tree, content[0]).filter((element) => tagOf(tree, element) === "g");
-    const isLayer = isMarkedLayer(tree, content[0]);
-    if (isLayer ? !inner.some((element) => isMarkedLayer(tree, element)) : !leadsToGroups(tree, content[0])) {
-      break;
-    }
-    parent = content[0];
+    const wrapper = wrapperIn(tree, parent);
+    if (wrapper < 0) break;
+    const isWrapped = isMarkedLayer(tree, wrapper)
+      ? groupsIn(tree, wrapper).some((element) => isMarkedLayer(tree, element))
+      : leadsToGroups(tree, wrapper);
+    if (!isWrapped) break;
+    parent = wrapper;
   }
-  const groups = contentOf(tree, parent).filter((element) => tagOf(tree, element) === "g");
+  const groups = groupsIn(tree, parent);
   const marked = groups.filter((element) => isMarkedLayer(tree, element));
   const layers = marked.length > 0 ? marked : groups;
   return {
@@ -69,22 +68,31 @@ export function planLayers(tree: SvgTree): LayerPlan {
 /** Whether a wrapper holds groups, perhaps inside one more single wrapper. */
 function leadsToGroups(tree: SvgTree, element: number): boolean {
   for (let at = element; ;) {
-    const content = contentOf(tree, at);
-    if (content.length === 1 && WRAPPERS.has(tagOf(tree, content[0])) && tagOf(tree, at) !== "g") {
-      if (tagOf(tree, content[0]) === "g") return true;
-      at = content[0];
-      continue;
-    }
-    return content.some((child) => tagOf(tree, child) === "g");
+    const wrapper = tagOf(tree, at) === "g" ? -1 : wrapperIn(tree, at);
+    if (wrapper < 0) return groupsIn(tree, at).length > 0;
+    if (tagOf(tree, wrapper) === "g") return true;
+    at = wrapper;
   }
 }
 
-function contentOf(tree: SvgTree, parent: number): number[] {
-  const content: number[] = [];
+/** The one child with content, if there is no other and it may be a wrapper; else −1. */
+function wrapperIn(tree: SvgTree, parent: number): number {
+  let only = -1;
   for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-    if (!NOT_CONTENT.has(tagOf(tree, child))) content.push(child);
+    if (NOT_CONTENT.has(tagOf(tree, child))) continue;
+    if (only >= 0) return -1;
+    only = child;
   }
-  return content;
+  return only >= 0 && WRAPPERS.has(tagOf(tree, only)) ? only : -1;
+}
+
+function groupsIn(tree: SvgTree, parent: number): number[] {
+  const groups: number[] = [];
+  const group = tree.names.indexOf("g");
+  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
+    if (tree.tags[child] === group) groups.push(child);
+  }
+  return groups;
 }
 
 export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>

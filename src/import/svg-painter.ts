@@ -39,19 +39,28 @@ export class SvgPainter {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
   }
 
-  drawShape(element: number, tag: string, declared: Declared, context: Context): void {
+  /** Answers how it is painted, null where it is not. With `known` that is not asked again. */
+  drawShape(
+    element: number,
+    tag: string,
+    declared: Declared,
+    context: Context,
+    known: Look | null,
+  ): Look | null {
     const { style } = context;
-    if (!style.isVisible) return;
+    if (!style.isVisible) return null;
     this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
       if (shape.lonePoints > 0)
         this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
-      return;
+      return null;
     }
-    const look = this.lookOf(element, tag, declared, context);
-    if (look === null) return;
-    this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
+    const look = known ?? this.lookOf(element, tag, declared, context);
+    if (look !== null) {
+      this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
+    }
+    return look;
   }
 
   /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */

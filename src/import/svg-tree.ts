@@ -10,7 +10,9 @@
  */
 import { SaxesParser } from "saxes";
 import { PlotwrightError } from "../errors.js";
-import { ColumnBuffer } from "../geometry/growable.js";
+import { notAnSvg, rejectOtherFormats } from "./not-an-svg.js";
+import { PlainLeaves, type LeafForm } from "./plain-leaves.js";
+import { AttributeColumns, ElementColumns } from "./tree-columns.js";
 
 export const TEXT_NODE = "#text";
 /** Attributes written `xlink:href` or `href` are both kept under this name. */
@@ -20,7 +22,10 @@ const KEPT_PREFIXES = new Set(["inkscape", "xml"]);
 
 const SVG_NAMESPACE = "http://www.w3.org/2000/svg";
 /** Characters between two yields: under 10 ms of parsing. */
-const SLICE_CHARS = 1 << 18;
+const SLICE_BITS = 18;
+const SLICE_CHARS = 1 << SLICE_BITS;
+/** Tags that the parser is given one by one, looking for plain leaves after each. */
+const PATIENCE = 8;
 const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 
@@ -60,9 +65,12 @@ interface AttributeValues {
 export function attributeValue({ values }: SvgTree, index: number): string {
   const { text, own } = values;
   const place = values.places[index];
-  if (place >= OWN_STRING) return own[place - OWN_STRING];
-  return text.slice(place, text.indexOf(text[place - 1], place));
+  return place >= OWN_STRING ? own[place - OWN_STRING] : attributeAt(text, place);
 }
+
+/** What stands from `place` on, up to a quote like the one before it. */
+const attributeAt = (text: string, place: number): string =>
+  text.slice(place, text.indexOf(text[place - 1], place));
 
 /** The value of an attribute, or undefined. Linear in the element's own attributes. */
 export function attribute(tree: SvgTree, element: number, name: string): string | undefined {
@@ -80,8 +88,8 @@ export function* parseSvgTree(text: string): Generator<void, SvgTree> {
   const start = skipBlank(text);
   rejectOtherFormats(text, start);
   const builder = new TreeBuilder(text, start);
-  for (let at = start; at < text.length; at += SLICE_CHARS) {
-    builder.write(text.slice(at, at + SLICE_CHARS));
+  for (let at = start; at < text.length;) {
+    at = builder.readFrom(at);
     yield;
   }
   return builder.finish();
@@ -99,44 +107,12 @@ function countLines(text: string, end: number): number {
   return lines;
 }
 
-const notAnSvg = (what: string): PlotwrightError =>
-  new PlotwrightError(
-    "bad-file",
-    `This is not an SVG file: ${what}. Export the drawing as SVG and try again.`,
-  );
-
-const OTHER_FORMATS: readonly (readonly [string, string])[] = [
-  ["%PDF", "it is a PDF"],
-  ["%!PS", "it is PostScript"],
-  ["\u0089PNG", "it is a PNG picture"],
-  ["\ufffdPNG", "it is a PNG picture"],
-  ["GIF8", "it is a GIF picture"],
-  ["\u00ff\u00d8", "it is a JPEG picture"],
-  ["\ufffd\ufffd\ufffd", "it is binary"],
-  ["\u001f\u008b", "it is compressed (svgz); unpack it first"],
-  ["\u001f\ufffd", "it is compressed (svgz); unpack it first"],
-  ["PK\u0003\u0004", "it is a zip archive"],
-];
-
-function rejectOtherFormats(text: string, start: number): void {
-  if (start === text.length) throw notAnSvg("it is empty");
-  for (const [magic, what] of OTHER_FORMATS) {
-    if (text.startsWith(magic, start) || text.startsWith(magic)) throw notAnSvg(what);
-  }
-  if (text.charCodeAt(start) !== 60) throw notAnSvg("it does not begin with <");
-}
-
 class TreeBuilder {
   private readonly parser = new SaxesParser({ xmlns: false, position: true });
   private readonly nameIds = new Map<string, number>();
   private readonly names: string[] = [];
-  private readonly tags = new ColumnBuffer(Uint32Array);
-  private readonly parents = new ColumnBuffer(Int32Array);
-  private readonly firstChildren = new ColumnBuffer(Int32Array);
-  private readonly nextSiblings = new ColumnBuffer(Int32Array);
-  private readonly attributeOffsets = new ColumnBuffer(Uint32Array);
-  private readonly attributeNames = new ColumnBuffer(Uint32Array);
-  private readonly valuePlaces = new ColumnBuffer(Uint32Array);
+  private readonly elements = new ElementColumns();
+  private readonly attributes = new AttributeColumns();
   private readonly ownStrings: string[] = [];
   /** The attributes of the tag that is being read: its names, values, and where in the text these end. */
   private tagCount = 0;
@@ -145,7 +121,6 @@ class TreeBuilder {
   private readonly tagValueEnds: number[] = [];
   /** By name as written: the number of the name it is kept under, −1 for none. */
   private readonly keptNames = new Map<string, number>();
-  private readonly lines = new ColumnBuffer(Uint32Array);
   private readonly elementById = new Map<string, number>();
   private readonly repairs: string[] = [];
   private readonly lineOffset: number;
@@ -160,12 +135,26 @@ class TreeBuilder {
   private keepsText = false;
   private svgPrefix = "";
   private startLine = 0;
+  private readonly leaves: PlainLeaves;
+  /** How often no plain leaf stood where one was looked for, since the last one. */
+  private misses = 0;
+  /** Characters given to the parser, and how many of these it had read at the end of the last tag. */
+  private parsed = 0;
+  private parsedAtTag = -1;
+  /** Characters that stood before and between these, and were not given to it. */
+  private passed: number;
+  /** The form of the last leaf, and the numbers of its names: −1 for what is not kept. */
+  private leafForm: LeafForm | null = null;
+  private leafTag = -1;
+  private leafNames: readonly number[] = [];
 
   constructor(
     private readonly text: string,
-    private readonly start: number,
+    start: number,
   ) {
     this.lineOffset = countLines(text, start);
+    this.passed = start;
+    this.leaves = new PlainLeaves(text);
     const parser = this.parser;
     // Seven events at most: with an eighth the parser's properties are too many for V8 to keep them fast.
     parser.on("error", (error) => this.onError(error));
@@ -179,35 +168,85 @@ class TreeBuilder {
       this.tagValues[i] = value;
       this.tagValueEnds[i] = parser.position;
     });
-    parser.on("opentag", (tag) => this.onOpen(tag.name));
-    parser.on("closetag", () => this.onClose());
+    parser.on("opentag", (tag) => {
+      this.parsedAtTag = parser.position;
+      this.onOpen(tag.name);
+    });
+    parser.on("closetag", () => {
+      this.parsedAtTag = parser.position;
+      this.onClose();
+    });
     parser.on("text", (text) => this.onText(text));
     parser.on("cdata", (text) => this.onText(text));
   }
 
-  write(slice: string): void {
-    this.parser.write(slice);
+  /** Reads some 10 ms' worth from `at` on; answers where it stopped. */
+  readFrom(at: number): number {
+    const limit = Math.min(at + SLICE_CHARS, this.text.length);
+    while (at < limit) {
+      if (this.isBetweenTags()) at = this.readLeaves(at, limit);
+      if (at < limit) at = this.readByParser(at);
+    }
+    return at;
+  }
+
+  /** Inside an element whose text means nothing, and right after a tag. */
+  private isBetweenTags(): boolean {
+    return this.parsedAtTag === this.parsed && this.depth > 0 && this.skipDepth === 0 && !this.keepsText;
+  }
+
+  /** As many plain leaves as stand at `at`, without the parser: it goes on after them as if it had read them. */
+  private readLeaves(at: number, limit: number): number {
+    const { parser, leaves, text } = this;
+    let end = leaves.skipBlanks(at);
+    let line = parser.line + leaves.lines;
+    let count = 0;
+    while (end < limit) {
+      const next = leaves.read(end);
+      if (next < 0) break;
+      this.addLeaf(line);
+      line += leaves.lines;
+      end = next;
+      count++;
+    }
+    if (count === 0) {
+      this.misses++;
+      return at;
+    }
+    this.misses = 0;
+    this.passed += end - at;
+    parser.column = line > parser.line ? end - 1 - text.lastIndexOf("\n", end - 1) : parser.column + end - at;
+    parser.line = line;
+    return end;
+  }
+
+  /** Tag by tag where leaves may follow; more at a time where there have been none for long. */
+  private readByParser(at: number): number {
+    const least = this.misses < PATIENCE ? 1 : 1 << Math.min(this.misses, SLICE_BITS);
+    const slice = this.text.slice(at, at + SLICE_CHARS);
+    const close = slice.indexOf(">", least - 1);
+    const part = close < 0 ? slice : slice.slice(0, close + 1);
+    this.parser.write(part);
+    this.parsed += part.length;
+    return at + part.length;
   }
 
   finish(): SvgTree {
     this.parser.close();
-    if (this.tags.length === 0) throw notAnSvg("it has no <svg> element");
-    this.attributeOffsets.push(this.attributeNames.length);
+    const { elements, attributes } = this;
+    if (elements.count === 0) throw notAnSvg("it has no <svg> element");
+    elements.attributeOffsets[elements.count] = attributes.count;
     return {
-      count: this.tags.length,
+      count: elements.count,
       names: this.names,
-      tags: this.tags.data,
-      parents: this.parents.data,
-      firstChildren: this.firstChildren.data,
-      nextSiblings: this.nextSiblings.data,
-      attributeOffsets: this.attributeOffsets.data,
-      attributeNames: this.attributeNames.data,
-      values: {
-        text: this.text,
-        places: this.valuePlaces.data,
-        own: this.ownStrings,
-      },
-      lines: this.lines.data,
+      tags: elements.tags,
+      parents: elements.parents,
+      firstChildren: elements.firstChildren,
+      nextSiblings: elements.nextSiblings,
+      attributeOffsets: elements.attributeOffsets,
+      attributeNames: attributes.names,
+      values: { text: this.text, places: attributes.places, own: this.ownStrings },
+      lines: elements.lines,
       elementById: this.elementById,
       repairs: this.repairs,
       foreignObjects: this.foreignObjects,
@@ -224,7 +263,7 @@ class TreeBuilder {
       if (this.repairs.length < 1000) this.repairs.push(`${what} at ${where}`);
       return;
     }
-    if (this.tags.length === 0) throw notAnSvg(`${what} at ${where}`);
+    if (this.elements.count === 0) throw notAnSvg(`${what} at ${where}`);
     const truncated = what.startsWith("unclosed tag") || what.startsWith("unexpected end");
     const advice = truncated
       ? "The file is cut off: save or download it again."
@@ -237,30 +276,58 @@ class TreeBuilder {
   private onOpen(name: string): void {
     this.depth++;
     if (this.skipDepth > 0) return;
-    const isRoot = this.tags.length === 0;
-    if (isRoot) this.acceptRoot(name);
+    if (this.elements.count === 0) this.acceptRoot(name);
     const local = this.localTag(name);
     if (local === null || SKIPPED.has(local)) {
       if (local === "foreignObject") this.foreignObjects++;
       this.skipDepth = this.depth;
       return;
     }
-    const element = this.addElement(local);
+    const element = this.addElement(this.nameId(local));
     for (let i = 0; i < this.tagCount; i++) {
       const kept = this.keptName(this.tagNames[i]);
       if (kept < 0) continue;
       const value = this.tagValues[i];
-      this.attributeNames.push(kept);
-      this.addValue(value, this.start + this.tagValueEnds[i] - 1 - value.length);
-      if (this.names[kept] === "id" && !this.elementById.has(value)) this.elementById.set(value, element);
+      this.attributes.add(kept, this.placeOf(value, this.passed + this.tagValueEnds[i] - 1 - value.length));
+      if (this.names[kept] === "id") this.addId(value, element);
     }
     this.open = element;
     this.lastChildren.push(-1);
     this.keepsText = TEXT_PARENTS.has(local);
   }
 
+  /** The leaf that `leaves` has read, whose tag begins in `line`. */
+  private addLeaf(line: number): void {
+    const { attributes } = this;
+    const { places } = this.leaves;
+    const form = this.leaves.form as LeafForm;
+    if (form !== this.leafForm) this.setLeafForm(form);
+    if (this.leafTag < 0) {
+      if (form.tag === "foreignObject") this.foreignObjects++;
+      return;
+    }
+    this.startLine = line + form.linesAfterName;
+    const element = this.addElement(this.leafTag);
+    const names = this.leafNames;
+    for (let i = 0; i < names.length; i++) {
+      if (names[i] < 0) continue;
+      attributes.add(names[i], places[i]);
+      if (form.names[i] === "id") this.addId(attributeAt(this.text, places[i]), element);
+    }
+  }
+
+  private setLeafForm(form: LeafForm): void {
+    this.leafForm = form;
+    this.leafTag = SKIPPED.has(form.tag) ? -1 : this.nameId(form.tag);
+    this.leafNames = form.names.map((name) => (this.leafTag < 0 ? -1 : this.keptName(name)));
+  }
+
+  private addId(id: string, element: number): void {
+    if (!this.elementById.has(id)) this.elementById.set(id, element);
+  }
+
   private acceptRoot(name: string): void {
-    const prolog = this.text.slice(this.start, this.start + this.parser.position);
+    const prolog = this.text.slice(this.passed, this.passed + this.parser.position);
     this.hasStylesheetLink = prolog.includes("<?xml-stylesheet");
     const colon = name.indexOf(":");
     if (name.slice(colon + 1) !== "svg") {
@@ -282,21 +349,13 @@ class TreeBuilder {
     return name.slice(0, colon) === this.svgPrefix ? name.slice(colon + 1) : null;
   }
 
-  private addElement(tag: string): number {
-    const element = this.tags.length;
-    const parent = this.open;
-    this.tags.push(this.nameId(tag));
-    this.parents.push(parent);
-    this.firstChildren.push(-1);
-    this.nextSiblings.push(-1);
-    this.attributeOffsets.push(this.attributeNames.length);
-    this.lines.push(this.startLine + this.lineOffset);
-    if (parent >= 0) {
-      const last = this.lastChildren[this.lastChildren.length - 1];
-      if (last < 0) this.firstChildren.data[parent] = element;
-      else this.nextSiblings.data[last] = element;
-      this.lastChildren[this.lastChildren.length - 1] = element;
-    }
+  private addElement(tag: number): number {
+    const { lastChildren } = this;
+    const last = lastChildren.length - 1;
+    const before = last < 0 ? -1 : lastChildren[last];
+    const line = this.startLine + this.lineOffset;
+    const element = this.elements.add(tag, this.open, before, this.attributes.count, line);
+    if (last >= 0) lastChildren[last] = element;
     return element;
   }
 
@@ -306,23 +365,24 @@ class TreeBuilder {
       if (this.depth < this.skipDepth) this.skipDepth = 0;
       return;
     }
-    this.open = this.parents.data[this.open];
+    const { elements } = this;
+    this.open = elements.parents[this.open];
     this.lastChildren.pop();
-    this.keepsText = this.open >= 0 && TEXT_PARENTS.has(this.names[this.tags.data[this.open]]);
+    this.keepsText = this.open >= 0 && TEXT_PARENTS.has(this.names[elements.tags[this.open]]);
   }
 
   private onText(text: string): void {
     if (!this.keepsText || this.skipDepth > 0 || text === "") return;
-    this.addElement(TEXT_NODE);
-    this.attributeNames.push(this.nameId(TEXT_NODE));
-    this.addValue(text, -1);
+    const id = this.nameId(TEXT_NODE);
+    this.addElement(id);
+    this.attributes.add(id, this.placeOf(text, -1));
   }
 
-  /** By its place in the text if it reads the same there, else as a string. `at` −1: place unknown. */
-  private addValue(value: string, at: number): void {
-    const isThere = at > 0 && this.isQuoted(value, at);
-    this.valuePlaces.push(isThere ? at : OWN_STRING + this.ownStrings.length);
-    if (!isThere) this.ownStrings.push(value);
+  /** `at`, if it reads the same there, else the place of a string of its own. `at` −1: place unknown. */
+  private placeOf(value: string, at: number): number {
+    if (at > 0 && this.isQuoted(value, at)) return at;
+    this.ownStrings.push(value);
+    return OWN_STRING + this.ownStrings.length - 1;
   }
 
   private isQuoted(value: string, at: number): boolean {

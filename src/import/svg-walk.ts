@@ -7,6 +7,7 @@
  */
 import { PlotwrightError } from "../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../geometry/affine.js";
+import { AlikeShapes } from "./alike-shapes.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -68,6 +69,7 @@ export class SvgWalk {
   /** The group of what is drawn outside of every layer; −1 until needed. */
   private looseGroup = -1;
   private readonly markers: SvgMarkers;
+  private readonly alike: AlikeShapes;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -82,6 +84,7 @@ export class SvgWalk {
     private readonly conditions: SvgConditions,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
+    this.alike = new AlikeShapes(tree, cascade);
   }
 
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
@@ -121,6 +124,13 @@ export class SvgWalk {
   }
 
   private visit(element: number, outer: Context): void {
+    const model = this.alike.modelOf(element, outer);
+    if (model !== null) {
+      // `declared` still is the model's.
+      this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
+      return;
+    }
+    this.alike.model = null;
     const tag = tagOf(this.tree, element);
     if (tag === TEXT_NODE) return;
     const isContainer = CONTAINERS.has(tag);
@@ -148,7 +158,7 @@ export class SvgWalk {
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
-    if (!isContainer) this.visitLeaf(element, tag, context, warning);
+    if (!isContainer) this.visitLeaf(element, tag, context, warning, outer);
     else this.enter(element, tag, context, warning);
   }
 
@@ -163,13 +173,22 @@ export class SvgWalk {
     return last.inner;
   }
 
-  private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+  private visitLeaf(
+    element: number,
+    tag: string,
+    context: Context,
+    warning: WarningCode | null,
+    outer: Context,
+  ): void {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") this.painter.drawText(element, context);
     else {
-      this.painter.drawShape(element, tag, this.declared, context);
+      const look = this.painter.drawShape(element, tag, this.declared, context, null);
       if (isMarked(tag, context)) this.pushMarkers(context);
+      else if (look !== null && warning === null) {
+        this.alike.offer({ element, outer, tag, context, look }, this.declared);
+      }
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
     if (warning !== null && this.builder.shapeCount > before) {

@@ -17,7 +17,8 @@ export interface PreparedLayer extends StrokeLayer {
 
 /** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
-  const layer = lines.tag.map((shape) => table.ofShape[shape]);
+  const layer = new Uint32Array(lines.tag.length);
+  for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
   const tagged = { ...lines, tag: layer };
   if (isSorted(layer)) return tagged;
   const next = new Uint32Array(table.layers.length + 1);
@@ -112,10 +113,12 @@ function unshifted(
   if (reinkMm > 0) return inkedStrokeSet(lines, layers, isVisible, reinkMm);
   let next = 0;
   const renumbered = layers.map((_, k) => (isVisible[k] ? next++ : 0));
+  const layer = new Uint16Array(lineCount(lines));
+  for (let i = 0; i < layer.length; i++) layer[i] = renumbered[lines.tag[i]];
   return {
     xy: lines.xy,
     offsets: lines.offsets,
-    layer: Uint16Array.from(lines.tag, (layer) => renumbered[layer]),
+    layer,
     layers: layers.filter((_, k) => isVisible[k]).map(plainLayer),
   };
 }

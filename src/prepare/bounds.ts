@@ -5,9 +5,11 @@
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
-import type { Box } from "../geometry/box.js";
 
-/** Box of verbs [verbFrom, verbTo) with coordinates from `at`, under `map`. Moves that draw nothing do not count. */
+/**
+ * Box of verbs [verbFrom, verbTo) with coordinates from `at`, under `map`, into `out` from `outAt` on: x0, y0, x1, y1.
+ * Moves that draw nothing do not count.
+ */
 export function boundsOfVerbs(
   verbs: Uint8Array,
   verbFrom: number,
@@ -15,7 +17,9 @@ export function boundsOfVerbs(
   coords: Float64Array,
   at: number,
   map: Affine,
-): Box {
+  out: Float64Array,
+  outAt: number,
+): void {
   const { a, b, c, d, e, f } = map;
   let x0 = Infinity;
   let y0 = Infinity;
@@ -54,7 +58,10 @@ export function boundsOfVerbs(
       y1 = Math.max(y1, y);
     }
   }
-  return { x0, y0, x1, y1 };
+  out[outAt] = x0;
+  out[outAt + 1] = y0;
+  out[outAt + 2] = x1;
+  out[outAt + 3] = y1;
 }
 
 /** Beyond this the squares below might overflow; the controls then stand for the curve, as a bound. */

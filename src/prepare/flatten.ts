@@ -30,16 +30,13 @@ export function flattenShapes(
   const builder = new LineBuilder();
   let shape = 0;
   const tagOf = (): number => shape;
+  const range = { verbs: paths.verbs, verbFrom: 0, verbTo: 0, coords: paths.coords, coordFrom: 0 };
   for (; shape < paths.count; shape++) {
     if ((shape & 1023) === 0) stopIfCancelled(work);
     if (wanted[shape] === 0) continue;
-    const range = {
-      verbs: paths.verbs,
-      verbFrom: paths.verbOffsets[shape],
-      verbTo: paths.verbOffsets[shape + 1],
-      coords: paths.coords,
-      coordFrom: paths.coordOffsets[shape],
-    };
+    range.verbFrom = paths.verbOffsets[shape];
+    range.verbTo = paths.verbOffsets[shape + 1];
+    range.coordFrom = paths.coordOffsets[shape];
     flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, tagOf);
   }
   return builder.finish();

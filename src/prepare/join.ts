@@ -27,6 +27,8 @@ const MOST_CANDIDATES = 24;
 /** A chain shorter than this many radii is not closed on itself: its ends are near because it is short. */
 const SHORTEST_LOOP = 4;
 const UNPAIRED = -1;
+/** A count that goes no further. */
+const MANY = 255;
 
 /** Lines of one tag must stand together. `radius` in mm; 0 joins only what meets to the bit (or nearly). */
 export function joinLines(lines: Lines, radius: number): Lines {
@@ -40,70 +42,146 @@ export function joinLines(lines: Lines, radius: number): Lines {
 }
 
 function joinRange(lines: Lines, first: number, end: number, radius: number, builder: LineBuilder): void {
-  const pairing = new Pairing(lines, first, end, radius);
+  const places = placesOfEnds(lines, first, end);
+  const joinable = joinableEnds(lines, first, end);
+  const near = crowdedEnds(places, joinable, radius);
+  if (near.length === 0) {
+    for (let i = first; i < end; i++) builder.copy(lines, i, lines.tag[i]);
+    return;
+  }
+  const pairing = new Pairing(lines, first, places, near, joinable.length, radius);
   pairing.run(SAME_POINT, true);
   if (radius > SAME_POINT) pairing.run(radius, false);
   const done = new Uint8Array(end - first);
   for (let i = 0; i < done.length; i++) {
-    if (done[i] === 0) writeChain(lines, first, pairing.partner, i, done, builder);
+    if (done[i] === 1) continue;
+    const { partner } = pairing;
+    if (partner[2 * i] === UNPAIRED && partner[2 * i + 1] === UNPAIRED) {
+      builder.copy(lines, first + i, lines.tag[first + i]);
+    } else writeChain(lines, first, partner, i, done, builder);
   }
+}
+
+/** Where each end is: x, y, x, y … */
+function placesOfEnds({ xy, offsets }: Lines, first: number, end: number): Float64Array {
+  const places = new Float64Array(4 * (end - first));
+  let at = 0;
+  for (let i = first; i < end; i++) {
+    const p = 2 * offsets[i];
+    const q = 2 * offsets[i + 1] - 2;
+    places[at++] = xy[p];
+    places[at++] = xy[p + 1];
+    places[at++] = xy[q];
+    places[at++] = xy[q + 1];
+  }
+  return places;
+}
+
+/** The ends of the lines that are neither dots nor closed. */
+function joinableEnds(lines: Lines, first: number, end: number): Uint32Array {
+  const ends = new Uint32Array(2 * (end - first));
+  let count = 0;
+  for (let i = first; i < end; i++) {
+    if (lines.offsets[i + 1] - lines.offsets[i] < 2 || isClosedLine(lines, i)) continue;
+    ends[count++] = 2 * (i - first);
+    ends[count++] = 2 * (i - first) + 1;
+  }
+  return ends.subarray(0, count);
+}
+
+/**
+ * Those of `ends` that may have another within the radius. Cells are hashed into a table that is large enough for few
+ * of them to share a place; it counts the ends in each and adds up their numbers: of two ends, the one that is not
+ * asked about is what remains of the sum.
+ */
+function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint32Array {
+  const counts = new Uint8Array(2 ** Math.ceil(Math.log2(8 * ends.length + 1)));
+  const sums = new Uint32Array(counts.length);
+  const mask = counts.length - 1;
+  const perMm = 1 / (4 * radius);
+  for (let k = 0; k < ends.length; k++) {
+    const e = ends[k];
+    const hash = cellHash(Math.floor(xy[2 * e] * perMm), Math.floor(xy[2 * e + 1] * perMm)) & mask;
+    if (counts[hash] < MANY) counts[hash]++;
+    sums[hash] += e;
+  }
+  const crowded = new Uint32Array(ends.length);
+  let count = 0;
+  for (let k = 0; k < ends.length; k++) {
+    const e = ends[k];
+    const x = xy[2 * e];
+    const y = xy[2 * e + 1];
+    const own = cellHash(Math.floor(x * perMm), Math.floor(y * perMm)) & mask;
+    // A little more than the radius, for rounding.
+    const reach = 1.01 * radius + 1e-15 * (Math.abs(x) + Math.abs(y));
+    const row1 = Math.floor((y + reach) * perMm);
+    const column0 = Math.floor((x - reach) * perMm);
+    const column1 = Math.floor((x + reach) * perMm);
+    let isNear = false;
+    for (let row = Math.floor((y - reach) * perMm); row <= row1; row++) {
+      for (let column = column0; column <= column1; column++) {
+        const hash = cellHash(column, row) & mask;
+        const others = hash === own ? counts[hash] - 1 : counts[hash];
+        if (others === 0) continue;
+        const other = hash === own ? sums[hash] - e : sums[hash];
+        isNear ||= others > 1 || distance(x, y, xy[2 * other], xy[2 * other + 1]) <= reach;
+      }
+    }
+    if (isNear) crowded[count++] = e;
+  }
+  return crowded.subarray(0, count);
+}
+
+function cellHash(column: number, row: number): number {
+  const hash = Math.imul(column, 0x9e3779b1) ^ Math.imul(row, 0x85ebca77);
+  return hash ^ (hash >>> 15);
 }
 
 class Pairing {
   readonly partner: Int32Array;
   private readonly far: Int32Array;
   private readonly length: Float64Array;
-  /** Place of each end, and the unit vector in which its line leaves it. */
-  private readonly xy: Float64Array;
+  /** The unit vector in which the line of each end leaves it. */
   private readonly out: Float64Array;
-  private readonly joinable: Uint32Array;
   private readonly grid: EndGrid;
 
+  /** `near` are the ends that may be paired, of `joinable` in all; nothing is known of the others. */
   constructor(
     lines: Lines,
     first: number,
-    end: number,
+    /** Place of each end. */
+    private readonly xy: Float64Array,
+    private readonly near: Uint32Array,
+    joinable: number,
     private readonly radius: number,
   ) {
-    const ends = 2 * (end - first);
+    const ends = xy.length / 2;
     this.partner = new Int32Array(ends).fill(UNPAIRED);
     this.far = new Int32Array(ends);
     this.length = new Float64Array(ends);
-    this.xy = new Float64Array(2 * ends);
     this.out = new Float64Array(2 * ends);
-    const joinable = new Uint32Array(ends);
-    let count = 0;
-    for (let i = first; i < end; i++) {
-      const e = 2 * (i - first);
-      const p = lines.offsets[i];
-      const q = lines.offsets[i + 1] - 1;
-      this.far[e] = e + 1;
-      this.far[e + 1] = e;
-      this.length[e] = this.length[e + 1] = lineLength(lines, i);
-      this.setEnd(lines, e, p, Math.min(p + 1, q));
-      this.setEnd(lines, e + 1, q, Math.max(q - 1, p));
-      if (q === p || isClosedLine(lines, i)) continue;
-      joinable[count++] = e;
-      joinable[count++] = e + 1;
+    for (let k = 0; k < near.length; k++) {
+      const e = near[k];
+      const line = first + (e >> 1);
+      this.far[e] = e ^ 1;
+      this.length[e] = lineLength(lines, line);
+      if ((e & 1) === 0) this.setOut(lines, e, lines.offsets[line], 1);
+      else this.setOut(lines, e, lines.offsets[line + 1] - 1, -1);
     }
-    this.joinable = joinable.subarray(0, count);
-    this.grid = new EndGrid(this.xy, this.joinable, radius);
+    this.grid = new EndGrid(xy, near, joinable, radius);
   }
 
-  private setEnd(lines: Lines, e: number, at: number, next: number): void {
-    const { xy } = lines;
-    const dx = xy[2 * at] - xy[2 * next];
-    const dy = xy[2 * at + 1] - xy[2 * next + 1];
+  private setOut({ xy }: Lines, e: number, at: number, step: number): void {
+    const dx = xy[2 * at] - xy[2 * (at + step)];
+    const dy = xy[2 * at + 1] - xy[2 * (at + step) + 1];
     const length = Math.sqrt(dx * dx + dy * dy) || 1;
-    this.xy[2 * e] = xy[2 * at];
-    this.xy[2 * e + 1] = xy[2 * at + 1];
     this.out[2 * e] = dx / length;
     this.out[2 * e + 1] = dy / length;
   }
 
   /** Pairs each free end with the best free one within `reach`: the straightest, or the nearest. */
   run(reach: number, straightest: boolean): void {
-    for (const e of this.joinable) {
+    for (const e of this.near) {
       if (this.partner[e] !== UNPAIRED) continue;
       const other = this.best(e, reach, straightest);
       if (other >= 0) this.pair(e, other);
@@ -172,10 +250,12 @@ class EndGrid {
   constructor(
     xy: Float64Array,
     ends: Uint32Array,
+    /** How many ends the table is made for. */
+    size: number,
     private readonly cell: number,
   ) {
     this.next = new Int32Array(xy.length / 2).fill(-1);
-    this.heads = new Int32Array(2 ** Math.ceil(Math.log2(Math.max(ends.length, 1) + 1))).fill(-1);
+    this.heads = new Int32Array(2 ** Math.ceil(Math.log2(Math.max(size, 1) + 1))).fill(-1);
     for (const e of ends) {
       const bucket = this.bucketOf(this.cellOf(xy[2 * e]), this.cellOf(xy[2 * e + 1]));
       this.next[e] = this.heads[bucket];
@@ -198,8 +278,7 @@ class EndGrid {
   }
 
   private bucketOf(column: number, row: number): number {
-    const hash = Math.imul(column, 0x9e3779b1) ^ Math.imul(row, 0x85ebca77);
-    return (hash ^ (hash >>> 15)) & (this.heads.length - 1);
+    return cellHash(column, row) & (this.heads.length - 1);
   }
 }
 

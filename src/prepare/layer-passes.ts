@@ -1,6 +1,6 @@
 /** A layer drawn more than once: for more ink, with no more travel than it takes. */
 import { LineBuilder, distance, type Lines } from "../geometry/polyline.js";
-import { fileTour, tagRanges, travelOf } from "./tour.js";
+import { tagRanges } from "./tour.js";
 
 /**
  * Each tag's lines as often as `passesOf` tells. Every second pass goes back the way the pen came, last line
@@ -36,6 +36,3 @@ function copyPass(lines: Lines, first: number, end: number, back: boolean, build
     builder.copy(lines, i, lines.tag[i], back);
   }
 }
-
-/** Pen-up way of the lines as they stand, mm. */
-export const travelAsDrawn = (lines: Lines): number => travelOf(lines, fileTour(lines));

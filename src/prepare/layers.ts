@@ -17,14 +17,15 @@ export interface LayerTable {
 export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const { paths } = drawing;
   const keyCount = mode === "group" ? drawing.groups.length : mode === "stroke" ? drawing.colors.length : 1;
+  const inks = inksOf(drawing);
   const keyOf = (shape: number): number =>
-    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(drawing, shape), 0) : 0;
+    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inks[shape], 0) : 0;
 
   const used = new Uint8Array(keyCount);
   const colors = new Int32Array(keyCount).fill(UNSEEN);
   for (let shape = 0; shape < paths.count; shape++) {
     const key = keyOf(shape);
-    const ink = inkOf(drawing, shape);
+    const ink = inks[shape];
     colors[key] = colors[key] === UNSEEN || colors[key] === ink ? ink : MIXED;
     used[key] = 1;
   }
@@ -69,10 +70,11 @@ export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTabl
 const UNSEEN = -2;
 const MIXED = -1;
 
-/** The colour that a shape is drawn in: its stroke, else its fill (its outline is drawn then). */
-function inkOf(drawing: Drawing, shape: number): number {
-  const stroke = drawing.paths.stroke[shape];
-  return stroke >= 0 ? stroke : drawing.paths.fill[shape];
+/** The colour that each shape is drawn in: its stroke, else its fill (its outline is drawn then). */
+function inksOf({ paths: { stroke, fill, count } }: Drawing): Int32Array {
+  const inks = stroke.slice(0, count);
+  for (let shape = 0; shape < count; shape++) if (inks[shape] < 0) inks[shape] = fill[shape];
+  return inks;
 }
 
 function layerOf(drawing: Drawing, mode: LayerMode, key: number, ink: number): StrokeLayer {

@@ -19,13 +19,13 @@ export function nearestOrder(
   freeStart: boolean,
   tour: Tour,
   work: Work,
-): { x: number; y: number } {
-  let { x, y } = from;
+): { readonly x: number; readonly y: number } {
   const entries = entriesOf(lines, first, end, freeStart);
   const index = new PointIndex(entries.xy);
+  let exit = -1;
   for (let k = first; k < end; k++) {
     if ((k & 1023) === 0) stopIfCancelled(work);
-    const entry = index.nearest(x, y);
+    const entry = exit < 0 ? index.nearest(from.x, from.y) : index.nearestTo(exit);
     const line = entries.line[entry];
     const low = entries.firstOf[line - first];
     const high = entries.firstOf[line - first + 1];
@@ -34,11 +34,9 @@ export function nearestOrder(
     const closed = isClosedLine(lines, line);
     tour.start[line] = closed ? entry - low : 0;
     tour.reversed[line] = !closed && entry > low ? 1 : 0;
-    const exit = closed ? entry : low + high - 1 - entry;
-    x = entries.xy[2 * exit];
-    y = entries.xy[2 * exit + 1];
+    exit = closed ? entry : low + high - 1 - entry;
   }
-  return { x, y };
+  return exit < 0 ? from : { x: entries.xy[2 * exit], y: entries.xy[2 * exit + 1] };
 }
 
 interface Entries {

@@ -20,7 +20,15 @@ import {
   translation,
   type Affine,
 } from "../geometry/affine.js";
-import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
+import {
+  EMPTY_BOX,
+  boxContains,
+  boxOfPoints,
+  intersectBoxes,
+  isEmptyBox,
+  uniteBoxes,
+  type Box,
+} from "../geometry/box.js";
 import { boundsOfVerbs } from "./bounds.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "./settings.js";
 
@@ -31,8 +39,8 @@ export interface Placement {
   readonly inside: Box;
   /** What is drawn, on the paper, before the turn of a placed box; empty for an empty drawing. */
   readonly frame: Box;
-  /** Box of each shape on the paper, before any clipping; empty for a shape that draws nothing. */
-  readonly shapeBoxes: readonly Box[];
+  /** Box of each shape on the paper, before any clipping, x0, y0, x1, y1; empty for a shape that draws nothing. */
+  readonly shapeBoxes: Float64Array;
 }
 
 /** Width and height as the paper lies: the long side along x in landscape, along y otherwise. */
@@ -58,7 +66,8 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
   const place = { paper, inside, frame };
   const last = aboutMiddle(frame, settings.place?.turnDeg ?? 0);
   if (last === null) {
-    return { ...place, map: compose(after, turn), shapeBoxes: turned.map((box) => movedBox(box, after)) };
+    moveBoxes(turned, after);
+    return { ...place, map: compose(after, turn), shapeBoxes: turned };
   }
   const map = compose(last, compose(after, turn));
   return { ...place, map, shapeBoxes: shapeBoxes(drawing, map) };
@@ -100,33 +109,45 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
   );
 }
 
-function shapeBoxes(drawing: Drawing, map: Affine): Box[] {
+function shapeBoxes(drawing: Drawing, map: Affine): Float64Array {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
-  const boxes: Box[] = new Array<Box>(count);
+  const boxes = new Float64Array(4 * count);
   for (let i = 0; i < count; i++) {
-    boxes[i] = boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
+    boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map, boxes, 4 * i);
   }
   return boxes;
 }
 
+/** One of `shapeBoxes`. */
+export const boxAt = (boxes: Float64Array, i: number): Box => ({
+  x0: boxes[4 * i],
+  y0: boxes[4 * i + 1],
+  x1: boxes[4 * i + 2],
+  y1: boxes[4 * i + 3],
+});
+
 /** Box of all that the file draws, hidden layers included: layers plotted one by one must still meet. */
-function contentBox(drawing: Drawing, boxes: readonly Box[], map: Affine, onPage: boolean): Box {
+function contentBox(drawing: Drawing, boxes: Float64Array, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
   let content = EMPTY_BOX;
-  for (let i = 0; i < boxes.length; i++) {
-    let box = boxes[i];
+  for (let i = 0; i < drawing.paths.count; i++) {
+    let box = boxAt(boxes, i);
     for (let clip = drawing.paths.clip[i]; clip >= 0; clip = drawing.clips[clip].parent) {
       box = intersectBoxes(box, clipBoxes[clip]);
     }
     if (page) box = intersectBoxes(box, page);
-    if (!isEmptyBox(box) && !isFarAway(box)) content = uniteBoxes(content, box);
+    if (isEmptyBox(box) || boxContains(content, box) || isFarAway(box)) continue;
+    content = uniteBoxes(content, box);
   }
   return content;
 }
 
-const clipBox = (clip: ClipRegion, map: Affine): Box =>
-  boundsOfVerbs(clip.verbs, 0, clip.verbs.length, clip.coords, 0, map);
+function clipBox(clip: ClipRegion, map: Affine): Box {
+  const box = new Float64Array(4);
+  boundsOfVerbs(clip.verbs, 0, clip.verbs.length, clip.coords, 0, map, box, 0);
+  return boxAt(box, 0);
+}
 
 /** mm. What reaches further than this (a thousand kilometres) is a fault of the file, not a drawing. */
 const FAR_AWAY = 1e9;
@@ -174,7 +195,16 @@ export function pageCorners(drawing: Drawing, map: Affine): number[] {
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 
-/** Under maps that scale and move only. */
+function moveBoxes(boxes: Float64Array, { a, d, e, f }: Affine): void {
+  for (let i = 0; i < boxes.length; i += 4) {
+    boxes[i] = a * boxes[i] + e;
+    boxes[i + 1] = d * boxes[i + 1] + f;
+    boxes[i + 2] = a * boxes[i + 2] + e;
+    boxes[i + 3] = d * boxes[i + 3] + f;
+  }
+}
+
+/** Under maps that scale and move only, as `moveBoxes`. */
 const movedBox = (box: Box, map: Affine): Box => ({
   x0: map.a * box.x0 + map.e,
   y0: map.d * box.y0 + map.f,

@@ -24,7 +24,7 @@ import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
 import { inOrder, layersOf, visibleLayers } from "./layers.js";
-import { repeatLines, travelAsDrawn } from "./layer-passes.js";
+import { repeatLines } from "./layer-passes.js";
 import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
@@ -44,7 +44,7 @@ import {
 import { simplifyLines } from "./simplify.js";
 import { reloopLines, smoothLines } from "./smooth.js";
 import { spreadLines } from "./spread.js";
-import { linesOfTour } from "./tour.js";
+import { linesOfTour, travelAsDrawn } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 export interface Prepared {
@@ -120,8 +120,12 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   const tour = orderLines(lines, settings, within(options, 0.55, 0.98));
   const spread = spreadLines(linesOfTour(lines, tour), settings.spread);
   lines = repeatLines(spread, passesOf);
+  let travelMm = travelAsDrawn(lines);
   // A way that is shorter once may end where passes have to begin anew.
-  if (settings.spread === "none" && travelAsDrawn(lines) > unordered) lines = asInFile;
+  if (settings.spread === "none" && travelMm > unordered) {
+    lines = asInFile;
+    travelMm = unordered;
+  }
   const strokes = strokeSetOf(lines, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
 
   progress(1, "done");
@@ -131,7 +135,7 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
     paperWidthMm: place.paper.x1,
     paperHeightMm: place.paper.y1,
     travelMmUnordered: unordered,
-    travelMm: travelAsDrawn(lines),
+    travelMm,
     drawMm: totalLength(lines),
     warnings,
   };

@@ -15,7 +15,7 @@ import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
 import { dashLines, scaledPattern } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
-import { isFarAway, pageCorners, type Placement } from "./place.js";
+import { boxAt, isFarAway, pageCorners, type Placement } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "./settings.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
@@ -38,7 +38,7 @@ export function shapesOnPaper(
   let outside = 0;
   let far = 0;
   for (let shape = 0; shape < wanted.length; shape++) {
-    const box = place.shapeBoxes[shape];
+    const box = boxAt(place.shapeBoxes, shape);
     if (isEmptyBox(box)) continue;
     if (isFarAway(box)) far++;
     else if (limit !== null && !boxesTouch(box, limit)) outside++;

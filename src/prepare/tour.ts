@@ -40,23 +40,44 @@ export function exitPoint(lines: Lines, tour: Tour, i: number): number {
 /** Pen-up way from home through all lines and home again, mm. */
 export function travelOf(lines: Lines, tour: Tour): number {
   const { xy } = lines;
+  const { order } = tour;
   let x = 0;
   let y = 0;
   let travel = 0;
-  for (const i of tour.order) {
+  for (let k = 0; k < order.length; k++) {
+    const i = order[k];
     const entry = 2 * entryPoint(lines, tour, i);
     travel += distance(x, y, xy[entry], xy[entry + 1]);
     const exit = 2 * exitPoint(lines, tour, i);
     x = xy[exit];
     y = xy[exit + 1];
   }
-  return tour.order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
+  return order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
+}
+
+/** The same of the lines as they stand. */
+export function travelAsDrawn(lines: Lines): number {
+  const { xy, offsets } = lines;
+  const count = lineCount(lines);
+  let x = 0;
+  let y = 0;
+  let travel = 0;
+  for (let i = 0; i < count; i++) {
+    const entry = 2 * offsets[i];
+    travel += distance(x, y, xy[entry], xy[entry + 1]);
+    const exit = 2 * offsets[i + 1] - 2;
+    x = xy[exit];
+    y = xy[exit + 1];
+  }
+  return count > 0 ? travel + distance(x, y, 0, 0) : 0;
 }
 
 /** The lines as the tour draws them. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
   const builder = new LineBuilder();
-  for (const i of tour.order) {
+  const { order } = tour;
+  for (let k = 0; k < order.length; k++) {
+    const i = order[k];
     if (tour.start[i] > 0 && isClosedLine(lines, i)) copyFrom(lines, i, tour.start[i], builder);
     else builder.copy(lines, i, lines.tag[i], tour.reversed[i] === 1);
   }
