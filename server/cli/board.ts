@@ -120,6 +120,11 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   io.err(
     `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Ctrl-C ends it.\n`,
   );
+  if (options.speed !== undefined && options.speed !== 1) {
+    io.err(
+      `It runs ${options.speed} times as fast as time: plotwright drives it with --device ${options.pty} --virtual-speed ${options.speed}.\n`,
+    );
+  }
   if (io.isTerminal) io.err(faultHelp());
   try {
     await Promise.race([stopped, dropped]);

@@ -157,7 +157,7 @@ export class Carriage {
   }
 
   /** A board that was left in mid-plot still plays what it had; it may stand blocked by a long move. */
-  private async untilStill(limitS: number = STILL_S * this.connection.speed): Promise<void> {
+  private async untilStill(limitS: number = STILL_S * this.connection.waitSpeed): Promise<void> {
     const { session, boardClock } = this.connection;
     const untilS = boardClock.nowS() + limitS;
     for (;;) {
@@ -202,14 +202,14 @@ export class Carriage {
   }
 
   streamer(): Streamer {
-    const { session, boardClock, speed } = this.connection;
-    const watch = new AdvanceWatch(boardClock, speed);
+    const { session, boardClock, speed, waitSpeed } = this.connection;
+    const watch = new AdvanceWatch(boardClock, waitSpeed);
     const streamer = new Streamer(session, {
       clock: boardClock,
       windowS: WINDOW_S * speed,
       queueDepth: this.queueDepth,
       poll: { lines: this.pollLines(), everyS: POLL_S * speed },
-      stuckS: STUCK_S * speed,
+      stuckS: STUCK_S * waitSpeed,
       origin: this.origin,
       onPoll: (line, reply) => {
         if (line !== "QS") this.events.polled(line, reply);

@@ -38,6 +38,8 @@ export interface Connection {
   readonly boardClock: Clock;
   /** Board seconds in one of ours. */
   readonly speed: number;
+  /** The same for how long something may take: as long as the slower of the two, board or computer, would need. */
+  readonly waitSpeed: number;
   /** Present for the built-in virtual board. */
   readonly virtualBoard: VirtualBoard | null;
 }
@@ -68,7 +70,9 @@ async function identified(
   virtualBoard: VirtualBoard | null,
 ): Promise<Connection> {
   const { clock, speed } = options;
-  const session = new BoardSession(transport, { clock });
+  const boardClock = scaledClock(clock, speed);
+  // A fast board's line and computer are no faster than others: silence is measured on the slower clock.
+  const session = new BoardSession(transport, { clock: speed < 1 ? boardClock : clock });
   try {
     const identity = await session.identify();
     const features = firmwareFeatures(identity.firmware);
@@ -78,8 +82,9 @@ async function identified(
       device,
       features,
       boardName: features.hasGeneralQuery ? await nameOf(session) : null,
-      boardClock: scaledClock(clock, speed),
+      boardClock,
       speed,
+      waitSpeed: Math.max(1, speed),
       virtualBoard,
     };
   } catch (error) {
