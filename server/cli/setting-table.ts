@@ -72,7 +72,7 @@ export const SETTING_OPTIONS: readonly SettingOption[] = [
   row("--mode <how>", "motion.mode", "how corners are taken", { choices: MOTION_MODES }),
   amount("--speed <mm/s>", "motion.draw.speedMmPerS", "largest speed, pen down"),
   amount("--accel <mm/s²>", "motion.draw.accelMmPerS2", "acceleration, pen down"),
-  amount("--corner <mm>", "motion.draw.cornerMm", "how far a corner may be cut, pen down"),
+  amount("--corner <mm>", "motion.draw.cornerMm", "how far corners and tight curves may be left, pen down"),
   amount("--jerk <mm/s³>", "motion.draw.jerkMmPerS3", "largest change of acceleration, pen down (scurve)"),
   amount("--travel-speed <mm/s>", "motion.travel.speedMmPerS", "largest speed, pen up"),
   amount("--travel-accel <mm/s²>", "motion.travel.accelMmPerS2", "acceleration, pen up"),

@@ -1,16 +1,16 @@
 /**
- * Corner curves: every corner is one parabola, the motion under one constant acceleration vector, which is
- * also exactly one command to the board. Velocity is continuous everywhere, |a| ≤ A truly, |v| ≤ V,
- * and the line stays within δ of the drawing.
+ * Corner curves: every corner of the soft line (soft-line.ts) is one parabola, the motion under one constant
+ * acceleration vector, which is also exactly one command to the board. Velocity is continuous everywhere,
+ * |a| ≤ A truly, |v| ≤ V, and the line stays within δ of the drawing.
  *
  * Source: parabolic blends as in Oquam and Romi's planners; the two passes over entry and exit speeds, which
  * let the pen change its speed inside dense curves too, are ours.
  *
  *               u1 /      φ       turn angle; s = sin(φ/2)
- *                 /       L       longest tangent: min(2 δ / s, half of the shorter segment), mm
+ *                 /       L       longest tangent: min(2 room / s, half of the shorter segment), mm
  *        L1 →   ,´        v0, v1  speed where the curve begins and ends, mm/s
  *     u0      ,´          q       |v1 u1 − v0 u0|, mm/s
- *    -----·-´ corner      e       distance of corner and curve, at most L s / 2 ≤ δ
+ *    -----·-´ corner      e       distance of corner and curve, at most L s / 2 ≤ room
  *        L0
  *
  * From v0 u0 to v1 u1 under |a| = A takes q/A; the curve is the quadratic Bézier with tangents L0 = v0 q/2A ≤ L and
@@ -30,8 +30,9 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { CornerSpeeds } from "./corner-speeds.js";
-import { capSegments, type RunLimits } from "./limits.js";
+import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
+import { SoftLine } from "./soft-line.js";
 import { writeStraight, type Straight } from "./straight.js";
 
 /** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
@@ -56,24 +57,26 @@ export class BlendPlanner {
   private vIn = new Float64Array(0);
   private vOut = new Float64Array(0);
   private change = new Float64Array(0);
+  private readonly line = new SoftLine();
   private readonly corner = new CornerSpeeds();
-  private readonly straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, length: 0 };
+  private readonly straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, alongPerMm: 1, length: 0 };
 
   /** Writes one run from rest to rest. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const n = path.segmentCount;
     this.reserve(n + 1);
-    capSegments(path, limits);
-    this.roundCorners(path, limits);
-    this.lookAhead(path, limits.accel);
+    const line = this.line.of(path, limits);
+    this.roundCorners(line, limits.accel);
+    this.lookAhead(line, limits.accel);
     out.reserve(2 * n, n);
-    this.writeBlocks(path, limits, out);
+    this.writeBlocks(line, limits, out);
   }
 
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */
-  private roundCorners(path: RunPath, limits: RunLimits): void {
+  private roundCorners(path: RunPath, accel: number): void {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
     const { tangent, sine, limit } = this;
+    const { room } = this.line;
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
     limit[0] = limit[n] = 0;
@@ -81,13 +84,11 @@ export class BlendPlanner {
       const dx = ux[i]! - ux[i - 1]!;
       const dy = uy[i]! - uy[i - 1]!;
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      let v2 = cap2[i]! < cap2[i - 1]! ? cap2[i]! : cap2[i - 1]!;
+      let v2 = Math.min(cap2[i - 1]!, cap2[i]!);
       let reach = 0;
       if (s > STRAIGHT) {
-        const half = (length[i - 1]! < length[i]! ? length[i - 1]! : length[i]!) / 2;
-        reach = (2 * limits.corner) / s < half ? (2 * limits.corner) / s : half;
-        const curve2 = (limits.accel * reach) / s;
-        if (curve2 < v2) v2 = curve2;
+        reach = Math.min((2 * room[i]!) / s, Math.min(length[i - 1]!, length[i]!) / 2);
+        v2 = Math.min(v2, (accel * reach) / s);
       }
       tangent[i] = reach;
       sine[i] = s > STRAIGHT ? s : 0;
@@ -128,6 +129,7 @@ export class BlendPlanner {
   private writeBlocks(path: RunPath, { accel, floorS }: RunLimits, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
     const { vIn, vOut, straight } = this;
+    const { along: stands } = this.line;
     let along = path.startAlong;
     let used = 0;
     for (let i = 0; i < n; i++) {
@@ -136,16 +138,18 @@ export class BlendPlanner {
       const tau = this.halfTime(i + 1, n, accel);
       const ex = ux[i]!;
       const ey = uy[i]!;
+      const perMm = stands[i]! / length[i]!;
       straight.length = length[i]! - used - v0 * tau;
       if (straight.length > NO_PIECE) {
         straight.x = x[i]! + ex * used;
         straight.y = y[i]! + ey * used;
         straight.ux = ex;
         straight.uy = ey;
-        straight.alongMm = along + used;
+        straight.alongMm = along + used * perMm;
+        straight.alongPerMm = perMm;
         writeStraight(straight, vOut[i]!, v0, Math.sqrt(cap2[i]!), accel, floorS, out);
       }
-      along += length[i]!;
+      along += stands[i]!;
       used = v1 * tau;
       if (tau === 0) continue;
       out.push(
@@ -156,7 +160,7 @@ export class BlendPlanner {
         ey * v0,
         (ux[i + 1]! * v1 - ex * v0) / (2 * tau),
         (uy[i + 1]! * v1 - ey * v0) / (2 * tau),
-        along - v0 * tau,
+        along - v0 * tau * perMm,
       );
     }
   }

@@ -19,7 +19,7 @@ export function writeJunctionRun(path: RunPath, limits: RunLimits, out: BlockCol
 /** As `writeTrapezoids`, with no phase shorter than the floor where that can be helped. */
 function writeFloored(path: RunPath, limits: RunLimits, out: BlockColumns): void {
   const { segmentCount: n, x, y, ux, uy, length, v2, cap2 } = path;
-  const straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: path.startAlong, length: 0 };
+  const straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: path.startAlong, alongPerMm: 1, length: 0 };
   for (let i = 0; i < n; i++) {
     straight.x = x[i]!;
     straight.y = y[i]!;

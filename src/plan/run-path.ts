@@ -109,6 +109,29 @@ export class RunPath {
     this.segmentCount = n;
   }
 
+  /** Takes everything over from another path but its points; `measure` once those are set. */
+  beLike(other: RunPath): void {
+    this.reserve(other.segmentCount + 1);
+    this.segmentCount = other.segmentCount;
+    this.startAlong = other.startAlong;
+    this.easeUntil = other.easeUntil;
+    this.easeFrom = other.easeFrom;
+  }
+
+  /** Lengths and directions from the points, no two neighbours of which are one place. */
+  measure(): void {
+    const { segmentCount: n, x, y, length, ux, uy } = this;
+    for (let i = 0; i < n; i++) {
+      const dx = x[i + 1]! - x[i]!;
+      const dy = y[i + 1]! - y[i]!;
+      const l = Math.sqrt(dx * dx + dy * dy);
+      const per = 1 / l;
+      length[i] = l;
+      ux[i] = dx * per;
+      uy[i] = dy * per;
+    }
+  }
+
   /** Moves the first point a little (less than SHORTEST_MM), to where the pen really is. */
   startAt(x: number, y: number): void {
     this.x[0] = x;

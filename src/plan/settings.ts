@@ -5,7 +5,7 @@ export type MotionMode = (typeof MOTION_MODES)[number];
 export interface MotionLimits {
   readonly speedMmPerS: number;
   readonly accelMmPerS2: number;
-  /** δ: how far the line may leave a sharp corner (blend), or may pretend to (junction deviation). */
+  /** δ: how far the line may leave the drawing at corners and in tight curves (blend), or may pretend to (junction). */
   readonly cornerMm: number;
   /** Largest change of acceleration; used in `scurve` mode. */
   readonly jerkMmPerS3: number;

@@ -16,7 +16,9 @@ export interface Straight {
   y: number;
   ux: number;
   uy: number;
+  /** mm of the drawing at its beginning, and for each mm of it. */
   alongMm: number;
+  alongPerMm: number;
   length: number;
 }
 
@@ -85,6 +87,6 @@ function phase(piece: Straight, from: number, w0: number, w1: number, d: number,
     uy * w0,
     ux * a,
     uy * a,
-    piece.alongMm + from,
+    piece.alongMm + from * piece.alongPerMm,
   );
 }

@@ -5,17 +5,18 @@
  *   y ^  \   φ turn         s = sin(φ/2), c = cos(φ/2); both sides are long, the pen comes and goes at V
  *     |   \     /           y along the bisector, into the corner's inside; x across it
  *     |    \ • /  apex at   A point of the bisector is y c from the sides: whoever passes within δ
- *     +-----V----> x        crosses it at y ≤ δ/c.
+ *     +-----V----> x        crosses it at y ≤ δ/c, and comes along the side at σ ≤ δ outside of it.
  *
  * The bound keeps only that, |a| ≤ A and |v| ≤ V, and forgets the rest of the corridor, so nothing can be faster. Two
  * motions averaged keep the same convex limits; so a symmetric one is among the best, with velocity along x at the
  * bisector. With u the direction of coming and n the one square to it, towards the inside, the half before it loses
  *
- *     V λ = ∫ (V − v·u) dt − s y        c y = ∫ v·n dt ≤ δ
+ *     V λ = ∫ (V − v·u) dt − s y        c y = ∫ v·n dt − σ ≤ δ
  *
- * For any μ ≥ 0 a lower bound (Lagrange's duality) is the least of ∫ ℓ(v) dt − μ δ, ℓ = V − v·u + (μ − s/c) v·n. Since
- * dt ≥ |dv|/A and, for μ ≥ s/c, ℓ ≥ 0, that is a shortest way through the disc of velocities from V u to the x axis
- * with the weight ℓ/A: found on a polar grid, for the best of many μ.
+ * For any μ ≥ 0 a lower bound (Lagrange's duality) is the least of ∫ ℓ(v) dt − μ (δ + σ) + σ s/c, where ℓ =
+ * V − v·u + (μ − s/c) v·n. For μ ≥ s/c that is least at σ = δ; and since ℓ ≥ 0 and dt ≥ |dv|/A, the rest is a shortest
+ * way through the disc of velocities from V u to the x axis with the weight ℓ/A: found on a polar grid, for the best of
+ * many μ.
  */
 export interface CornerCase {
   /** V mm/s, A mm/s², δ mm, φ rad. */
@@ -32,11 +33,19 @@ export function junctionLoss({ speed, accel, deviation, turn }: CornerCase): num
   return (speed - v) ** 2 / (accel * speed);
 }
 
-/** Brake to the parabola's speed; the parabola takes 2 v s/A and stands for 2 v² s/A mm; speed up again. */
-export function blendLoss({ speed, accel, deviation, turn }: CornerCase): number {
-  const s = Math.sin(turn / 2);
-  const v = Math.min(speed, Math.sqrt(2 * accel * deviation) / s);
-  return (speed - v) ** 2 / (accel * speed) + ((2 * v * s) / accel) * (1 - v / speed);
+/**
+ * Brake to the parabola's speed; the parabola takes 2 v s/A and stands for 2 v² s/A mm; speed up again. The corner is moved outwards
+ * by up to δ where it would have to brake, which makes it rounder, both sides of `side` mm longer, and the turn a little wider.
+ */
+export function blendLoss({ speed, accel, deviation, turn }: CornerCase, side: number): number {
+  const [s, c] = [Math.sin(turn / 2), Math.cos(turn / 2)];
+  const enough = (speed * s) ** 2 / (2 * accel) - deviation;
+  const outwards = Math.max(0, Math.min(deviation, enough, (side * s) / 4 - deviation));
+  const longer = Math.hypot(side + outwards * s, outwards * c) - side;
+  const sine = Math.sin(turn / 2 + Math.atan2(outwards * c, side + outwards * s));
+  const v = Math.min(speed, Math.sqrt(2 * accel * (deviation + outwards)) / sine);
+  const curve = ((2 * v * sine) / accel) * (1 - v / speed);
+  return (speed - v) ** 2 / (accel * speed) + curve + (2 * longer) / speed;
 }
 
 const RADII = 160;
@@ -46,7 +55,7 @@ const ANGLES = 40;
 export function leastLoss(corner: CornerCase): number {
   const { speed, accel, deviation, turn } = corner;
   const least = Math.tan(turn / 2);
-  const scale = (speed * speed) / (accel * deviation);
+  const scale = (speed * speed) / (2 * accel * deviation);
   const bound = (share: number): number => dualBound(corner, least + scale * share * share);
   // Concave in μ: narrowed down by thirds.
   let [low, high] = [0, 2];
@@ -79,5 +88,5 @@ function dualBound({ speed, accel, deviation, turn }: CornerCase, mu: number): n
     }
     at = next;
   }
-  return (2 * (Math.min(...at) - mu * deviation)) / speed;
+  return (2 * (Math.min(...at) - deviation * (2 * mu - Math.tan(turn / 2)))) / speed;
 }

@@ -81,7 +81,8 @@ export const en = {
     speed: "Speed",
     accel: "Acceleration",
     corner: "Corner rounding",
-    cornerHint: "How far the line may leave a sharp corner. More is faster and softer.",
+    cornerHint:
+      "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
     jerk: "Softness",
     jerkHint: "How fast the acceleration may change. Less is softer and slower.",
     mode: "Corners",
