@@ -6,6 +6,7 @@
 import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
 import { aciColor } from "./aci-color.js";
 import { bulgedVertices, readHatchLoops } from "./dxf-hatch.js";
+import { readPattern } from "./dxf-pattern.js";
 
 export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
   class {
@@ -42,6 +43,7 @@ export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
         ...commonOf("HATCH", groups),
         isSolid: numberIn(groups, 70) === 1,
         loops: readHatchLoops(groups),
+        pattern: readPattern(groups),
       };
     }
   },

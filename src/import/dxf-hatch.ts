@@ -24,13 +24,21 @@ export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
   const from = groups.findIndex(({ code }) => code === PATH_COUNT) + 1;
   const style = groups.findIndex(({ code }, i) => i >= from && code === STYLE);
   const paths = splitAt(groups.slice(from, style < 0 ? undefined : style), LOOP);
-  return paths.map(([flags, ...path]) =>
+  return ofStyle(paths, Number(groups[style]?.value ?? 0)).map(([flags, ...path]) =>
     (Number(flags.value) & IS_POLYLINE) !== 0
       ? [{ type: "LWPOLYLINE", shape: true, vertices: bulgedVertices(path) }]
       : splitAt(path, EDGE)
           .map(edgeOf)
           .filter((edge) => edge !== null),
   );
+}
+
+/** Style 1 leaves out what is inside of islands, 2 all islands: 1 marks an outer loop, 16 an outermost island. */
+function ofStyle(paths: readonly DxfGroup[][], style: number): readonly DxfGroup[][] {
+  const marks = style === 1 ? 1 | 16 : style === 2 ? 1 : 0;
+  const kept = paths.filter(([flags]) => marks === 0 || (Number(flags.value) & marks) !== 0);
+  // Not every program marks its loops.
+  return kept.length > 0 ? kept : paths;
 }
 
 /** Stretches that begin with a group of that code; what is before the first is dropped. */

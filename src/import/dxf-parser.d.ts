@@ -57,6 +57,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly paragraphs?: import("./dxf-text.js").DxfParagraphs;
     readonly isSolid?: boolean;
     readonly loops?: readonly import("./dxf-hatch.js").HatchLoop[];
+    readonly pattern?: readonly import("./dxf-pattern.js").PatternLine[];
   }
   export interface DxfLayer {
     readonly name: string;

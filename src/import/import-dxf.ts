@@ -3,18 +3,27 @@
 /// <reference path="./dxf-parser.d.ts" />
 /**
  * DXF (the text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
- * solids, hatches as filled shapes, texts and blocks, by layer. y is turned over, and the page is the drawing's own
- * extent.
+ * solids, hatches as filled shapes or the lines of their pattern, texts and blocks, by layer. y is turned over, and the
+ * page is the drawing's own extent.
  */
 import DxfParser, { type Dxf, type DxfEntity, type DxfLayer } from "dxf-parser/dist/dxf-parser.js";
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
-import { compose, largestScale, rotation, scaling, translation, type Affine } from "../geometry/affine.js";
+import {
+  IDENTITY,
+  compose,
+  largestScale,
+  rotation,
+  scaling,
+  translation,
+  type Affine,
+} from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
 import { MM_PER_INCH } from "../units.js";
 import { DrawingBuilder } from "./drawing-builder.js";
 import { DXF_HANDLERS } from "./dxf-handlers.js";
 import { drawHatch } from "./dxf-hatch.js";
+import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
 import { drawDxfParagraphs, drawDxfWriting } from "./dxf-text.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
@@ -41,6 +50,8 @@ const MAX_BLOCK_DEPTH = 16;
 const MAX_ENTITIES = 1_000_000;
 /** mm: what an arc may be off in a drawing of unknown size; far under any pen. */
 const ARC_TOLERANCE_MM = 2e-5;
+/** mm: what the ends of hatch lines may be off a round border. */
+const CHORD_TOLERANCE_MM = 1e-3;
 const BY_BLOCK = 0;
 const BLACK_OR_WHITE = 7;
 
@@ -210,15 +221,27 @@ class DxfImport {
     const { shape, warnings } = this;
     const arcTolerance = ARC_TOLERANCE_MM / scale;
     if (entity.writing !== undefined || entity.paragraphs !== undefined) return this.drawText(entity);
-    if (entity.loops !== undefined) {
-      drawHatch(entity.loops, shape, arcTolerance);
-      const report = (box?: Box): void => warnings.add("gradient-fill", box);
-      return { isLine: false, isFilled: true, ...(entity.isSolid === true ? {} : { report }) };
-    }
+    if (entity.loops !== undefined) return this.drawHatch(entity, arcTolerance, CHORD_TOLERANCE_MM / scale);
     if (drawDxfEntity(entity, shape, arcTolerance))
       return { isLine: true, isFilled: entity.type === "SOLID" };
     warnings.add("not-supported", undefined, entity.type);
     return null;
+  }
+
+  /** A pattern is drawn as the lines that it is made of; without any it is a filled shape. */
+  private drawHatch(
+    { loops = [], pattern = [], isSolid }: DxfEntity,
+    arcTolerance: number,
+    tolerance: number,
+  ): Paint {
+    const { shape, warnings } = this;
+    const rings = new ShapeBuffer();
+    drawHatch(loops, rings, arcTolerance);
+    if (isSolid !== true && drawPattern(rings, pattern, shape, tolerance))
+      return { isLine: true, isFilled: false };
+    shape.append(rings, IDENTITY);
+    const report = (box?: Box): void => warnings.add("gradient-fill", box);
+    return { isLine: false, isFilled: true, ...(isSolid === true ? {} : { report }) };
   }
 
   private drawText({ writing, paragraphs }: DxfEntity): Paint | null {
