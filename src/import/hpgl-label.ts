@@ -1,6 +1,6 @@
 /**
- * Labels of HPGL: where their letters stand and how large they are, set by SI SR DI DR SL LO (HP, "PCL 5 Technical
- * Reference", chapter 23). The plotter's letters all have the same width, so each of ours stands in the middle of
+ * Labels of HPGL: where their letters stand and how large they are, set by SI SR DI DR DV SL LO ES (HP, "PCL 5
+ * Technical Reference", chapter 23). The plotter's letters all have the same width, so each of ours stands in the middle of
  * where the plotter's would.
  *
  *    ┌ W ┐ W/2            a cell is 1.5 W wide, a line 2 H
@@ -38,6 +38,13 @@ export class HpglLabels {
   private angle = 0;
   private slant = 0;
   private origin = 1;
+  /** Where a letter stands from the one before: 0 right, 1 below, 2 left, 3 above. */
+  private path = 0;
+  /** A new line lies on the other side. */
+  private isReversed = false;
+  /** Beyond the usual, shares of a cell and of a line. */
+  private extraWidth = 0;
+  private extraHeight = 0;
 
   /** Takes a setting; `corners` are those of P1 and P2. False where the command is none of labels. */
   set(name: string, args: readonly number[], corners: readonly number[]): boolean {
@@ -65,16 +72,31 @@ export class HpglLabels {
       case "LO":
         this.origin = first ?? 1;
         return true;
+      case "ES":
+        this.extraWidth = first ?? 0;
+        this.extraHeight = second ?? 0;
+        return true;
+      case "DV":
+        this.path = Math.round(first ?? 0) & 3;
+        this.isReversed = second === 1;
+        return true;
       default:
         return false;
     }
   }
 
-  /** The place so many cells on and lines up from there. */
+  /** The place so many cells on along the path, and lines back across it. */
   moved({ x, y }: Place, cells: number, lines: number): Place {
     const map = this.mapAt({ x, y });
-    const dx = cells * CELL * this.width;
-    const dy = lines * LINE * this.height;
+    const along = cells * this.step;
+    const across = (this.isReversed ? -lines : lines) * (this.isUpright ? this.cell : this.line);
+    // To the left of the way: up from letters that run to the right.
+    const [dx, dy] = [
+      [along, across],
+      [across, -along],
+      [-along, -across],
+      [-across, along],
+    ][this.path];
     return { x: applyX(map, dx, dy), y: applyY(map, dx, dy) };
   }
 
@@ -99,7 +121,7 @@ export class HpglLabels {
         column += letters.length;
       }
     }
-    return { pen: this.anchor === 0 ? this.moved(at, column, row) : at, missing };
+    return { pen: this.beginsAtPen ? this.moved(at, column, row) : at, missing };
   }
 
   private drawRun(
@@ -110,13 +132,19 @@ export class HpglLabels {
     missing: string[],
   ): void {
     const { width, height } = this;
-    const map = compose(this.mapAt(at), translation(this.shiftX(letters.length), this.shiftY()));
+    const way = (letters.length - 1) * this.step;
+    const corner = this.cornerOf(this.isUpright ? 0 : way, this.isUpright ? way : 0);
+    const map = compose(this.mapAt(at), translation(corner.x, corner.y));
+    // The first letter stands at the far end of a label that runs to the left or down.
+    const first = this.path === 1 || this.path === 2 ? way : 0;
+    const sign = first > 0 ? -1 : 1;
     const size = scaling(width / CAPITAL_WIDTH_EM, -height / CAPITAL_EM);
     const slanted = compose({ ...scaling(1), c: this.slant }, size);
     letters.forEach((letter, i) => {
       const line = layOutLine(font, letter, "");
       missing.push(...line.missing);
-      const middle = translation(i * CELL * width + width / 2, 0);
+      const there = first + sign * i * this.step;
+      const middle = translation((this.isUpright ? 0 : there) + width / 2, this.isUpright ? there : 0);
       drawLine(line, compose(map, compose(middle, compose(slanted, translation(-line.width / 2, 0)))), shape);
     });
   }
@@ -126,9 +154,37 @@ export class HpglLabels {
     return compose(translation(x, y), rotation(this.angle));
   }
 
-  /** 0 where labels begin at the pen, 0.5 where that is their middle, 1 where they end there. */
+  /** Letters stand above each other. */
+  private get isUpright(): boolean {
+    return this.path % 2 === 1;
+  }
+
+  private get cell(): number {
+    return CELL * this.width * (1 + this.extraWidth);
+  }
+
+  private get line(): number {
+    return LINE * this.height * (1 + this.extraHeight);
+  }
+
+  /** From a letter to the next. */
+  private get step(): number {
+    return this.isUpright ? this.line : this.cell;
+  }
+
+  /** 0 where the pen is at the label's left, 0.5 where it is at its middle, 1 where it is at its right. */
   private get anchor(): number {
     return Math.min(2, Math.max(0, Math.ceil((this.origin % 10) / 3) - 1)) / 2;
+  }
+
+  /** 1, 4 and 7 stand on the pen's place, 2, 5 and 8 have it at half their height, the others hang from it. */
+  private get rise(): number {
+    return (((this.origin % 10) + 2) % 3) / 2;
+  }
+
+  /** Then the next label goes on where it ends; else the pen stays. */
+  private get beginsAtPen(): boolean {
+    return [this.anchor === 0, this.rise === 1, this.anchor === 1, this.rise === 0][this.path];
   }
 
   /** Under 11 to 19 labels stand half a letter off the pen's place. */
@@ -136,14 +192,12 @@ export class HpglLabels {
     return this.origin > 10 && this.origin < 20 ? 0.5 : 0;
   }
 
-  private shiftX(count: number): number {
-    const { anchor, width } = this;
-    return -anchor * (count * CELL - (CELL - 1)) * width + this.clearance * (1 - 2 * anchor) * width;
-  }
-
-  /** 1, 4 and 7 stand on the pen's place, 2, 5 and 8 have it at half their height, the others hang from it. */
-  private shiftY(): number {
-    const down = (((this.origin % 10) + 2) % 3) / 2;
-    return -down * this.height + this.clearance * (1 - 2 * down) * this.height;
+  /** The lower left corner, seen from the pen, of a label that is so much longer and higher than one letter. */
+  private cornerOf(longer: number, higher: number): Place {
+    const { anchor, rise, clearance, width, height } = this;
+    return {
+      x: -anchor * (longer + width) + clearance * (1 - 2 * anchor) * width,
+      y: -rise * (higher + height) + clearance * (1 - 2 * rise) * height,
+    };
   }
 }

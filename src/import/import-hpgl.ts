@@ -27,7 +27,7 @@ const PAGE: Affine = { a: MM_PER_PLOTTER_UNIT, b: 0, c: 0, d: -MM_PER_PLOTTER_UN
 
 /** Commands that set what a pen plotter of ours decides itself, or move nothing. */
 const SILENT = new Set(
-  "VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS DV ES NP OA OC OE OI OS OF OP OH OD VA".split(
+  "VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS NP OA OC OE OI OS OF OP OH OD VA".split(
     " ",
   ),
 );

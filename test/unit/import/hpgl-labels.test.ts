@@ -85,6 +85,41 @@ describe("labels of HPGL", () => {
     expect(feet(`LO${origin};PU2000,2000;LBab${ETX}`)[0]).toBe(first);
   });
 
+  // Letters of 4 × 8 mm: 6 mm from one to the next, 16 from a line to the next.
+  it("have extra space between letters and lines", () => {
+    expect(feet(`ES0.5;PU400,800;LBab${ETX}LBc${ETX}`)).toEqual(["10 80", "19 80", "28 80"]);
+    expect(feet(`ES-0.5,0.25;PU400,1600;LBa\r\nbc${ETX}`)).toEqual(["10 60", "10 80", "13 80"]);
+    expect(feet(`ES0,0.25;PU400,1600;LBa${ETX}CP;LBb${ETX}`)).toEqual(["10 60", "10 80"]);
+    expect(feet(`ES1,1;ES;PU400,800;LBab${ETX}`)).toEqual(["10 80", "16 80"]);
+    // The middle of "ab", which is 4 + 9 wide.
+    expect(feet(`ES0.5;LO4;PU2000,2000;LBab${ETX}`)).toEqual(["43.5 50", "52.5 50"]);
+  });
+
+  it.each([
+    ["to the right", "DV;LO1", ["50 50", "56 50"], ["62 50"]],
+    ["down", "DV1;LO3", ["50 58", "50 74"], ["50 90"]],
+    ["to the left", "DV2;LO7", ["46 50", "40 50"], ["34 50"]],
+    ["up", "DV3;LO1", ["50 50", "50 34"], ["50 18"]],
+  ])("run %s, and the next label goes on from there", (_way, settings, first, next) => {
+    expect(feet(`${settings};PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual([...first, ...next]);
+  });
+
+  it("stand with their whole column about the pen's place, which stays where they do not begin there", () => {
+    // 24 high: 8, 16 apart.
+    expect(feet(`DV1;LO1;PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual(["50 34", "50 50", "50 50"]);
+    expect(feet(`DV1;LO5;PU2000,2000;LBab${ETX}`)).toEqual(["48 46", "48 62"]);
+    expect(feet(`DV3;LO9;PU2000,2000;LBab${ETX}`)).toEqual(["46 74", "46 58"]);
+  });
+
+  it("begin a new line clockwise from the way they run, or the other way round", () => {
+    expect(feet(`DV1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "44 58"]);
+    expect(feet(`DV1,1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "56 58"]);
+    expect(feet(`DV0,1;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "50 34"]);
+    expect(feet(`DV2;LO7;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["46 50", "46 34"]);
+    expect(feet(`DV3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "56 50"]);
+    expect(feet(`DV1,1;IN;SP1;SI0.4,0.8;PU2000,2000;LBab${ETX}`)).toEqual(["50 50", "56 50"]);
+  });
+
   it("run and lean the way they are told", () => {
     const box = (commands: string): string =>
       shapesOf(draw(`${commands};PU2000,2000;LBa${ETX}`, { text: "outline", font: boxes }))[1];
