@@ -54,7 +54,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly extrusionDirectionZ?: number;
     /** What our own handlers add, of TEXT and ATTRIB, of MTEXT, and of HATCH. */
     readonly writing?: import("./dxf-text.js").DxfWriting;
-    readonly paragraphs?: import("./dxf-text.js").DxfParagraphs;
+    readonly paragraphs?: import("./dxf-paragraphs.js").DxfParagraphs;
     readonly isSolid?: boolean;
     readonly loops?: readonly import("./dxf-hatch.js").HatchLoop[];
     readonly pattern?: readonly import("./dxf-pattern.js").PatternLine[];

@@ -25,7 +25,8 @@ import { DXF_HANDLERS } from "./dxf-handlers.js";
 import { drawHatch } from "./dxf-hatch.js";
 import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
-import { drawDxfParagraphs, drawDxfWriting } from "./dxf-text.js";
+import { drawDxfParagraphs } from "./dxf-paragraphs.js";
+import { drawDxfWriting } from "./dxf-text.js";
 import { finishAroundDrawing } from "./finish-around-drawing.js";
 import { fontOf, type ImportOptions } from "./import-options.js";
 import { ShapeBuffer } from "./shape-buffer.js";
@@ -125,6 +126,8 @@ interface Paint {
   readonly isLine: boolean;
   readonly isFilled: boolean;
   readonly report?: (box?: Box) => void;
+  /** What is in colours of its own, 0xrrggbb, besides what is in the entity's. */
+  readonly colored?: readonly (readonly [number, ShapeBuffer])[];
 }
 
 class DxfImport {
@@ -199,21 +202,24 @@ class DxfImport {
     const paint = this.draw(entity, largestScale(map));
     shape.finish();
     if (paint === null) return;
-    if (shape.isEmpty) {
-      paint.report?.();
-      return;
+    const inks: readonly (readonly [string, ShapeBuffer])[] = [
+      [this.colorOf(entity, layer, from), shape],
+      ...(paint.colored ?? []).map(([color, colored]) => [hexColor(color), colored] as const),
+    ];
+    const before = this.builder.shapeCount;
+    for (const [color, drawn] of inks) {
+      const look = {
+        stroke: paint.isLine ? color : null,
+        fill: paint.isFilled ? color : null,
+        evenOdd: entity.loops !== undefined,
+        strokeWidth: 0,
+        dash: null,
+      };
+      const where = (): string => `${entity.type} on layer ${layerName}`;
+      if (!drawn.isEmpty) this.builder.addShape(drawn, map, look, group, null, where);
     }
-    const color = this.colorOf(entity, layer, from);
-    const look = {
-      stroke: paint.isLine ? color : null,
-      fill: paint.isFilled ? color : null,
-      evenOdd: entity.loops !== undefined,
-      strokeWidth: 0,
-      dash: null,
-    };
-    const where = (): string => `${entity.type} on layer ${layerName}`;
-    const isDrawn = this.builder.addShape(shape, map, look, group, null, where);
-    paint.report?.(isDrawn ? this.builder.boxOfLast() : undefined);
+    const count = this.builder.shapeCount;
+    paint.report?.(count > before ? this.builder.boxOfShapes(before, count) : undefined);
   }
 
   /** Into `shape`; null for what is not drawn. */
@@ -250,16 +256,22 @@ class DxfImport {
       warnings.add("text-not-drawn");
       return null;
     }
-    const missing = [
-      ...(writing === undefined ? [] : drawDxfWriting(writing, font, shape)),
-      ...(paragraphs === undefined ? [] : drawDxfParagraphs(paragraphs, font, shape)),
-    ];
+    const missing = writing === undefined ? [] : [...drawDxfWriting(writing, font, shape)];
+    const colored: (readonly [number, ShapeBuffer])[] = [];
+    if (paragraphs !== undefined) {
+      const drawn = drawDxfParagraphs(paragraphs, font);
+      missing.push(...drawn.missing);
+      for (const [color, letters] of drawn.shapes) {
+        if (color === null) shape.append(letters, IDENTITY);
+        else colored.push([color, letters]);
+      }
+    }
     const isFilled = font.kind === "outline";
     const report = (box?: Box): void => {
       if (!isFilled && box !== undefined) warnings.add("text-substituted", box);
       for (const char of missing) warnings.add("glyphs-missing", box, `"${char}"`);
     };
-    return { isLine: !isFilled, isFilled, report };
+    return { isLine: !isFilled, isFilled, report, colored };
   }
 
   private pushInsert(entity: DxfEntity, map: Affine, from: Pending, stack: Pending[]): void {
@@ -317,7 +329,7 @@ class DxfImport {
     const color = (hasOwn ? own.color : layer?.color) ?? 0;
     // Index 7 is whichever of black and white the background is not.
     if (index === BLACK_OR_WHITE || index === -BLACK_OR_WHITE || !Number.isFinite(color)) return "#000000";
-    return `#${(color & 0xffffff).toString(16).padStart(6, "0")}`;
+    return hexColor(color);
   }
 
   /** Kinds that the parser passes over without a word. */
@@ -333,3 +345,5 @@ class DxfImport {
     }
   }
 }
+
+const hexColor = (color: number): string => `#${(color & 0xffffff).toString(16).padStart(6, "0")}`;
