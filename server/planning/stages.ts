@@ -69,6 +69,7 @@ export function planAndCompile(
     ...(from === null ? {} : { from }),
     startX: request.startXMm,
     startY: request.startYMm,
+    penBesideMm: penBesideMmOf(settings.motion, machine),
     machine,
   });
   const commands = compile(trajectory, {
@@ -78,6 +79,12 @@ export function planAndCompile(
     start: request.board,
   });
   return { trajectory, commands };
+}
+
+/** How far from the drawing a pen may stand that was stopped on its line: what the line may leave it by, and rounding to steps. */
+function penBesideMmOf({ draw, layers, fit }: PlotSettings["motion"], machine: MachineProfile): number {
+  const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);
+  return Math.max(draw.cornerMm, ...corners) + (fit?.toleranceMm ?? 0) + 2 / machine.stepsPerMm;
 }
 
 /** A drawing without its last strokes; the others keep their numbers. */

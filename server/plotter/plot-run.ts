@@ -46,8 +46,6 @@ const LEFT_S = 1.5;
 /** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
-/** The pen is at a point of the drawing: half a tenth of rounding and a microstep. */
-const SAME_POINT_MM = 0.08;
 
 const AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
 
@@ -268,12 +266,11 @@ export class CarriageRun implements LivePlotRun {
     } else this.afterPartS = 0;
     const clock = this.carriage.connection.boardClock;
     const startS = clock.nowS();
-    const start = this.planStart(from, x, y);
     const plot = await this.planner.plan({
       from,
       until,
-      startXMm: start.x,
-      startYMm: start.y,
+      startXMm: x,
+      startYMm: y,
       settings: this.settings.planned,
       firmware: this.carriage.connection.features.version,
       board,
@@ -299,16 +296,6 @@ export class CarriageRun implements LivePlotRun {
       return times;
     });
     return this.whole;
-  }
-
-  /**
-   * Where the plan of what is left shall begin. Within what rounding a corner allows, at the drawing itself and
-   * not where the pen stands: the first command brings it there, instead of a travel move with the pen up.
-   */
-  private planStart(from: Place | null, x: number, y: number): { x: number; y: number } {
-    if (!from || from.alongMm === 0) return { x, y };
-    const point = pointOfPlace(this.strokes, from);
-    return Math.hypot(point.x - x, point.y - y) < SAME_POINT_MM ? point : { x, y };
   }
 
   /** Plans what is left with the new settings, and goes over to it at a place that the board has not got yet. */

@@ -24,6 +24,8 @@ export interface PlanOptions {
   /** Where the carriage is, mm in the machine frame; default 0, 0. The pen is up there. */
   readonly startX?: number | undefined;
   readonly startY?: number | undefined;
+  /** Where the carriage is less than this beside `from`, mm, the line goes on from the carriage, without a travel; default 0. */
+  readonly penBesideMm?: number | undefined;
   /** Begin with a lift: nobody knows where the pen is. Default false: it is up. */
   readonly liftFirst?: boolean | undefined;
   /** End at 0, 0 with the pen up; default true. False: rest where the last stroke ends. */
@@ -48,12 +50,13 @@ export function plan(
 ): Trajectory {
   checkSettings(motion, pen);
   const from = checkPlace(options.from, strokeCount(strokes));
-  const { machine, startX = 0, startY = 0 } = options;
+  const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY);
   if (options.liftFirst ?? false) builder.liftAnyway();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
-    builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0);
+    if (stroke === from.stroke) builder.draw(stroke, from.alongMm, penBesideMm);
+    else builder.draw(stroke, 0, 0);
   }
   builder.lift(Infinity);
   if (options.returnHome ?? true) builder.travel(0, 0);
@@ -105,11 +108,14 @@ class PlanBuilder {
     this.writer = new RunWriter(motion.mode, motion.fit ?? null);
   }
 
-  draw(stroke: number, fromAlong: number): void {
+  /** @param penBesideMm a stroke begun in the middle goes on from the carriage, where that is nearer than this */
+  draw(stroke: number, fromAlong: number, penBesideMm: number): void {
     const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke]!, strokes.offsets[stroke + 1]!, fromAlong);
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke]!;
+    const place = Math.hypot(path.x[0]! - this.x, path.y[0]! - this.y);
+    if (fromAlong > 0 && place >= SHORTEST_MM && place < penBesideMm) path.comeFrom(this.x, this.y);
     const x = path.x[0]!;
     const y = path.y[0]!;
     const gap = Math.hypot(x - this.x, y - this.y);

@@ -61,7 +61,7 @@ export class RunPath {
    * @throws RangeError when a coordinate is not finite, or so large that lengths are not
    */
   load(xy: Float64Array, first: number, end: number, fromAlong: number): void {
-    this.reserve(end - first + 2);
+    this.reserve(end - first + 3);
     this.easeUntil = 0;
     this.easeFrom = Infinity;
     const { x, y, length, ux, uy } = this;
@@ -141,6 +141,18 @@ export class RunPath {
     this.length[0] = l;
     this.ux[0] = (this.x[1]! - x) / l;
     this.uy[0] = (this.y[1]! - y) / l;
+  }
+
+  /** Goes before the first point to (x, y), a little beside the drawing; the way from there stands for none of it. */
+  comeFrom(x: number, y: number): void {
+    const { segmentCount: n } = this;
+    for (const column of [this.x, this.y]) column.copyWithin(1, 0, n + 1);
+    for (const column of [this.length, this.ux, this.uy]) column.copyWithin(1, 0, n);
+    this.segmentCount = n + 1;
+    this.x[0] = x;
+    this.y[0] = y;
+    this.startAt(x, y);
+    this.startAlong = Math.max(0, this.startAlong - this.length[0]!);
   }
 
   end(): RunEnd {

@@ -128,6 +128,47 @@ describe("a plan in blend mode", () => {
   });
 });
 
+describe("a plan that goes on from a pen beside its line", () => {
+  it("begins where the pen stands, without a travel or a lift, and keeps all limits", () => {
+    fc.assert(
+      fc.property(wavy, arbitraryLimits, real(0.05, 0.95), real(0, 6.3), (points, draw, share, way) => {
+        const strokes = strokesOf(points);
+        const steps = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i]![0], y - points[i]![1]));
+        const whole = steps.reduce((sum, step) => sum + step, 0);
+        const from = { stroke: 0, alongMm: share * whole };
+        const [x, y] = placeOn(points, steps, from.alongMm);
+        const [startX, startY] = [x + DELTA * Math.cos(way), y + DELTA * Math.sin(way)];
+        const options = { from, startX, startY, penBesideMm: 1.01 * DELTA, returnHome: false };
+        for (const mode of ["junction", "blend", "scurve"] as const) {
+          const t = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, options);
+          expect(Array.from(t.runs.stroke)).toEqual([0]);
+          expect(t.penMoves.map(({ up }) => up)).toEqual([false, true]);
+          expect(Math.hypot(t.x[0]! - startX, t.y[0]! - startY)).toBeLessThan(1e-9);
+          const worst = worstOf(t, strokes, draw, draw, draw.cornerMm + DELTA);
+          expect(worst.accel).toBeLessThanOrEqual(1.001);
+          expect(worst.gap).toBeLessThanOrEqual(1e-9);
+          expect(worst.distance).toBeLessThanOrEqual(draw.cornerMm * 1.0001 + DELTA + 1e-6);
+          const away = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, {
+            ...options,
+            penBesideMm: 0.99 * DELTA,
+          });
+          expect(Array.from(away.runs.stroke)).toEqual([-1, 0]);
+        }
+      }),
+      { numRuns: 300 },
+    );
+  });
+});
+
+function placeOn(points: readonly Point[], steps: readonly number[], along: number): Point {
+  let left = along;
+  let i = 0;
+  while (i + 1 < steps.length && left > steps[i]!) left -= steps[i++]!;
+  const share = left / steps[i]!;
+  const [[x0, y0], [x1, y1]] = [points[i]!, points[i + 1]!];
+  return [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
+}
+
 function pathOf(points: readonly Point[]): RunPath {
   const path = new RunPath();
   path.load(Float64Array.from(points.flat()), 0, points.length, 0);
