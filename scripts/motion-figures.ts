@@ -185,8 +185,8 @@ function drawn(chart: Chart): string {
     const [x, y] = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
     const [px, py] = at([x, y]).split(" ");
     return [
-      `<text x="${px}" y="${box.top + box.height + 16}" text-anchor="middle">${short(x)}</text>`,
-      `<text x="${box.left - 6}" y="${py}" text-anchor="end" dominant-baseline="middle">${short(y)}</text>`,
+      `<text x="${px}" y="${box.top + box.height + 16}" text-anchor="middle">${short(x, x1 - x0)}</text>`,
+      `<text x="${box.left - 6}" y="${py}" text-anchor="end" dominant-baseline="middle">${short(y, y1 - y0)}</text>`,
     ];
   });
   const lines = chart.series.map(({ points, color, dots }) =>
@@ -202,12 +202,13 @@ function drawn(chart: Chart): string {
     `<path d="M${box.left} ${box.top}V${box.top + box.height}H${box.left + box.width}" fill="none" stroke="#333"/>`,
     ...ticks,
     `<text x="${box.left + box.width / 2}" y="${box.top + box.height + 34}" text-anchor="middle">${chart.xLabel}</text>`,
-    `<text x="8" y="${box.top + 4}">${chart.yLabel}</text>`,
+    `<text x="8" y="18">${chart.yLabel}</text>`,
     ...lines,
     ...legend,
   ].join("\n");
 }
 
-function short(value: number): string {
-  return Number(value.toPrecision(3)).toString();
+/** To three digits of what the axis spans. */
+function short(value: number, span: number): string {
+  return Number(value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(span))))).toString();
 }
