@@ -5,6 +5,9 @@
  * when its last point equals its first. Each line carries a tag (the shape or the layer that it
  * belongs to), which every step hands on. Lengths in mm.
  */
+import type { Affine } from "./affine.js";
+import { grown } from "./growable.js";
+
 export interface Lines {
   /** x, y, x, y … */
   readonly xy: Float64Array;
@@ -16,12 +19,26 @@ export interface Lines {
 /** Nearer than this two points are one: far below any machine's step, far above rounding. */
 export const SAME_POINT = 1e-6;
 
+/** Whether a point of the lines [from, to) repeats the one before it, so that a `LineBuilder` leaves it out. */
+export function repeatsPoints({ xy, offsets }: Lines, from: number, to: number): boolean {
+  for (let i = from; i < to; i++) {
+    const end = 2 * offsets[i + 1];
+    for (let at = 2 * offsets[i] + 2; at < end; at += 2) {
+      const dx = xy[at] - xy[at - 2];
+      const dy = xy[at + 1] - xy[at - 1];
+      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return true;
+    }
+  }
+  return false;
+}
+
 export const lineCount = (lines: Lines): number => lines.tag.length;
 
 /** Collects lines point by point, leaving out points that repeat the one before. */
 export class LineBuilder {
   private xy = new Float64Array(1024);
-  private offsets = new Uint32Array(257);
+  /** Never shorter than the tags and one. */
+  private offsets = new Uint32Array(512);
   private tags = new Uint32Array(256);
   private points = 0;
   private lines = 0;
@@ -49,7 +66,7 @@ export class LineBuilder {
       }
     }
     this.skipped = false;
-    if (at + 2 > this.xy.length) this.xy = grownFloats(this.xy);
+    if (at + 2 > this.xy.length) this.reserve(1);
     this.xy[at] = x;
     this.xy[at + 1] = y;
     this.points++;
@@ -64,10 +81,7 @@ export class LineBuilder {
       this.xy[2 * this.points - 1] = this.skippedY;
     }
     this.skipped = false;
-    if (this.lines + 2 > this.offsets.length) {
-      this.offsets = grownIndices(this.offsets);
-      this.tags = grownIndices(this.tags);
-    }
+    if (this.lines + 1 > this.tags.length) this.growLines();
     this.tags[this.lines] = tag;
     this.offsets[++this.lines] = this.first = this.points;
   }
@@ -92,7 +106,7 @@ export class LineBuilder {
   private copyWhole(xy: Float64Array, first: number, last: number, reversed: boolean): boolean {
     if (this.points > this.first) return false;
     let at = 2 * this.points;
-    while (at + 2 * (last - first + 1) > this.xy.length) this.xy = grownFloats(this.xy);
+    this.reserve(last - first + 1);
     const out = this.xy;
     const step = reversed ? -2 : 2;
     let from = 2 * (reversed ? last : first);
@@ -111,6 +125,56 @@ export class LineBuilder {
     return true;
   }
 
+  /** Adds lines [from, to), each with its own tag. */
+  copyRange(lines: Lines, from: number, to: number): void {
+    if (this.points > this.first || repeatsPoints(lines, from, to)) {
+      for (let i = from; i < to; i++) this.copy(lines, i, lines.tag[i]);
+      return;
+    }
+    const { offsets } = lines;
+    const begin = offsets[from];
+    this.reserve(offsets[to] - begin);
+    while (this.lines + to - from + 1 > this.tags.length) this.growLines();
+    this.xy.set(lines.xy.subarray(2 * begin, 2 * offsets[to]), 2 * this.points);
+    this.tags.set(lines.tag.subarray(from, to), this.lines);
+    const shift = this.points - begin;
+    for (let i = from; i < to; i++) this.offsets[++this.lines] = offsets[i + 1] + shift;
+    this.points = this.first = offsets[to] + shift;
+  }
+
+  /**
+   * Adds the mapped points coords[from], coords[from + 1] … before `to` as one line, without a call for each of them.
+   * False, and nothing done, where one would be left out.
+   */
+  addMapped(coords: Float64Array, from: number, to: number, map: Affine, tag: number): boolean {
+    if (this.points > this.first) return false;
+    this.reserve((to - from) / 2);
+    const { a, b, c, d, e, f } = map;
+    const out = this.xy;
+    let at = 2 * this.points;
+    let x = Infinity;
+    let y = Infinity;
+    for (let k = from; k < to; k += 2) {
+      const dx = a * coords[k] + c * coords[k + 1] + e - x;
+      const dy = b * coords[k] + d * coords[k + 1] + f - y;
+      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return false;
+      x = out[at++] = a * coords[k] + c * coords[k + 1] + e;
+      y = out[at++] = b * coords[k] + d * coords[k + 1] + f;
+    }
+    this.points = at / 2;
+    this.end(tag);
+    return true;
+  }
+
+  private reserve(points: number): void {
+    while (2 * (this.points + points) > this.xy.length) this.xy = grown(this.xy);
+  }
+
+  private growLines(): void {
+    this.offsets = grown(this.offsets);
+    this.tags = grown(this.tags);
+  }
+
   finish(): Lines {
     this.drop();
     return {
@@ -120,18 +184,6 @@ export class LineBuilder {
     };
   }
 }
-
-const grownFloats = (old: Float64Array<ArrayBuffer>): Float64Array<ArrayBuffer> => {
-  const grown = new Float64Array(2 * old.length);
-  grown.set(old);
-  return grown;
-};
-
-const grownIndices = (old: Uint32Array<ArrayBuffer>): Uint32Array<ArrayBuffer> => {
-  const grown = new Uint32Array(2 * old.length);
-  grown.set(old);
-  return grown;
-};
 
 /** Length of line `i`, mm. */
 export function lineLength(lines: Lines, i: number): number {

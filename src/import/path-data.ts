@@ -162,11 +162,56 @@ class PathDataReader {
         this.previous = 122;
         reader.skipBlanks();
       } else {
-        const fault = this.readRuns(code, count);
+        const isPoint = (code | 32) === 109 || (code | 32) === 108;
+        const fault = isPoint ? this.readPoints(code) : this.readRuns(code, count);
         if (fault >= 0) return fault;
       }
     }
     return -1;
+  }
+
+  /** As `readRuns`, for m and l, of which most files are made. */
+  private readPoints(code: number): number {
+    const { reader, shape } = this;
+    const { text } = reader;
+    const relative = code >= 97;
+    let isMove = (code | 32) === 109;
+    reader.skipBlanks();
+    for (;;) {
+      if (!reader.read()) return this.faultAt();
+      const x = reader.value;
+      if (!reader.readNext()) return this.faultAt();
+      const y = reader.value;
+      const dx = relative ? shape.x : 0;
+      const dy = relative ? shape.y : 0;
+      if (isMove) shape.moveTo(x + dx, y + dy);
+      else shape.lineTo(x + dx, y + dy);
+      this.previous = isMove ? 109 : 108;
+      isMove = false;
+      if (!this.hasMore(text)) return -1;
+    }
+  }
+
+  /** Past blanks and a comma: whether another set of arguments follows. */
+  private hasMore(text: string): boolean {
+    const { reader } = this;
+    let c = text.charCodeAt(reader.at);
+    if (c <= 32) {
+      reader.skipBlanks();
+      c = text.charCodeAt(reader.at);
+    }
+    if (c === 44) {
+      reader.at++;
+      reader.skipBlanks();
+      return true;
+    }
+    return (c >= 48 && c <= 57) || c === 45 || c === 46 || c === 43;
+  }
+
+  /** Where the reader stands, but no further than the last character. */
+  private faultAt(): number {
+    const { at, text } = this.reader;
+    return at < text.length ? at : Math.max(0, text.length - 1);
   }
 
   /** One command letter and every set of arguments that follows it. */
@@ -174,26 +219,16 @@ class PathDataReader {
     const { reader, args } = this;
     const { text } = reader;
     const relative = code >= 97;
-    let kind = code | 32;
+    const kind = code | 32;
     reader.skipBlanks();
     for (;;) {
       for (let i = 0; i < count; i++) {
-        if (!this.readArgument(kind, i))
-          return reader.at < text.length ? reader.at : Math.max(0, text.length - 1);
+        if (!this.readArgument(kind, i)) return this.faultAt();
         args[i] = reader.value;
       }
       this.draw(kind, relative);
       this.previous = kind;
-      if (kind === 109) kind = 108;
-      reader.skipBlanks();
-      const c = text.charCodeAt(reader.at);
-      if (c === 44) {
-        reader.at++;
-        reader.skipBlanks();
-        continue;
-      }
-      const startsNumber = (c >= 48 && c <= 57) || c === 45 || c === 46 || c === 43;
-      if (!startsNumber) return -1;
+      if (!this.hasMore(text)) return -1;
     }
   }
 
@@ -212,12 +247,6 @@ class PathDataReader {
     const dx = relative ? x0 : 0;
     const dy = relative ? y0 : 0;
     switch (kind) {
-      case 109: // m
-        shape.moveTo(args[0] + dx, args[1] + dy);
-        return;
-      case 108: // l
-        shape.lineTo(args[0] + dx, args[1] + dy);
-        return;
       case 104: // h
         shape.lineTo(args[0] + dx, y0);
         return;

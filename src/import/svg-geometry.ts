@@ -1,5 +1,5 @@
 /** Elements to outlines in user units, and where they are on the page. */
-import { applyX, applyY, largestScale } from "../geometry/affine.js";
+import { applyX, applyY, IDENTITY, largestScale } from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
 import type { Property } from "./cascade.js";
@@ -16,6 +16,9 @@ export class SvgGeometry {
   /** The outline made last. */
   readonly shape = new ShapeBuffer();
   private readonly source: ElementSource;
+  /** The map asked about last, and by how much it enlarges: one for many shapes. */
+  private map = IDENTITY;
+  private scale = 1;
 
   constructor(
     private readonly tree: SvgTree,
@@ -30,7 +33,11 @@ export class SvgGeometry {
   geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
     const { shape } = this;
     shape.clear();
-    const tolerance = this.arcToleranceMm / largestScale(context.map);
+    if (context.map !== this.map) {
+      this.map = context.map;
+      this.scale = largestScale(context.map);
+    }
+    const tolerance = this.arcToleranceMm / this.scale;
     const fault = drawBasicShape(tag, this.source.of(element, declared, context), shape, tolerance);
     shape.finish();
     if (fault !== null) {

@@ -1,5 +1,5 @@
 /** Shapes to polylines: curves become chords to a tolerance in mm, after the map onto the paper. */
-import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
+import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { flattenCubic } from "../geometry/cubic.js";
 import { PointBuffer } from "../geometry/growable.js";
@@ -37,9 +37,19 @@ export function flattenShapes(
     range.verbFrom = paths.verbOffsets[shape];
     range.verbTo = paths.verbOffsets[shape + 1];
     range.coordFrom = paths.coordOffsets[shape];
+    const coordTo = paths.coordOffsets[shape + 1];
+    const isLine = paths.stroke[shape] >= 0 && isPolyline(range);
+    if (isLine && builder.addMapped(paths.coords, range.coordFrom, coordTo, map, shape)) continue;
     flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, tagOf);
   }
   return builder.finish();
+}
+
+/** One subpath of straight pieces that is not closed. */
+function isPolyline({ verbs, verbFrom, verbTo }: VerbRange): boolean {
+  if (verbTo - verbFrom < 2) return false;
+  for (let v = verbFrom + 1; v < verbTo; v++) if (verbs[v] !== VERB_LINE) return false;
+  return true;
 }
 
 /** Adds a line for each subpath; `tagOf` is given the number of the subpath, counted by VERB_MOVE. */

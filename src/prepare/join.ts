@@ -27,8 +27,6 @@ const MOST_CANDIDATES = 24;
 /** A chain shorter than this many radii is not closed on itself: its ends are near because it is short. */
 const SHORTEST_LOOP = 4;
 const UNPAIRED = -1;
-/** A count that goes no further. */
-const MANY = 255;
 
 /** Lines of one tag must stand together. `radius` in mm; 0 joins only what meets to the bit (or nearly). */
 export function joinLines(lines: Lines, radius: number): Lines {
@@ -46,19 +44,19 @@ function joinRange(lines: Lines, first: number, end: number, radius: number, bui
   const joinable = joinableEnds(lines, first, end);
   const near = crowdedEnds(places, joinable, radius);
   if (near.length === 0) {
-    for (let i = first; i < end; i++) builder.copy(lines, i, lines.tag[i]);
+    builder.copyRange(lines, first, end);
     return;
   }
   const pairing = new Pairing(lines, first, places, near, joinable.length, radius);
   pairing.run(SAME_POINT, true);
   if (radius > SAME_POINT) pairing.run(radius, false);
+  const { partner } = pairing;
   const done = new Uint8Array(end - first);
   for (let i = 0; i < done.length; i++) {
-    if (done[i] === 1) continue;
-    const { partner } = pairing;
-    if (partner[2 * i] === UNPAIRED && partner[2 * i + 1] === UNPAIRED) {
-      builder.copy(lines, first + i, lines.tag[first + i]);
-    } else writeChain(lines, first, partner, i, done, builder);
+    const from = i;
+    while (i < done.length && partner[2 * i] === UNPAIRED && partner[2 * i + 1] === UNPAIRED) i++;
+    if (i > from) builder.copyRange(lines, first + from, first + i);
+    if (i < done.length && done[i] === 0) writeChain(lines, first, partner, i, done, builder);
   }
 }
 
@@ -90,44 +88,41 @@ function joinableEnds(lines: Lines, first: number, end: number): Uint32Array {
 }
 
 /**
- * Those of `ends` that may have another within the radius. Cells are hashed into a table that is large enough for few
- * of them to share a place; it counts the ends in each and adds up their numbers: of two ends, the one that is not
- * asked about is what remains of the sum.
+ * Those of `ends` that have another within the radius (or a hair more): in most drawings a few. Cells as in `EndGrid`,
+ * but so wide that an end's surroundings mostly lie in two or less of them.
  */
 function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint32Array {
-  const counts = new Uint8Array(2 ** Math.ceil(Math.log2(8 * ends.length + 1)));
-  const sums = new Uint32Array(counts.length);
-  const mask = counts.length - 1;
+  const heads = new Int32Array(2 ** Math.ceil(Math.log2(4 * ends.length + 1))).fill(-1);
+  const next = new Int32Array(ends.length);
+  const mask = heads.length - 1;
   const perMm = 1 / (4 * radius);
   for (let k = 0; k < ends.length; k++) {
-    const e = ends[k];
-    const hash = cellHash(Math.floor(xy[2 * e] * perMm), Math.floor(xy[2 * e + 1] * perMm)) & mask;
-    if (counts[hash] < MANY) counts[hash]++;
-    sums[hash] += e;
+    const e = 2 * ends[k];
+    const hash = cellHash(Math.floor(xy[e] * perMm), Math.floor(xy[e + 1] * perMm)) & mask;
+    next[k] = heads[hash];
+    heads[hash] = k;
   }
   const crowded = new Uint32Array(ends.length);
   let count = 0;
   for (let k = 0; k < ends.length; k++) {
-    const e = ends[k];
-    const x = xy[2 * e];
-    const y = xy[2 * e + 1];
-    const own = cellHash(Math.floor(x * perMm), Math.floor(y * perMm)) & mask;
+    const x = xy[2 * ends[k]];
+    const y = xy[2 * ends[k] + 1];
     // A little more than the radius, for rounding.
     const reach = 1.01 * radius + 1e-15 * (Math.abs(x) + Math.abs(y));
-    const row1 = Math.floor((y + reach) * perMm);
     const column0 = Math.floor((x - reach) * perMm);
     const column1 = Math.floor((x + reach) * perMm);
+    const row1 = Math.floor((y + reach) * perMm);
     let isNear = false;
-    for (let row = Math.floor((y - reach) * perMm); row <= row1; row++) {
-      for (let column = column0; column <= column1; column++) {
-        const hash = cellHash(column, row) & mask;
-        const others = hash === own ? counts[hash] - 1 : counts[hash];
-        if (others === 0) continue;
-        const other = hash === own ? sums[hash] - e : sums[hash];
-        isNear ||= others > 1 || distance(x, y, xy[2 * other], xy[2 * other + 1]) <= reach;
+    for (let row = Math.floor((y - reach) * perMm); row <= row1 && !isNear; row++) {
+      for (let column = column0; column <= column1 && !isNear; column++) {
+        for (let j = heads[cellHash(column, row) & mask]; j >= 0 && !isNear; j = next[j]) {
+          const dx = xy[2 * ends[j]] - x;
+          const dy = xy[2 * ends[j] + 1] - y;
+          isNear = dx * dx + dy * dy <= reach * reach && j !== k;
+        }
       }
     }
-    if (isNear) crowded[count++] = e;
+    if (isNear) crowded[count++] = ends[k];
   }
   return crowded.subarray(0, count);
 }

@@ -20,15 +20,7 @@ import {
   translation,
   type Affine,
 } from "../geometry/affine.js";
-import {
-  EMPTY_BOX,
-  boxContains,
-  boxOfPoints,
-  intersectBoxes,
-  isEmptyBox,
-  uniteBoxes,
-  type Box,
-} from "../geometry/box.js";
+import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { boundsOfVerbs } from "./bounds.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "./settings.js";
 
@@ -130,15 +122,20 @@ export const boxAt = (boxes: Float64Array, i: number): Box => ({
 function contentBox(drawing: Drawing, boxes: Float64Array, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
+  const { count, clip: clipOf } = drawing.paths;
   let content = EMPTY_BOX;
-  for (let i = 0; i < drawing.paths.count; i++) {
+  for (let i = 0; i < count; i++) {
+    const at = 4 * i;
+    const { x0, y0, x1, y1 } = content;
+    // Most lie within what has been seen.
+    const isSeen = boxes[at] >= x0 && boxes[at + 1] >= y0 && boxes[at + 2] <= x1 && boxes[at + 3] <= y1;
+    if (isSeen) continue;
     let box = boxAt(boxes, i);
-    for (let clip = drawing.paths.clip[i]; clip >= 0; clip = drawing.clips[clip].parent) {
+    for (let clip = clipOf[i]; clip >= 0; clip = drawing.clips[clip].parent) {
       box = intersectBoxes(box, clipBoxes[clip]);
     }
     if (page) box = intersectBoxes(box, page);
-    if (isEmptyBox(box) || boxContains(content, box) || isFarAway(box)) continue;
-    content = uniteBoxes(content, box);
+    if (!isEmptyBox(box) && !isFarAway(box)) content = uniteBoxes(content, box);
   }
   return content;
 }
@@ -153,8 +150,8 @@ function clipBox(clip: ClipRegion, map: Affine): Box {
 const FAR_AWAY = 1e9;
 
 /** True for boxes that no paper could hold, so that they must not decide the scale. */
-export const isFarAway = (box: Box): boolean =>
-  !(box.x0 > -FAR_AWAY && box.y0 > -FAR_AWAY && box.x1 < FAR_AWAY && box.y1 < FAR_AWAY);
+export const isFarAway = ({ x0, y0, x1, y1 }: Box): boolean =>
+  !(x0 > -FAR_AWAY && y0 > -FAR_AWAY && x1 < FAR_AWAY && y1 < FAR_AWAY);
 
 /** Rounding must not push a line that lies on the border over it, where the crop would take it: 3 nm on 300 mm. */
 const FIT_SHARE = 1 - 1e-11;

@@ -2,7 +2,14 @@
  * A tour: in which order, which way round, and from where each line is drawn; and how far the pen
  * travels for it. The pen starts at home (0, 0) and goes back there. Lengths in mm.
  */
-import { LineBuilder, distance, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
+import {
+  LineBuilder,
+  distance,
+  isClosedLine,
+  lineCount,
+  repeatsPoints,
+  type Lines,
+} from "../geometry/polyline.js";
 
 export interface Tour {
   /** Line indices in drawing order. */
@@ -74,6 +81,8 @@ export function travelAsDrawn(lines: Lines): number {
 
 /** The lines as the tour draws them. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
+  // Nothing to leave out: every line is as long as before.
+  if (!repeatsPoints(lines, 0, lineCount(lines))) return reordered(lines, tour);
   const builder = new LineBuilder();
   const { order } = tour;
   for (let k = 0; k < order.length; k++) {
@@ -82,6 +91,31 @@ export function linesOfTour(lines: Lines, tour: Tour): Lines {
     else builder.copy(lines, i, lines.tag[i], tour.reversed[i] === 1);
   }
   return builder.finish();
+}
+
+function reordered(lines: Lines, tour: Tour): Lines {
+  const { order, reversed, start } = tour;
+  const xy = new Float64Array(lines.xy.length);
+  const offsets = new Uint32Array(order.length + 1);
+  const tag = new Uint32Array(order.length);
+  let to = 0;
+  for (let k = 0; k < order.length; k++) {
+    const i = order[k];
+    const first = 2 * lines.offsets[i];
+    const last = 2 * lines.offsets[i + 1] - 2;
+    let from = reversed[i] === 1 ? last : first + 2 * start[i];
+    const step = reversed[i] === 1 ? -2 : 2;
+    for (let left = last - first; left >= 0; left -= 2) {
+      xy[to++] = lines.xy[from];
+      xy[to++] = lines.xy[from + 1];
+      from += step;
+      // Begun at another of its points, a closed line goes on from its end, which is its first point too.
+      if (from > last) from = first + 2;
+    }
+    offsets[k + 1] = to / 2;
+    tag[k] = lines.tag[i];
+  }
+  return { xy, offsets, tag };
 }
 
 /** A closed line begun at another of its points. */
