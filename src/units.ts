@@ -14,6 +14,7 @@ export const MM_PER_PX = MM_PER_INCH / PX_PER_INCH;
 /** Interrupts a second; also the most steps a second that one motor can make. */
 export const TICKS_PER_S = 25_000;
 export const S_PER_TICK = 1 / TICKS_PER_S;
+export const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
 /** One step is due each time the 31-bit accumulator overflows. */
 export const ACCUMULATOR_RANGE = 2 ** 31;

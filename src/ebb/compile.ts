@@ -1,28 +1,23 @@
 /**
- * Trajectory to EBB commands: walks each run in time, cuts it into legs, and has each leg written as the
- * command that the firmware does best.
+ * Trajectory to EBB commands: the pen's moves, and between them each run of the trajectory as the firmware does it
+ * best: in legs, a ramp or a parabola each (leg-runs), or in slices of constant speed (write-slices).
  *
- *   plan    |--block--|--block--|b|b|b|----------block----------|
- *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
- *
- * Cuts lie at the ends of blocks where they can, so that a leg is one parabola and its command exact; blocks too
- * short for a command are taken together. Every leg is aimed from where the board truly is (the host model knows,
- * step and phase) to where the plan is at the leg's end, with the plan's speeds at both ends: rounding never adds
- * up, and the step counters at the end are those of the plan. Linear in the number of blocks.
+ * The host model knows after each command where the board truly is, step and phase, and the next one is aimed from
+ * there: the step counters at the end are those of the plan.
  */
 import type { MachineProfile } from "../machines/profile.js";
 import type { PenSettings } from "../plan/settings.js";
 import type { PenMove, Trajectory } from "../plan/trajectory.js";
-import { rateFromStepsPerS, TICKS_PER_S } from "../units.js";
+import { TICKS_PER_MS } from "../units.js";
 import { MAX_DELAY_MS, penCommand, penMoveSetUp, penSetUpCommands, type PenWay } from "./commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { firmwareFeatures, type FirmwareFeatures } from "./firmware.js";
-import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
-import { HIGHEST_PLANNED_RATE } from "./limits.js";
+import type { LegWriter, MotorPlace, RunWriter } from "./leg.js";
+import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
 import { SignedWriter } from "./write-signed.js";
-import { SliceWriter } from "./write-slices.js";
+import { SliceRuns } from "./write-slices.js";
 import { SteppedWriter } from "./write-stepped.js";
 import { TimedWriter } from "./write-timed.js";
 
@@ -34,16 +29,6 @@ export interface CompileOptions {
   /** Where the board stands; default: at home, as EM and CS leave it. */
   readonly start?: BoardState | undefined;
 }
-
-const TICKS_PER_MS = TICKS_PER_S / 1_000;
-/** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
-const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
-
-/** 32 steps/s, 0.4 mm/s at 80 steps/mm. */
-const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
-
-const TOO_FAST =
-  "The plan is faster than the motors can step (25 000 steps a second): those parts are plotted as fast as the board can.";
 
 /**
  * Commands that play a trajectory on a board of that firmware, from pen heights to the last pen move. Motors are
@@ -69,19 +54,11 @@ class Compiler {
   private readonly columns = new StreamColumns();
   private readonly m1: MotorPlace;
   private readonly m2: MotorPlace;
-  private readonly walk: RunWalk;
-  private readonly writer: LegWriter;
-  private readonly leg = newLeg();
-  private readonly half = newLeg();
+  private readonly runs: RunWriter;
   /** Where the pen was told to be, up and down. */
   private readonly heights: { up: number; down: number };
   /** The set-up lines that the board has, by "SC,number". */
   private readonly parameters = new Map<string, string>();
-  private runIndex = 0;
-  /** Where the leg being made ends: its tick, the block whose law holds there, and whether the run ends too. */
-  private cutTick = 0;
-  private cutBlock = 0;
-  private cutIsRunEnd = false;
 
   constructor(
     private readonly trajectory: Trajectory,
@@ -90,8 +67,9 @@ class Compiler {
     const start = options.start ?? { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
     this.m1 = { steps: start.steps1, acc: start.acc1 };
     this.m2 = { steps: start.steps2, acc: start.acc2 };
-    this.walk = new RunWalk(trajectory, options.machine);
-    this.writer = writerFor(firmwareFeatures(options.firmware), this.columns);
+    const features = firmwareFeatures(options.firmware);
+    const walk = new RunWalk(trajectory, options.machine);
+    this.runs = runWriterFor(features, trajectory, walk, this.columns, this.m1, this.m2);
     this.heights = { up: options.pen.upPct, down: options.pen.downPct };
   }
 
@@ -103,169 +81,9 @@ class Compiler {
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {
       while (next < penMoves.length && penMoves[next]!.beforeRun <= r) this.penMove(penMoves[next++]!);
-      if (r < runs.count) this.compileRun(r);
+      if (r < runs.count) this.runs.write(r);
     }
     return this.columns.finish(trajectory.totalS);
-  }
-
-  private compileRun(run: number): void {
-    const { walk, columns, leg } = this;
-    walk.begin(run, columns.boardTicks);
-    if (walk.first === walk.end) return;
-    this.runIndex = run;
-    let block = walk.first;
-    let notBefore = 0;
-    for (;;) {
-      const tick = columns.boardTicks;
-      this.cut(tick, block, notBefore);
-      this.aim(leg, tick, block);
-      if (this.write(leg)) {
-        notBefore = 0;
-        block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
-      } else {
-        notBefore = this.cutTick + this.writer.minTicks;
-      }
-      if (this.cutIsRunEnd) break;
-    }
-    this.rest(run);
-  }
-
-  /** Waits out the end of a run in which no step is due any more: the plan's time holds on every firmware. */
-  private rest(run: number): void {
-    const { walk, columns, m1, m2 } = this;
-    const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
-    if (ms < 1) return;
-    columns.text.line(`SM,${ms},0,0`);
-    const planS = walk.planS(columns.boardTicks);
-    columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
-  }
-
-  /** Sets the next cut after `tick`, where `block` is under way; not before `notBefore`. */
-  private cut(tick: number, block: number, notBefore: number): void {
-    const { walk, writer } = this;
-    const last = walk.end - 1;
-    const runEnd = Math.max(walk.endTick(last), tick + 1);
-    const soonest = Math.max(tick + writer.minTicks, notBefore);
-    let k = block;
-    while (k < last && walk.endTick(k) < soonest) k++;
-    let end = k === last ? runEnd : walk.endTick(k);
-    if (k !== block) {
-      // Short blocks taken together: no more of a long one than it takes.
-      if (end - soonest >= writer.minTicks) end = soonest;
-    } else {
-      end = this.withinBlock(tick, block, soonest, end);
-    }
-    if (writer.turnTicks > 0) {
-      const turn = this.firstTurn(tick, block, k, soonest, end);
-      if (turn < end) {
-        end = turn;
-        k = walk.blockAt(end, block);
-      }
-    }
-    // What is left of the run must be enough for a command.
-    if (end < runEnd && runEnd - end < writer.minTicks) {
-      const earlier = runEnd - writer.minTicks;
-      end = earlier >= soonest && earlier < end ? earlier : runEnd;
-      k = walk.blockAt(end, block);
-      if (end === runEnd) k = last;
-      else if (k > block && end === walk.endTick(k - 1)) k--;
-    }
-    if (end < runEnd) {
-      const whole = tick + writer.longestWithin(end - tick);
-      // Later than the last cut at any rate, where that one came to nothing.
-      if (whole > notBefore - writer.minTicks) end = whole;
-      while (k > block && walk.endTick(k - 1) >= end) k--;
-    }
-    this.cutTick = end;
-    this.cutBlock = k;
-    this.cutIsRunEnd = end >= runEnd;
-  }
-
-  /** Where to cut inside a block that is long enough: by the longest command. */
-  private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
-    const { walk, writer } = this;
-    const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
-    const longest = Math.max(Math.min(writer.maxTicks, jerkTicks), soonest - tick);
-    const pieces = Math.ceil((blockEnd - tick) / longest);
-    const end = pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
-    return end;
-  }
-
-  /** Where a motor turns back within a leg; Infinity where none does. */
-  private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
-    const { walk, writer } = this;
-    const earliest = Math.max(tick + writer.turnTicks, soonest - writer.minTicks);
-    const latest = end - writer.turnTicks;
-    for (let k = from; k <= to; k++) {
-      const after = k === from ? earliest : Math.max(earliest, walk.endTick(k - 1));
-      const turn = walk.turnTick(k, after, k === to ? latest : Math.min(latest, walk.endTick(k)));
-      if (turn !== Infinity) return turn;
-    }
-    return Infinity;
-  }
-
-  private aim(leg: Leg, tick: number, block: number): void {
-    const { walk } = this;
-    walk.startLegs(tick, block, leg.m1, leg.m2);
-    walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
-    leg.ticks = this.cutTick - tick;
-    leg.isParabola = block === this.cutBlock && !walk.hasJerk(block);
-    leg.isLast = this.cutIsRunEnd && this.runIndex === this.trajectory.runs.count - 1;
-    this.slowDown(leg);
-  }
-
-  /** Takes more time where a motor would have to step too fast, or a whole run is too short for a command. */
-  private slowDown(leg: Leg): void {
-    const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
-    // An idle tick is made up for by speed, but not by more speed than may show: then the plot takes the tick.
-    const idle = peak > HIGHEST_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
-    const ticks = Math.max(
-      leg.ticks + idle,
-      Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
-      this.cutIsRunEnd ? SHORTEST_TICKS : 1,
-    );
-    if (ticks <= leg.ticks) return;
-    if (peak > HIGHEST_PLANNED_RATE) this.columns.warnOnce(TOO_FAST);
-    const part = leg.ticks / ticks;
-    for (const motor of [leg.m1, leg.m2]) {
-      motor.v0 *= part;
-      motor.v1 *= part;
-    }
-    this.walk.origin += ticks - leg.ticks;
-    leg.ticks = ticks;
-  }
-
-  /** Writes a leg as one command, or two where one acceleration cannot join the speeds. False: nothing to do yet. */
-  private write(leg: Leg): boolean {
-    if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
-      return this.put(leg);
-    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.put(leg);
-    const { half } = this;
-    half.ticks = leg.ticks >> 1;
-    half.isParabola = true;
-    half.isLast = false;
-    halve(leg.m1, leg.ticks, half.ticks, half.m1);
-    halve(leg.m2, leg.ticks, half.ticks, half.m2);
-    if (!this.put(half)) return this.put(leg);
-    leg.ticks -= half.ticks;
-    for (const [motor, first] of [
-      [leg.m1, half.m1],
-      [leg.m2, half.m2],
-    ] as const) {
-      motor.p0 = first.p1;
-      motor.v0 = first.v1;
-    }
-    this.put(leg);
-    return true;
-  }
-
-  private put(leg: Leg): boolean {
-    const { columns, m1, m2 } = this;
-    const planS = this.walk.planS(columns.boardTicks);
-    const ticks = this.writer.write(leg, m1, m2);
-    if (ticks === 0) return false;
-    columns.add(ticks, planS, this.runIndex, m1.steps, m2.steps, m1.acc, m2.acc);
-    return true;
   }
 
   private setUpPen(): void {
@@ -310,46 +128,23 @@ class Compiler {
   }
 }
 
-/** A command needs a tick to run in and one to rest in. */
-const SHORTEST_TICKS = 26;
-
-function writerFor(features: FirmwareFeatures, columns: StreamColumns): LegWriter {
+function runWriterFor(
+  features: FirmwareFeatures,
+  trajectory: Trajectory,
+  walk: RunWalk,
+  columns: StreamColumns,
+  m1: MotorPlace,
+  m2: MotorPlace,
+): RunWriter {
+  const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
   switch (features.motion) {
     case "jerk":
-      return new SignedWriter(columns.text, features);
+      return legs(new SignedWriter(columns.text, features));
     case "timed":
-      return new TimedWriter(columns.text);
+      return legs(new TimedWriter(columns.text));
     case "steps":
-      return new SteppedWriter(columns.text, features);
+      return legs(new SteppedWriter(columns.text, features));
     case "slices":
-      return new SliceWriter(columns.text, features);
+      return new SliceRuns(features, walk, columns, m1, m2);
   }
-}
-
-const peakRate = (motor: MotorLeg, ticks: number): number =>
-  Math.max(Math.abs(motor.v0), Math.abs(motor.v1), meanRate(motor, ticks));
-
-const meanRate = (motor: MotorLeg, ticks: number): number =>
-  Math.abs(rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S));
-
-/** The way differs from what the mean of the two speeds would cover. */
-function isBent(motor: MotorLeg, ticks: number): boolean {
-  const mean = rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S);
-  return Math.abs((motor.v0 + motor.v1) / 2 - mean) > JOIN_RATE;
-}
-
-/**
- * First of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
- * a₁ + a₂ = 2 Δv/T and 3 a₁ + a₂ = 8 (Δp − v₀ T)/T².
- */
-function halve(motor: MotorLeg, ticks: number, half: number, out: MotorLeg): void {
-  const toSteps = 1 / rateFromStepsPerS(TICKS_PER_S);
-  const v0 = motor.v0 * toSteps;
-  const v1 = motor.v1 * toSteps;
-  const mean = (motor.p1 - motor.p0 - v0 * ticks) / (ticks * ticks);
-  const accel = 4 * mean - (v1 - v0) / ticks;
-  out.p0 = motor.p0;
-  out.v0 = motor.v0;
-  out.p1 = motor.p0 + v0 * half + (accel * half * half) / 2;
-  out.v1 = (v0 + accel * half) / toSteps;
 }

@@ -30,6 +30,11 @@ export interface MotorPlace {
   acc: number;
 }
 
+/** Writes the commands for one run of the trajectory, from where the motors stand to its end. */
+export interface RunWriter {
+  write(run: number): void;
+}
+
 /** Writes the command for a leg, and moves `motors` on bit for bit. */
 export interface LegWriter {
   /** Ticks that a command needs at least. */
@@ -42,8 +47,6 @@ export interface LegWriter {
   readonly turnTicks: number;
   /** Ticks of every command in which the motors stand, and for which the rest of it runs faster. */
   readonly idleTicks: number;
-  /** The longest time of a command, rest included, that is no longer than this. */
-  longestWithin(ticks: number): number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
   /** Longest leg of a plan with this jerk (counts a tick³ of the faster motor); Infinity for none. */

@@ -42,10 +42,6 @@ export class SignedWriter implements LegWriter {
     this.idleTicks = features.idleTicksTimed;
   }
 
-  longestWithin(ticks: number): number {
-    return ticks;
-  }
-
   maxTicksForJerk(): number {
     return MAX_JERK_TICKS;
   }

@@ -1,65 +1,69 @@
 /**
- * Legs for firmware before 2.5.3: SM at constant rates, in slices short enough to follow a ramp.
+ * Runs for firmware before 2.5.3: SM at constant rates, in slices short enough to follow a ramp.
  *
- * SM takes whole milliseconds and whole steps and works out the rate itself, rounded down. The counts are the
- * nearest steps to the plan's place, from the board's true count; how long the slice really takes is known to the
- * tick, and the next one starts from there.
+ * SM takes whole milliseconds and whole steps and works out the rate itself, rounded down. Which slices is the search's
+ * to find; how long each really takes is known to the tick, and the next one starts from there.
  */
-import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../units.js";
-import type { CommandText } from "./commands.js";
+import { TICKS_PER_MS } from "../units.js";
 import type { FirmwareFeatures } from "./firmware.js";
-import type { Leg, LegWriter, MotorPlace } from "./leg.js";
-import { HIGHEST_RATE } from "./limits.js";
-import { slowRate } from "./slow-rate.js";
+import type { MotorPlace, RunWriter } from "./leg.js";
+import { TOO_FAST } from "./limits.js";
+import { RunSamples } from "./run-samples.js";
+import type { RunWalk } from "./run-walk.js";
+import { SliceSearch } from "./slice-search.js";
+import type { StreamColumns } from "./stream-columns.js";
 
-const RANGE = ACCUMULATOR_RANGE;
-const TICKS_PER_MS = TICKS_PER_S / 1_000;
-
-export class SliceWriter implements LegWriter {
-  readonly minTicks = 10 * TICKS_PER_MS + 1;
-  readonly maxTicks = 14 * TICKS_PER_MS;
-  readonly turnTicks = 120;
-  readonly idleTicks = 0;
-  readonly joinsAnySpeeds = true;
+export class SliceRuns implements RunWriter {
+  private readonly samples: RunSamples;
+  private readonly search: SliceSearch;
+  /** Ticks by which the last run ended after its plan; the next one sets out as much nearer to its own. */
+  private lateTicks = 0;
 
   constructor(
-    private readonly text: CommandText,
-    private readonly features: FirmwareFeatures,
-  ) {}
-
-  longestWithin(ticks: number): number {
-    const { idleTicks } = this.features;
-    return Math.max(1, Math.floor((ticks - idleTicks) / TICKS_PER_MS)) * TICKS_PER_MS + idleTicks;
+    features: FirmwareFeatures,
+    private readonly walk: RunWalk,
+    private readonly columns: StreamColumns,
+    private readonly m1: MotorPlace,
+    private readonly m2: MotorPlace,
+  ) {
+    this.samples = new RunSamples(walk);
+    this.search = new SliceSearch(this.samples, features.arithmetic, features.idleTicks);
   }
 
-  maxTicksForJerk(): number {
-    return Infinity;
+  write(run: number): void {
+    const { walk, samples, search, columns } = this;
+    const startTick = columns.boardTicks;
+    walk.begin(run, startTick - this.lateTicks);
+    if (walk.first === walk.end) return;
+    samples.begin(startTick);
+    if (samples.isNothing(this.m1, this.m2)) return;
+    search.begin(this.m1, this.m2);
+    let isOver = false;
+    while (!isOver) {
+      isOver = search.next();
+      for (let i = 0; i < search.pathLength; i++) {
+        const planS = samples.planS(columns.boardTicks - startTick);
+        this.writeSlice(search.path[i]!, planS, run);
+      }
+    }
+    const lateTicks = columns.boardTicks - startTick - samples.endTick;
+    this.lateTicks = Math.max(-TICKS_PER_MS, Math.min(TICKS_PER_MS, lateTicks));
+    if (samples.isSlowed) columns.warnOnce(TOO_FAST);
   }
 
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
-    const steps1 = Math.round(leg.m1.p1) - m1.steps;
-    const steps2 = Math.round(leg.m2.p1) - m2.steps;
-    if (steps1 === 0 && steps2 === 0) return 0;
-    const { arithmetic, idleTicks } = this.features;
-    let ms = Math.max(1, Math.floor((leg.ticks - idleTicks) / TICKS_PER_MS));
-    const most = Math.max(Math.abs(steps1), Math.abs(steps2));
-    while (slowRate(arithmetic, ms, most) > HIGHEST_RATE) ms++;
-    this.text.name("SM");
-    this.text.number(ms);
-    this.text.number(steps1);
-    this.text.number(steps2);
-    this.text.end();
-    const ticks1 = run(slowRate(arithmetic, ms, Math.abs(steps1)), steps1, m1);
-    const ticks2 = run(slowRate(arithmetic, ms, Math.abs(steps2)), steps2, m2);
-    return Math.max(ticks1, ticks2) + idleTicks;
+  private writeSlice(way: number, planS: number, run: number): void {
+    const { columns, m1, m2 } = this;
+    const { text } = columns;
+    const { ways } = this.search;
+    text.name("SM");
+    text.number(ways.ms[way]!);
+    text.number(ways.steps1[way]! - m1.steps);
+    text.number(ways.steps2[way]! - m2.steps);
+    text.end();
+    m1.steps = ways.steps1[way]!;
+    m1.acc = ways.acc1[way]!;
+    m2.steps = ways.steps2[way]!;
+    m2.acc = ways.acc2[way]!;
+    columns.add(ways.ticks[way]!, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
-}
-
-function run(rate: number, steps: number, place: MotorPlace): number {
-  if (steps === 0) return 0;
-  const way = Math.abs(steps) * RANGE - place.acc;
-  const ticks = Math.ceil(way / rate);
-  place.acc = ticks * rate - way;
-  place.steps += steps;
-  return ticks;
 }

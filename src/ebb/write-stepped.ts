@@ -40,10 +40,6 @@ export class SteppedWriter implements LegWriter {
     private readonly features: FirmwareFeatures,
   ) {}
 
-  longestWithin(ticks: number): number {
-    return ticks;
-  }
-
   maxTicksForJerk(jerk: number): number {
     return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
   }

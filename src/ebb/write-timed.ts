@@ -38,10 +38,6 @@ export class TimedWriter implements LegWriter {
 
   constructor(private readonly text: CommandText) {}
 
-  longestWithin(ticks: number): number {
-    return ticks;
-  }
-
   maxTicksForJerk(jerk: number): number {
     return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
   }

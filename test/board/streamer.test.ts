@@ -1,6 +1,11 @@
 import { describe, expect, it } from "vitest";
 import {
   BoardSession,
+  compile,
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  machineById,
+  plan,
   Streamer,
   streamCommands,
   VirtualBoard,
@@ -8,6 +13,7 @@ import {
   type PlotwrightError,
   type StreamOptions,
 } from "../../src/index.js";
+import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { makeStream, wavyRows, type StreamRow } from "../support/make-stream.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { StallingHost } from "../support/stalling-host.js";
@@ -142,6 +148,27 @@ describe("a host that stops for 150 ms every second", () => {
       expect(rig.board.statistics().underrunCount).toBe(0);
     },
   );
+
+  it("never lets the board run dry between slices of 5 ms, as firmware 2.4.4 takes its curves", async () => {
+    const loops = Array.from({ length: 900 }, (_, i): Point => [
+      30 + i / 12 + 2 * Math.cos(i / 5),
+      40 + 2 * Math.sin(i / 5),
+    ]);
+    const trajectory = plan(strokeSetOf([loops]), DEFAULT_MOTION, DEFAULT_PEN);
+    const stream = compile(trajectory, {
+      machine: machineById("axidraw-v3"),
+      firmware: "2.4.4",
+      pen: DEFAULT_PEN,
+    });
+    const rig = await newRig("2.4.4");
+    const stopStalling = rig.host.stallRegularly(1, 0.15);
+    const { streamer, report } = await play(rig, stream, { poll: { lines: ["QM"], everyS: 0.25 } });
+    stopStalling();
+    expect(stream.count / trajectory.totalS).toBeGreaterThan(130);
+    expect(report.exact).toBe(true);
+    expect(rig.board.statistics().underrunCount).toBe(0);
+    expect(streamer.underrunCount).toBe(0);
+  });
 
   it("starves the board when it waits for acknowledgements instead, and knows it", async () => {
     const rig = await newRig();

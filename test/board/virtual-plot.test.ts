@@ -125,6 +125,7 @@ for (const mode of MODES) {
     if (mode === "junction") return;
 
     it.each([
+      ["2.4.4", 7.5],
       ["2.5.3", 5],
       ["2.6.5", 5],
       ["2.7.0", 1],
