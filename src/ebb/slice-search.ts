@@ -47,6 +47,9 @@ const FREE_STEPS = 0.5;
 /** The same in the middle of a slice, where acceleration alone makes some. */
 const FREE_INSIDE_STEPS = 1;
 
+/** Squares of jumps from and to rest count as this much more: before or after it there may be another, the other way. */
+const REST_SHARE = 2;
+
 /** Ways that are kept of those that end in the same slot of time. */
 const WAYS = 4;
 const SLOT_TICKS = SHORTEST_MS * TICKS_PER_MS;
@@ -279,9 +282,10 @@ export class SliceSearch {
     samples.read(tick + ticks, at);
     o1.fill(ms, at[0]! - steps1, half1, at[2]! * SHORTEST_MS, ways.acc1[way]!, ways.speed1[way]!);
     o2.fill(ms, at[1]! - steps2, half2, at[3]! * SHORTEST_MS, ways.acc2[way]!, ways.speed2[way]!);
+    const share = ways.speed1[way] === 0 && ways.speed2[way] === 0 ? REST_SHARE : 1;
     for (let i = 0; i < OPTIONS; i++) {
       for (let j = 0; j < OPTIONS; j++) {
-        const added = this.jumpCost(o1.jump[i]! + o2.jump[j]!) + o1.off[i]! + o2.off[j]!;
+        const added = this.jumpCost(share * (o1.jump[i]! + o2.jump[j]!)) + o1.off[i]! + o2.off[j]!;
         const cost = ways.cost[way]! + added;
         this.offer(way, ms, i, j, cost, cost + o1.back[i]! + o2.back[j]!);
       }
@@ -370,8 +374,7 @@ export class SliceSearch {
     while (mostSteps(ms) < Math.max(Math.abs(steps1), Math.abs(steps2))) ms++;
     o1.set(0, ms, steps1, ways.acc1[way]!, ways.speed1[way]!);
     o2.set(0, ms, steps2, ways.acc2[way]!, ways.speed2[way]!);
-    // √2 times the speed: what comes next may set out the other way.
-    const toRest = 2 * (o1.speed[0]! * o1.speed[0]! + o2.speed[0]! * o2.speed[0]!);
+    const toRest = REST_SHARE * (o1.speed[0]! * o1.speed[0]! + o2.speed[0]! * o2.speed[0]!);
     const astrayMs = Math.max(0, Math.abs(left - this.ticksOf(ms, 0, 0)) / TICKS_PER_MS - 0.6);
     const jumps = this.jumpCost(o1.jump[0]! + o2.jump[0]!) + this.jumpCost(toRest);
     const cost = ways.cost[way]! + jumps + astrayMs * astrayMs;
