@@ -27,7 +27,10 @@ describe("a drawing put in the servers' queue for any plotter of a model", () =>
     await row.getByRole("button", { name: /^Its model: AxiDraw V3/ }).click();
     await row.getByText("taken", { exact: false }).waitFor();
     await row.getByText(/is left out/).waitFor({ state: "detached" });
-    expect((await test.jobs()).map(({ state }) => state)).toEqual(["queued"]);
+    // It is taken first, then planned, then in the queue.
+    await expect
+      .poll(async () => (await test.jobs()).map(({ state }) => state), { timeout: 30_000 })
+      .toEqual(["queued"]);
     expect(test.complaints).toEqual([]);
   });
 });
