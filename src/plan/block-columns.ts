@@ -73,6 +73,20 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
+  /** Appends block i of `from`, which has no jerk. */
+  pushFrom(from: BlockColumns, i: number): void {
+    this.push(
+      from.durationS[i]!,
+      from.x[i]!,
+      from.y[i]!,
+      from.vx[i]!,
+      from.vy[i]!,
+      from.ax[i]!,
+      from.ay[i]!,
+      from.alongMm[i]!,
+    );
+  }
+
   /** As `push`, with jerk. */
   pushJerk(
     durationS: number,

@@ -1,6 +1,6 @@
 /**
  * Fewer, longer pieces of constant acceleration: the fit of `junction` and `blend` plans, so that the board gets a
- * command every 50 to 400 ms on a curve instead of one every few ms.
+ * command every 50 to 500 ms on a curve instead of one every few ms.
  *
  *   plan     |--|-|--|-|-|--|------------------|--|-|-|--|-|            blocks
  *   pieces   |------|-------|------------------|-----|-----|
@@ -12,7 +12,8 @@
  *         velocity between them:  m = 2 Δp/T − (v0 + v1)/2,  a1 = 2 (m − v0)/T,  a2 = 2 (v1 − m)/T
  * kept    a block as planned: long, or a sharp corner, or where nothing else holds. Only from a state of the plan's.
  *
- * Where nothing goes on from a state beside the plan's, pieces are taken back until a pair leads onto the plan.
+ * Where nothing goes on from a state beside the plan's, pieces are taken back until a pair leads onto the plan. In the end
+ * neighbouring pieces are merged (merge-pieces.ts), but for `junction` plans.
  *
  * Two parabolas for an arc are slower in the middle of each than at their ends. At full speed pieces may
  * therefore take up to LATER of the plan's time, so that V holds at their ends.
@@ -21,12 +22,14 @@
  * they may run ahead or behind a little (`isBeside`). |a| ≤ A and |v| ≤ V within 0.1 %. Jumps of velocity at the
  * vertices of `junction` plans stay at the ends of pieces only.
  */
-import type { BlockColumns } from "./block-columns.js";
+import { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 import type { FitSettings, MotionMode } from "./settings.js";
+import { PieceMerger } from "./merge-pieces.js";
 import { PieceChain } from "./piece-chain.js";
+import { PieceNotes } from "./piece-notes.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
 import { SLACK } from "./three-jerks.js";
 
@@ -36,8 +39,8 @@ const BETWEEN = 0.985;
 /** Share of ε that a steady piece aims at: it is looked at less closely there. */
 const AIM = 0.92;
 
-/** Longest piece, s: older boards cannot be stopped within one. */
-const LONGEST_S = 0.4;
+/** Longest piece, s. */
+const LONGEST_S = 1;
 
 /** Longer blocks are kept as they are. */
 const KEPT_S = 0.2;
@@ -48,22 +51,18 @@ const SHARP = 0.755;
 /** At full speed pairs may take so much more time than the plan. */
 const LATER = 1.03;
 
-/** Times of the plan that a pair may take, the first that keeps A; and the pace of a steady piece where it cannot keep up. */
-const STRETCHES = [1, 1.02, 1.04, 1.06];
-const SLOWER = 0.95;
+/** Times of the plan that a pair may take, the first that keeps A. */
+const STRETCHES = [1, 1.03];
 
 /** What knots may use of the slack that limits have. */
 const HARDLY = 1.0004;
 
 /** Trials for one steady piece's length, and the length of the first piece of a run, s. */
-const TRIALS = 8;
+const TRIALS = 3;
 const FIRST_S = 0.06;
 
 /** The distance is looked at so many times at least, for a piece or a pair. */
 const LOOKS = 16;
-
-/** A steady piece is long enough when it comes to this share of ε. */
-const ENOUGH = 0.6;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
@@ -72,8 +71,11 @@ const LONG_PAIRS = 4;
 export class AccelerationFitter {
   private readonly source = new FitSource();
   private readonly steady: SteadyPiece;
+  private readonly merger: PieceMerger;
+  private readonly notes = new PieceNotes();
   private limits!: RunLimits;
-  private out!: BlockColumns;
+  /** The run's pieces until they are merged. */
+  private readonly out = new BlockColumns(0, false);
   /** v² times the line's bend is at most this; at a vertex of a `junction` plan it bends in no time. */
   private bend = 0;
   /** Where the next piece begins; whether that is the plan's own state at the beginning of block k. */
@@ -82,8 +84,6 @@ export class AccelerationFitter {
   /** First block that is to be kept, at or after `at.k`. */
   private anchor = 0;
   private guess = FIRST_S;
-  /** Seconds of the plan for each second of a steady piece. */
-  private pace = 1;
   /** What the next piece's length may be by that of the last one, by how near it came to ε. */
   private next = 1;
   /** Steady pieces since the last planned state: what `at`, and the count and clock of `out`, were before each. */
@@ -100,26 +100,39 @@ export class AccelerationFitter {
     private readonly settings: FitSettings,
     private readonly mode: MotionMode,
   ) {
+    this.merger = new PieceMerger(this.source, settings, this.notes);
     this.steady = new SteadyPiece(mode !== "junction");
   }
 
   /** Appends the run in `from`, all of its blocks up to `end`, to `out` in fewer pieces. */
   write(from: BlockColumns, end: RunEnd, limits: RunLimits, out: BlockColumns): void {
-    this.source.open(from, end, out);
+    const { out: pieces, mode } = this;
+    this.source.open(from, end);
     this.limits = limits;
-    this.bend = this.mode === "junction" ? Infinity : limits.accel;
-    this.out = out;
+    this.bend = mode === "junction" ? Infinity : limits.accel;
+    pieces.clear();
+    pieces.reserve(from.count + 1, 0);
+    this.notes.reserve(from.count + 1);
+    this.cover(from.count);
+    // Merged pieces may be anywhere on the line at an instant: not where velocity jumps.
+    if (mode !== "junction") this.merger.merge(pieces, limits);
+    out.reserve(pieces.count, end.segmentCount);
+    for (let i = 0; i < pieces.count; i++) out.pushFrom(pieces, i);
+  }
+
+  /** Puts pieces in `out` for all of the plan's blocks. */
+  private cover(blocks: number): void {
     this.chain.count = 0;
     this.anchor = 0;
     this.guess = FIRST_S;
     this.startPlanned(0);
     // Up to here only pairs and kept blocks: steady pieces have led nowhere.
     let calm = 0;
-    while (this.at.k < from.count) {
+    while (this.at.k < blocks) {
       this.findAnchor();
       if (this.isPlanned && this.at.k === this.anchor) this.keep();
       else if (this.reachAnchor()) continue;
-      else if (!(this.at.k >= calm && (this.advance(1) || this.advance(SLOWER))) && !this.join()) {
+      else if (!(this.at.k >= calm && this.advance()) && !this.join()) {
         if (this.isPlanned) this.keep();
         else calm = Math.max(calm, this.goBack());
       }
@@ -151,13 +164,12 @@ export class AccelerationFitter {
     this.anchor = k;
   }
 
-  /** Writes the longest steady piece at `pace` that is found; false where there is none worth it. */
-  private advance(pace: number): boolean {
+  /** Writes a steady piece, as long as is found; false where there is none worth it. */
+  private advance(): boolean {
     const { at, source } = this;
-    this.pace = pace;
     const left = source.startOf(this.anchor) - at.tau;
     const floor = this.settings.floorMs / 1000;
-    const least = Math.max(floor, (source.startOf(at.k + 1) - at.tau) / pace);
+    const least = Math.max(floor, source.startOf(at.k + 1) - at.tau);
     let most = Math.min(LONGEST_S, left > 3 * this.guess ? left / 2 : left / 3);
     while (most >= least) {
       const h = this.longest(Math.min(this.guess, most), least, most);
@@ -173,35 +185,24 @@ export class AccelerationFitter {
     return false;
   }
 
-  /** Duration of the longest steady piece found between `least` and `most`, its acceleration left in a1; or 0. */
+  /** Duration of a steady piece between `least` and `most`, `first` or else shorter, its acceleration left in a1; or 0. */
   private longest(first: number, least: number, most: number): number {
-    let h = Math.max(first, least);
-    let best = 0;
-    let [bestX, bestY] = [0, 0];
+    let h = Math.min(most, Math.max(first, least));
     for (let trial = 0; trial < TRIALS; trial++) {
       const share = this.tryPiece(h);
       const change = 1 / Math.cbrt(Math.max(share, 0.01));
-      if (share <= 1) {
-        best = h;
-        this.next = Math.min(1.5, Math.max(0.8, 0.95 * change));
-        bestX = this.a1x;
-        bestY = this.a1y;
-        if (share > ENOUGH || h >= most) break;
-        h = Math.min(most, h * Math.min(2, Math.max(1.1, 0.9 * change)));
-      } else {
-        if (best > 0 || h <= least) break;
-        h = Math.max(least, h * Math.max(0.4, Math.min(0.8, 0.85 * change)));
-      }
+      this.next = Math.min(1.5, Math.max(0.8, 0.95 * change));
+      if (share <= 1) return h;
+      if (h <= least) return 0;
+      h = Math.max(least, h * Math.max(0.4, Math.min(0.8, 0.85 * change)));
     }
-    this.a1x = bestX;
-    this.a1y = bestY;
-    return best;
+    return 0;
   }
 
   /** One trial: the distance from the line as a share of what is allowed; 2 where a limit is broken. */
   private tryPiece(h: number): number {
     const { at, steady, limits } = this;
-    steady.solve(this.source.blocks, at, h, this.pace);
+    steady.solve(this.source.blocks, at, h);
     let vx = at.vx + h * steady.ax;
     let vy = at.vy + h * steady.ay;
     const v = Math.sqrt(vx * vx + vy * vy);
@@ -217,14 +218,14 @@ export class AccelerationFitter {
   }
 
   private writeSteady(): void {
-    const { at, h1: h, pace, source } = this;
+    const { at, h1: h, source } = this;
     this.chain.push(at, this.out);
-    this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
+    this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau), at.tau);
     this.isPlanned = false;
     // τ goes to where the plan is nearest.
     const { x, y, vx, vy, ax, ay, startS } = source.blocks;
     const end = source.startOf(this.anchor);
-    let tau = at.tau + h * pace;
+    let tau = at.tau + h;
     let k = at.k;
     while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
     const d = tau - startS[k]!;
@@ -234,7 +235,7 @@ export class AccelerationFitter {
     const py = y[k]! + (d * (vy[k]! + wy)) / 2;
     const w2 = wx * wx + wy * wy;
     if (w2 > 0) tau += ((at.x - px) * wx + (at.y - py) * wy) / w2;
-    tau = Math.min(Math.max(tau, at.tau + (h * pace) / 2), end - h / 2);
+    tau = Math.min(Math.max(tau, at.tau + h / 2), end - h / 2);
     while (k > at.k && startS[k]! > tau) k--;
     while (k + 1 < this.anchor && startS[k + 1]! <= tau) k++;
     at.tau = tau;
@@ -313,14 +314,14 @@ export class AccelerationFitter {
     // Steady pieces and the pair are one way from planned state to planned state.
     if (this.isWorth(this.chain.firstBlock(at.k), m, this.chain.count + 2)) {
       const length = source.startOf(m) - at.tau;
-      this.push(this.h1, this.a1x, this.a1y, source.alongAt(at.k, at.tau));
+      this.push(this.h1, this.a1x, this.a1y, source.alongAt(at.k, at.tau), at.tau);
       const half = at.tau + length / 2;
       let k = at.k;
       while (k + 1 < m && source.startOf(k + 1) <= half) k++;
-      this.push(this.h2, this.a2x, this.a2y, source.alongAt(k, half));
+      this.push(this.h2, this.a2x, this.a2y, source.alongAt(k, half), half);
     } else {
       while (chain.count > 0) chain.pop(at, out);
-      for (let k = at.k; k < m; k++) source.copy(k, out);
+      for (let k = at.k; k < m; k++) this.copy(k);
     }
     this.startPlanned(m);
   }
@@ -355,8 +356,13 @@ export class AccelerationFitter {
   }
 
   private keep(): void {
-    this.source.copy(this.at.k, this.out);
+    this.copy(this.at.k);
     this.startPlanned(this.at.k + 1);
+  }
+
+  private copy(k: number): void {
+    this.notes.tau[this.out.count] = this.source.startOf(k);
+    this.source.copy(k, this.out);
   }
 
   private startPlanned(k: number): void {
@@ -373,8 +379,9 @@ export class AccelerationFitter {
   }
 
   /** Writes one piece and goes to its end. */
-  private push(h: number, ax: number, ay: number, along: number): void {
+  private push(h: number, ax: number, ay: number, along: number, tau: number): void {
     const { at } = this;
+    this.notes.tau[this.out.count] = tau;
     this.out.push(h, at.x, at.y, at.vx, at.vy, ax, ay, along);
     at.x += h * (at.vx + (h * ax) / 2);
     at.y += h * (at.vy + (h * ay) / 2);
@@ -400,8 +407,8 @@ export class AccelerationFitter {
     const { at, source } = this;
     const { blocks } = source;
     const isPair = length < Infinity;
-    const end = at.tau + (isPair ? length : this.h1 * this.pace);
-    const stretch = isPair ? (this.h1 + this.h2) / length : 1 / this.pace;
+    const end = at.tau + (isPair ? length : this.h1);
+    const stretch = isPair ? (this.h1 + this.h2) / length : 1;
     const most = BETWEEN * this.settings.toleranceMm;
     const often = LOOKS / (end - at.tau);
     for (let i = at.k; i < blocks.count; i++) {

@@ -41,7 +41,8 @@ export class JerkFitter {
 
   /** Appends the run in `from`, all of its blocks up to `end`, to `out` in fewer pieces. */
   write(from: BlockColumns, end: RunEnd, limits: RunLimits, out: BlockColumns): void {
-    this.source.open(from, end, out);
+    this.source.open(from, end);
+    out.reserve(Math.min(from.count, end.segmentCount), end.segmentCount);
     this.limits = limits;
     let guess = 4;
     for (let k = 0; k < from.count;) {

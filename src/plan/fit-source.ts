@@ -6,11 +6,10 @@ export class FitSource {
   blocks!: BlockColumns;
   private end!: RunEnd;
 
-  /** Reads all of `blocks`, which start their clock at 0, from now on; makes room in `out` for what they may become. */
-  open(blocks: BlockColumns, end: RunEnd, out: BlockColumns): void {
+  /** Reads all of `blocks`, which start their clock at 0, from now on. */
+  open(blocks: BlockColumns, end: RunEnd): void {
     this.blocks = blocks;
     this.end = end;
-    out.reserve(Math.min(blocks.count, end.segmentCount), end.segmentCount);
   }
 
   /** Start of block k, s; of the one after the last: the run's end. */

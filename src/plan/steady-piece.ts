@@ -5,7 +5,7 @@
  *   from place X, velocity W:   q(u) = X + W u + a₁ φ₁(u) + a₂ φ₂(u)       0 ≤ u ≤ 2 h
  *   φ₁ = u²/2, after h: h u − h²/2          φ₂ = 0, after h: (u − h)²/2
  *
- *   minimise  Σ ‖q(uᵢ) − p(τ + σ uᵢ)‖²  over ten instants of the plan p at the pace σ, where being beside the line counts fully
+ *   minimise  Σ ‖q(uᵢ) − p(τ + uᵢ)‖²  over eight instants of the plan p, where being beside the line counts fully
  *   and being early or late on it by ALONG² of that:   ‖d‖² = (d·n)² + ALONG² (d·t)²
  *
  * With N = n nᵀ + ALONG² t tᵀ that is a symmetric system of 2 × 2 blocks
@@ -16,7 +16,7 @@
 import type { BlockColumns } from "./block-columns.js";
 
 /** Instants looked at, in each of the two pieces. */
-const LOOKS = 5;
+const LOOKS = 4;
 
 /** How much being early or late on the line weighs against being beside it. */
 const ALONG = 0.06;
@@ -53,8 +53,8 @@ export class SteadyPiece {
     this.along2 = mayShift ? ALONG * ALONG : 1;
   }
 
-  /** Finds the piece of `h` seconds from `start` at `pace`; the plan must go on for 2 h pace at least. */
-  solve(from: BlockColumns, start: PieceStart, h: number, pace: number): void {
+  /** Finds the piece of `h` seconds from `start`; the plan must go on for 2 h at least. */
+  solve(from: BlockColumns, start: PieceStart, h: number): void {
     const { along2, rx, ry, nx, ny } = this;
     const { startS, x, y, vx, vy, ax, ay } = from;
     const last = from.count - 1;
@@ -74,7 +74,7 @@ export class SteadyPiece {
     let cy = 0;
     for (let s = 0; s < 2 * LOOKS; s++) {
       const u = U[s]! * h;
-      const t = start.tau + u * pace;
+      const t = start.tau + u;
       while (i < last && startS[i + 1]! <= t) i++;
       const d = t - startS[i]!;
       const wx = vx[i]! + d * ax[i]!;
