@@ -6,7 +6,6 @@
  * import the file again, and a change of margin does not either.
  */
 import {
-  importSvg,
   findMachine,
   penStopsOf,
   placeDrawing,
@@ -133,10 +132,13 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
   return imported.drawing;
 }
 
-/** The readers of other formats than SVG are fetched when the first such file is opened. */
+/** The reader of a format is fetched when the first such file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
   const text = typeof content === "string" ? content : new TextDecoder().decode(content);
-  if (/^[\ufeff\s]*</.test(text)) return importSvg(text);
+  if (/^[\ufeff\s]*</.test(text)) {
+    const { importSvg } = await import("./svg-format.js");
+    return importSvg(text);
+  }
   const { importDrawing } = await import("./other-formats.js");
   return importDrawing("", text);
 }

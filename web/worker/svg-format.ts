@@ -1,0 +1,2 @@
+/** The reader of SVG: a file of its own, so that an empty page need not fetch it. */
+export { importSvg } from "../../src/index.js";
