@@ -1,4 +1,8 @@
-/** `npx tsx scripts/true-corners.ts`: what one corner costs under each rule and at least, for docs/comparison.md. */
+/**
+ * `npx tsx scripts/true-corners.ts`: what one corner costs under each rule and at least, and how much longer blend takes for
+ * whole polygons than junction, for docs/comparison.md.
+ */
+import { DEFAULT_PEN, plan, type MotionMode, type StrokeSet } from "../src/index.js";
 import { blendLoss, junctionLoss, leastLoss } from "../test/support/corner-bound.js";
 
 const LIMITS = { accel: 500, deviation: 0.05 };
@@ -16,4 +20,34 @@ for (const deg of [30, 45, 60, 90, 120, 150]) {
     const row = [junctionLoss(corner), blendLoss(corner, SIDE), least].map(ms).join(" | ");
     console.log(`| ${String(deg).padStart(3)}° | ${String(speed).padStart(6)} | ${row} |`);
   }
+}
+
+const SIDES_MM = [0.5, 1, 2, 5, 20];
+console.log(`\n| corners | ${SIDES_MM.map((side) => `${side} mm`.padStart(6)).join(" | ")} |`);
+console.log(`| ------: |${" -----: |".repeat(SIDES_MM.length)}`);
+for (const corners of [3, 4, 6, 8, 12]) {
+  const row = SIDES_MM.map((side) => {
+    const polygon = regularPolygon(corners, side);
+    const percent = 100 * (drawS("blend", polygon) / drawS("junction", polygon) - 1);
+    return `${percent > 0 ? "+" : ""}${percent.toFixed(1)} %`.padStart(6);
+  });
+  console.log(`| ${String(corners).padStart(7)} | ${row.join(" | ")} |`);
+}
+
+function regularPolygon(corners: number, side: number): StrokeSet {
+  const radius = side / 2 / Math.sin(Math.PI / corners);
+  const angles = Array.from({ length: corners + 1 }, (_, i) => (2 * Math.PI * i) / corners);
+  return {
+    xy: Float64Array.from(angles.flatMap((a) => [100 + radius * Math.cos(a), 100 + radius * Math.sin(a)])),
+    offsets: Uint32Array.of(0, corners + 1),
+    layer: Uint16Array.of(0),
+    layers: [{ id: "1", name: "", color: null }],
+  };
+}
+
+function drawS(mode: MotionMode, polygon: StrokeSet): number {
+  const draw = { speedMmPerS: 50, accelMmPerS2: LIMITS.accel, cornerMm: LIMITS.deviation, jerkMmPerS3: 1e4 };
+  const start = { startX: polygon.xy[0], startY: polygon.xy[1], returnHome: false };
+  const pen = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
+  return plan(polygon, { mode, draw, travel: draw, fit: null }, pen, start).totalS;
 }

@@ -11,7 +11,7 @@
  * up. Linear in the number of blocks.
  */
 import type { Trajectory } from "../plan/trajectory.js";
-import { rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../units.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../units.js";
 import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace, type RunWriter } from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "./limits.js";
 import type { RunWalk } from "./run-walk.js";
@@ -19,6 +19,9 @@ import type { StreamColumns } from "./stream-columns.js";
 
 /** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
+
+/** Off the line by half a step, as a rate for one tick. */
+const MOST_OFF_RATE = ACCUMULATOR_RANGE / 2;
 
 /** 32 steps/s, 0.4 mm/s at 80 steps/mm. */
 const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
@@ -55,6 +58,7 @@ export class LegRuns implements RunWriter {
       const tick = columns.boardTicks;
       this.cut(tick, block, notBefore);
       this.aim(leg, tick, block);
+      if (this.writer.turnTicks > 0 && this.cutShort(leg, tick, block, notBefore)) this.aim(leg, tick, block);
       if (this.writeLeg(leg)) {
         notBefore = 0;
         block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
@@ -137,6 +141,26 @@ export class LegRuns implements RunWriter {
     return Infinity;
   }
 
+  /**
+   * A motor that turns back too near to a leg's end for a leg of its own is driven without turning, which on a long leg
+   * takes it off the line by a quarter of that speed times the leg's time: then the turn gets the shortest leg. True: cut anew.
+   */
+  private cutShort({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
+    const { walk, writer } = this;
+    const motor = backwards(m1) > backwards(m2) ? m1 : m2;
+    if (backwards(motor) * ticks <= 4 * MOST_OFF_RATE || ticks < 2 * writer.minTicks) return false;
+    const soonest = Math.max(tick + writer.minTicks, notBefore);
+    const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
+    const end = isAtStart ? soonest : Math.max(soonest, this.cutTick - writer.minTicks);
+    if (end >= this.cutTick) return false;
+    let k = walk.blockAt(end, block);
+    while (k > block && walk.endTick(k - 1) >= end) k--;
+    this.cutTick = end;
+    this.cutBlock = k;
+    this.cutIsRunEnd = false;
+    return true;
+  }
+
   private aim(leg: Leg, tick: number, block: number): void {
     const { walk } = this;
     walk.startLegs(tick, block, leg.m1, leg.m2);
@@ -207,6 +231,9 @@ const peakRate = (motor: MotorLeg, ticks: number): number =>
 
 const meanRate = (motor: MotorLeg, ticks: number): number =>
   Math.abs(rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S));
+
+/** The lesser of the speeds at its ends, where they are opposite ones. */
+const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
 
 /** The way differs from what the mean of the two speeds would cover. */
 function isBent(motor: MotorLeg, ticks: number): boolean {

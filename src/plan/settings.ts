@@ -49,7 +49,7 @@ export const DEFAULT_FIT: FitSettings = { toleranceMm: 0.02, floorMs: 15 };
 
 export const DEFAULT_MOTION: MotionSettings = {
   mode: "blend",
-  draw: { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.03, jerkMmPerS3: 10_000 },
+  draw: { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.025, jerkMmPerS3: 10_000 },
   travel: { speedMmPerS: 150, accelMmPerS2: 1_000, cornerMm: 0.5, jerkMmPerS3: 20_000 },
   fit: DEFAULT_FIT,
 };

@@ -1,7 +1,7 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
 import { MOTION_MODES, type MotionMode } from "../../src/index.js";
-import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
+import { drawnMm, DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 
 /** Pause to held: what is in flight (a window and a command), slowing down from 150 mm/s, the lift, a poll. */
 const HELD_WITHIN_S = 0.5 + 0.15 + 0.25 + 0.05;
@@ -10,7 +10,7 @@ const HELD_WITHIN_S = 0.5 + 0.15 + 0.25 + 0.05;
 async function wholeMm(mode: MotionMode): Promise<number> {
   const { world, board, run } = await plotting(mode);
   await world.run(run.finished);
-  return board.statistics().drawnMm;
+  return drawnMm(board);
 }
 
 describe("a hold at any instant", () => {
@@ -36,7 +36,7 @@ describe("a hold at any instant", () => {
         expect(Math.max(0, ...seamsMm(board))).toBeLessThan(0.02);
         expectDrawn(board, DRAWING, 0.05 + 0.02);
         // Nor a longer stretch, whose ends would lie apart.
-        expect(board.statistics().drawnMm).toBeCloseTo(undisturbedMm, 0);
+        expect(drawnMm(board)).toBeCloseTo(undisturbedMm, 0);
         expect(board.statistics().underrunCount).toBe(0);
       }
     },
@@ -78,8 +78,9 @@ describe("an emergency stop at any instant", () => {
         expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
         expect(Math.max(0, ...seamsMm(board))).toBeLessThan(0.02);
         expectDrawn(board, DRAWING, 0.05 + 0.02);
-        // Nor a longer stretch, whose ends would lie apart.
-        expect(board.statistics().drawnMm).toBeCloseTo(undisturbedMm, 0);
+        // Nor a longer stretch, whose ends would lie apart. Near the tip of 0.9° both its sides pass within a step of the pen, and the
+        // counters do not say on which it is: at most that little tip is drawn again.
+        expect(Math.abs(drawnMm(board) - undisturbedMm)).toBeLessThan(1);
       }
     },
   );

@@ -1,4 +1,5 @@
 /** A plot on the virtual board by a clock that the test leads, and what is to be said of the line that it drew. */
+import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 import type { LivePlotRun } from "../../server/plotter/types.js";
@@ -77,6 +78,22 @@ export function seamsMm(board: VirtualBoard): number[] {
     if (mm < 2) seams.push(mm);
   }
   return seams;
+}
+
+/**
+ * mm drawn, without the steps' own zigzag, which makes up to a twentieth more of a line by how the two motors' steps happen to
+ * fall.
+ */
+export function drawnMm(board: VirtualBoard): number {
+  let sum = 0;
+  for (const xy of lines(board)) {
+    const whole = { xy, offsets: Uint32Array.of(0, xy.length / 2), tag: Uint32Array.of(0) };
+    const { xy: kept } = simplifyLines(whole, 0.02);
+    for (let i = 2; i < kept.length; i += 2) {
+      sum += Math.hypot(kept[i]! - kept[i - 2]!, kept[i + 1]! - kept[i - 1]!);
+    }
+  }
+  return sum;
 }
 
 export function seeded(seed: number): () => number {

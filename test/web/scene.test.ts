@@ -95,7 +95,8 @@ describe("the scene", () => {
       const { vx, vy } = stateAt(trajectory, inside);
       const low = Math.min(piece.speed0, piece.speed1) * scene.topDrawMmPerS;
       const high = Math.max(piece.speed0, piece.speed1) * scene.topDrawMmPerS;
-      expect(Math.hypot(vx, vy)).toBeGreaterThan(low - 0.2);
+      // In the middle of a corner's curve the pen is a little slower than at both ends of a piece.
+      expect(Math.hypot(vx, vy)).toBeGreaterThan(low - 0.01 * scene.topDrawMmPerS);
       expect(Math.hypot(vx, vy)).toBeLessThan(high + 0.2);
     }
   });
@@ -167,7 +168,7 @@ describe("hovering", () => {
     expect(found.strokeNumber).toBe(1);
     const state = stateAt(trajectory, found.tS);
     expect(state.x).toBeCloseTo(30, 1);
-    expect(state.y).toBeCloseTo(10, 6);
+    expect(Math.abs(state.y - 10)).toBeLessThanOrEqual(DEFAULT_MOTION.draw.cornerMm);
     expect(found.speedMmPerS).toBeCloseTo(Math.hypot(state.vx, state.vy), 9);
   });
 
