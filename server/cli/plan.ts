@@ -4,6 +4,7 @@ import {
   PlotwrightError,
   importDrawing,
   machineOf,
+  motionForFirmware,
   plan,
   compile,
   pointCount,
@@ -116,7 +117,8 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
   const { motion, pen } = withLayerCodes(settings, job.prepared.strokes.layers);
-  const trajectory = plan(job.prepared.strokes, motion, pen, { machine, liftFirst: true });
+  const followed = motionForFirmware(motion, options.firmware);
+  const trajectory = plan(job.prepared.strokes, followed, pen, { machine, liftFirst: true });
   const planMs = clock();
   const commands = compile(trajectory, {
     machine,

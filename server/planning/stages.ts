@@ -7,6 +7,7 @@ import {
   checkBounds,
   compile,
   importDrawing,
+  motionForFirmware,
   plan,
   prepare,
   prepareSettingsOf,
@@ -65,7 +66,7 @@ export function planAndCompile(
   const { from, until } = request;
   const settings = withLayerCodes(request.settings, prepared.strokes.layers);
   const strokes = until === null ? prepared.strokes : firstStrokes(prepared.strokes, until);
-  const trajectory = plan(strokes, settings.motion, settings.pen, {
+  const trajectory = plan(strokes, motionForFirmware(settings.motion, request.firmware), settings.pen, {
     ...(from === null ? {} : { from }),
     startX: request.startXMm,
     startY: request.startYMm,

@@ -8,6 +8,7 @@
 import {
   compile,
   machineOf,
+  motionForFirmware,
   parseSteps,
   plan,
   PlotwrightError,
@@ -257,7 +258,7 @@ export class Carriage {
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
-    const trajectory = planWalk(from.x, from.y, x, y, settings);
+    const trajectory = planWalk(from.x, from.y, x, y, this.followed(settings));
     if (trajectory.blockCount === 0) return;
     await this.playTrajectory(trajectory, settings);
   }
@@ -268,7 +269,12 @@ export class Carriage {
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
-    await this.playTrajectory(shifted(plan(strokes, settings.motion, settings.pen), x, y), settings);
+    const { motion, pen } = this.followed(settings);
+    await this.playTrajectory(shifted(plan(strokes, motion, pen), x, y), settings);
+  }
+
+  private followed(settings: PlotSettings): PlotSettings {
+    return { ...settings, motion: motionForFirmware(settings.motion, this.connection.features.version) };
   }
 
   private async playTrajectory(trajectory: Trajectory, settings: PlotSettings): Promise<void> {

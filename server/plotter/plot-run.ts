@@ -90,7 +90,7 @@ export class CarriageRun implements LivePlotRun {
     private readonly start: PlotStart = {},
   ) {
     this.strokes = planner.strokes;
-    this.settings = new RunSettings(settings, this.strokes);
+    this.settings = new RunSettings(settings, this.strokes, carriage.connection.features.version);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
     this.stream = new RunStream(carriage, this.strokes, this.settings, this.progress, {
       tell: (progress) => this.tell(progress),

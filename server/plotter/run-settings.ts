@@ -1,6 +1,7 @@
 /** The settings of a plot under way, as they were changed on the way. */
 import {
   drawLimitsOf,
+  motionForFirmware,
   penOfLayer,
   settingsIdOf,
   withLayerCodes,
@@ -17,6 +18,7 @@ export class RunSettings {
   constructor(
     public current: PlotSettings,
     private readonly strokes: StrokeSet,
+    private readonly firmware: string,
   ) {}
 
   change({ pen, motion, speedPct }: PlotChange): void {
@@ -50,7 +52,8 @@ export class RunSettings {
   /** What the layer of a place brakes and lifts with: as it was planned. */
   at(place: Place | null): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
     const { layer, layers } = this.strokes;
-    const { motion, pen } = withLayerCodes(this.current, layers);
+    const followed = motionForFirmware(this.current.motion, this.firmware);
+    const { motion, pen } = withLayerCodes({ ...this.current, motion: followed }, layers);
     const own = place ? layers[layer[place.stroke]!] : undefined;
     const travelAccel = motion.travel.accelMmPerS2;
     if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };

@@ -5,7 +5,6 @@
  */
 import { afterAll, describe, expect, it } from "vitest";
 import {
-  ALLOWED_DRAWN_SLICE_JUMP,
   ALLOWED_MM,
   allowedJump,
   FIRMWARE,
@@ -44,8 +43,6 @@ describe("a sample plotted three times in a row", () => {
     expect(row.offMm).toBeLessThan(ALLOWED_MM);
     expect(row.missedMm).toBeLessThan(ALLOWED_MM);
     expect(row.jumpMmPerS).toBeLessThanOrEqual(allowedJump(mode, firmware) ?? Infinity);
-    if (mode !== "junction")
-      expect(row.drawnSliceJumpMmPerS ?? 0).toBeLessThanOrEqual(ALLOWED_DRAWN_SLICE_JUMP);
   });
 
   it("covers each sample, and each firmware in each mode", () => {

@@ -3,7 +3,14 @@
  * is what happens, and what is drawn is the drawing.
  */
 import { describe, expect, it } from "vitest";
-import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type MotionMode } from "../../src/index.js";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  machineById,
+  motionForFirmware,
+  plan,
+  type MotionMode,
+} from "../../src/index.js";
 import { SegmentGrid } from "../support/segment-grid.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { FastBoard } from "../support/virtual-plots.js";
@@ -125,7 +132,7 @@ for (const mode of MODES) {
     if (mode === "junction") return;
 
     it.each([
-      ["2.4.4", 7.5],
+      ["2.4.4", 5],
       ["2.5.3", 5],
       ["2.6.5", 5],
       ["2.7.0", 1],
@@ -133,7 +140,8 @@ for (const mode of MODES) {
       ["3.0.3", 1],
     ] as const)("joins its commands on firmware %s within %f mm/s", (firmware, limit) => {
       const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
-      fast.play(fast.compile(trajectory));
+      const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
+      fast.play(fast.compile(plan(DRAWING, motion, DEFAULT_PEN)));
       expect(fast.board.statistics().largestJumpMmPerS).toBeLessThanOrEqual(limit);
     });
   });

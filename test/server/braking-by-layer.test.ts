@@ -40,7 +40,7 @@ const mostAccel = ({ blockCount, ax, ay }: Trajectory): number => {
 };
 
 describe("a stop in the middle of a stroke", () => {
-  const settings = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES);
+  const settings = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES, "2.8.1");
   const trajectory = plan(STROKES, MOTION, DEFAULT_PEN);
   const { runs } = trajectory;
 
@@ -65,6 +65,13 @@ describe("a stop in the middle of a stroke", () => {
       expect(most).toBeGreaterThan(0.95 * ACCEL[layer]);
     },
   );
+
+  it("is as gentle as the plan on firmware that takes constant speeds only", () => {
+    const old = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES, "2.4.4");
+    const drawAccels = SHAPES.map((_, stroke) => old.at({ stroke, alongMm: 1 }).limits.drawAccel);
+    expect(drawAccels).toEqual([ACCEL.slow, ACCEL.slow, ACCEL.plain, ACCEL.plain, 500, 500]);
+    expect(old.at(null).limits.travelAccel).toBe(500);
+  });
 
   it("on the way between strokes uses that of travel", () => {
     expect(settings.at(null).limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);

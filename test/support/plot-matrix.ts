@@ -5,11 +5,13 @@
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import {
+  compareFirmware,
   DEFAULT_MOTION,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   importSvg,
   machineById,
+  motionForFirmware,
   plan,
   prepare,
   type MotionMode,
@@ -17,7 +19,6 @@ import {
 } from "../../src/index.js";
 import { ROOT } from "../../scripts/setup.mjs";
 import { SegmentGrid } from "./segment-grid.js";
-import { largestJumps, slicesOf } from "./slices.js";
 import { FastBoard } from "./virtual-plots.js";
 
 export const SAMPLES = [
@@ -40,13 +41,8 @@ export const ALLOWED_MM = DEFAULT_MOTION.draw.cornerMm + DEFAULT_MOTION.fit!.tol
 /** Largest change of speed between two commands, mm/s; null: what the mode's corners jump by is the plan's. */
 export function allowedJump(mode: MotionMode, firmware: Firmware): number | null {
   if (mode === "junction") return null;
-  // Slices of 5 ms: travel at 1 000 mm/s² makes 5 mm/s of it, whole steps the rest.
-  if (firmware === "2.4.4") return 7.5;
-  return firmware === "2.5.3" || firmware === "2.6.5" ? 5 : 1;
+  return compareFirmware(firmware, "2.7.0") < 0 ? 5 : 1;
 }
-
-/** The same with the pen down, where slices do better than this. */
-export const ALLOWED_DRAWN_SLICE_JUMP = 5;
 
 export interface MatrixRow {
   readonly sample: Sample;
@@ -65,8 +61,6 @@ export interface MatrixRow {
   readonly offMm: number;
   readonly missedMm: number;
   readonly jumpMmPerS: number;
-  /** Of slices, with the pen down; null for other commands. */
-  readonly drawnSliceJumpMmPerS: number | null;
   /** Seconds that one motor waited for the other within a command. */
   readonly motorWaitS: number;
 }
@@ -85,23 +79,20 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
 /** Plots a sample so many times in a row, without homing in between. */
 export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, plots = 3): MatrixRow {
   const { strokes, grid } = strokesOf(sample);
-  const trajectory = plan(strokes, { ...DEFAULT_MOTION, mode }, DEFAULT_PEN, { machine: MACHINE });
+  const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
+  const trajectory = plan(strokes, motion, DEFAULT_PEN, { machine: MACHINE });
   const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
   let firstWrong: string | null = null;
   let timeShare = 0;
   let commands = 0;
   let lineCount = 0;
-  let drawnSliceJumpMmPerS: number | null = null;
   for (let i = 0; i < plots; i++) {
     const stream = fast.compile(trajectory);
     const played = fast.play(stream);
     commands = stream.count;
     firstWrong ??= played.firstWrong;
     timeShare = Math.max(timeShare, Math.abs(played.boardS / trajectory.totalS - 1));
-    if (i > 0) continue;
-    lineCount = fast.board.drawn().length;
-    const slices = slicesOf(stream, trajectory);
-    if (slices.length > stream.count / 2) drawnSliceJumpMmPerS = largestJumps(MACHINE, slices).drawn;
+    if (i === 0) lineCount = fast.board.drawn().length;
   }
   const { steps1, steps2 } = fast.board.state();
   const statistics = fast.board.statistics();
@@ -111,7 +102,6 @@ export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, 
     planS: trajectory.totalS,
     endSteps: [steps1, steps2],
     errors: fast.errors,
-    drawnSliceJumpMmPerS,
     jumpMmPerS: statistics.largestJumpMmPerS,
     motorWaitS: statistics.longestMotorWaitS,
   };

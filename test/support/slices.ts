@@ -31,25 +31,21 @@ export function slicesOf(stream: CommandStream, trajectory: Trajectory): Slice[]
   return slices;
 }
 
-/** Largest change of speed between slices, from and to rest included, mm/s: with the pen down, and with it up. */
-export function largestJumps(
-  machine: MachineProfile,
-  slices: readonly Slice[],
-): { drawn: number; travelled: number } {
-  const largest = { drawn: 0, travelled: 0 };
+/** Largest change of speed between slices, from and to rest included, mm/s. */
+export function largestJump(machine: MachineProfile, slices: readonly Slice[]): number {
+  let largest = 0;
   let v1 = 0;
   let v2 = 0;
-  const turnTo = (next1: number, next2: number, isDrawn: boolean): void => {
+  const turnTo = (next1: number, next2: number): void => {
     const x = xFromMotors(machine, next1 - v1, next2 - v2);
     const y = yFromMotors(machine, next1 - v1, next2 - v2);
-    const key = isDrawn ? "drawn" : "travelled";
-    largest[key] = Math.max(largest[key], Math.hypot(x, y));
+    largest = Math.max(largest, Math.hypot(x, y));
     v1 = next1;
     v2 = next2;
   };
-  for (const { ms, steps1, steps2, isDrawn, isLast } of slices) {
-    turnTo((1_000 * steps1) / ms, (1_000 * steps2) / ms, isDrawn);
-    if (isLast) turnTo(0, 0, isDrawn);
+  for (const { ms, steps1, steps2, isLast } of slices) {
+    turnTo((1_000 * steps1) / ms, (1_000 * steps2) / ms);
+    if (isLast) turnTo(0, 0);
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 import {
   compile,
   machineOf,
+  motionForFirmware,
   plan,
   plotLines,
   svgOptionsOf,
@@ -23,7 +24,8 @@ export const exportText = (
   if (format === "json") return JSON.stringify(toJson(strokes, { widthMm, heightMm }));
   const machine = machineOf(settings);
   const { motion, pen } = withLayerCodes(settings, strokes.layers);
-  const trajectory = plan(strokes, motion, pen, { machine, liftFirst: true });
+  const followed = motionForFirmware(motion, firmware);
+  const trajectory = plan(strokes, followed, pen, { machine, liftFirst: true });
   const commands = compile(trajectory, { machine, firmware, pen });
   return `${plotLines(commands, { machine, firmware, pen }).join("\n")}\n`;
 };
