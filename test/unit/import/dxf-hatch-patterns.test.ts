@@ -1,17 +1,7 @@
-/** Patterns of hatches as lines, and their elliptical borders. The frame is 100 × 100 mm; on the page y runs down from 100. */
+/** Patterns of hatches as lines, and their elliptical borders. On the page y runs down from 100. */
 import { describe, expect, it } from "vitest";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { drawDxf } from "./support/dxf.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
-
-const FRAME = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 100\n20 0\n10 100\n20 100\n10 0\n20 100";
-
-const draw = (entities: string) => {
-  const head = "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 4\n0 ENDSEC\n0 SECTION\n2 ENTITIES";
-  return importDrawing(
-    "a.dxf",
-    `${head}\n${FRAME}\n${entities}\n0 ENDSEC\n0 EOF`.replace(/^(\d+) /gm, "$1\n"),
-  );
-};
 
 interface Line {
   readonly angle: number;
@@ -34,7 +24,7 @@ const circle = "92 1\n93 1\n72 2\n10 50\n20 50\n40 30\n50 0\n51 360\n73 1\n97 0"
 
 /** The lines of the hatch as "x y x y". */
 const linesOf = (paths: string, lines: readonly Line[], style = 0): string[] =>
-  shapesOf(draw(hatch(paths, lines, style)))[1]!
+  shapesOf(drawDxf(hatch(paths, lines, style)))[1]!
     .split("M")
     .slice(1)
     .map((line) => line.replace("L", " "));
@@ -44,7 +34,7 @@ const LEVEL: Line = { angle: 0, base: [0, 5], offset: [0, 10] };
 
 describe("the pattern of a HATCH", () => {
   it("is drawn as lines in the hatch's colour, without a fill, and needs no warning", () => {
-    const drawing = draw(hatch(`91 1\n${square(10, 50)}`, [LEVEL]));
+    const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, [LEVEL]));
     expect(shapesOf(drawing)[1]).toBe("M10 85L50 85M10 75L50 75M10 65L50 65M10 55L50 55");
     expect(drawing.colors[drawing.paths.stroke[1]!]).toBe("#00ff00");
     expect(drawing.paths.fill[1]).toBe(-1);
@@ -111,7 +101,7 @@ describe("the pattern of a HATCH", () => {
     ["has more lines than a pen could draw", [{ angle: 0, offset: [0, 1e-6] }]],
     ["has more dashes than a pen could draw", [{ ...LEVEL, dashes: [1e-6, -1e-6] }]],
   ] as [string, Line[]][])("is taken as a filled shape, with a word, where it %s", (_what, lines) => {
-    const drawing = draw(hatch(`91 1\n${square(10, 50)}`, lines));
+    const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, lines));
     expect(shapesOf(drawing)[1]).toBe("M10 90L50 90L50 50L10 50Z");
     expect(drawing.paths.stroke[1]).toBe(-1);
     expect(codes(drawing)).toEqual(["gradient-fill"]);
@@ -151,7 +141,7 @@ describe("an elliptical edge of a HATCH", () => {
       ]) {
         const edge = `72 3\n10 50\n20 50\n11 ${axis[0]}\n21 ${axis[1]}\n40 0.5\n50 ${first}\n51 ${last}\n73 ${ccw}`;
         const solid = hatch(`91 1\n92 1\n93 2\n${edge}\n${chord}\n97 0`, []).replace("70 0", "70 1");
-        const points = pointsOf(draw(solid), 1);
+        const points = pointsOf(drawDxf(solid), 1);
         const gapTo = ([x, y]: [number, number]): number =>
           Math.min(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
         expect(Math.hypot(points[0]![0] - start[0], points[0]![1] - start[1])).toBeLessThan(1e-3);

@@ -1,39 +1,13 @@
 import { describe, expect, it } from "vitest";
-import { importDrawing } from "../../../src/import/import-drawing.js";
 import type { ImportOptions } from "../../../src/import/import-options.js";
-import type { TextFont } from "../../../src/import/text-font.js";
+import { boxes, drawDxf } from "./support/dxf.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
-/** Groups as "code value" lines, so that values may have blanks. The frame is 100 × 100 mm. */
-const draw = (entities: string, options: ImportOptions = {}, blocks = "") => {
-  const frame = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 100\n20 0\n10 100\n20 100\n10 0\n20 100";
-  const lines = [
-    "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 4\n0 ENDSEC",
-    blocks === "" ? "" : `0 SECTION\n2 BLOCKS\n${blocks}\n0 ENDSEC`,
-    `0 SECTION\n2 ENTITIES\n${frame}\n${entities}\n0 ENDSEC\n0 EOF`,
-  ].filter((part) => part !== "");
-  const text = lines.join("\n").replace(/^(\d+) /gm, "$1\n");
-  return importDrawing("a.dxf", text, options);
-};
-
-/** Every letter is a box as high as capitals, 0.7 em, and 0.5 em wide; the next follows after 0.7 em. */
-const boxes: TextFont = {
-  kind: "outline",
-  layout: (line) => ({
-    glyphs: [...line].map((char) => ({
-      path: char === " " ? "" : "M0 0L0.5 0L0.5 -0.7L0 -0.7Z",
-      x: 0,
-      y: 0,
-      advance: 0.7,
-    })),
-    missing: [],
-  }),
-};
 const BOXES: ImportOptions = { text: "outline", font: boxes };
 
 /** Corners of the boxes after the frame, in the order in which they were drawn. */
 const letters = (entities: string): string[] =>
-  shapesOf(draw(entities, BOXES))
+  shapesOf(drawDxf(entities, BOXES))
     .slice(1)
     .flatMap((shape) => shape.split(/(?=M)/));
 
@@ -74,14 +48,14 @@ describe("TEXT of a DXF", () => {
   });
 
   it("reads codes for signs", () => {
-    const drawing = draw("0 TEXT\n8 0\n10 10\n20 20\n40 5\n1 %%c20%%p0.1 %%uA%%u 45%%d \\U+00C4 %%065");
+    const drawing = drawDxf("0 TEXT\n8 0\n10 10\n20 20\n40 5\n1 %%c20%%p0.1 %%uA%%u 45%%d \\U+00C4 %%065");
     expect(codes(drawing)).toEqual(["text-substituted"]);
     expect(text("", "%%uA%%u")).toHaveLength(1);
     expect(text("", "50%%%")).toHaveLength(3);
   });
 
   it("is drawn in single strokes by default, in its colour, and says so at its place", () => {
-    const drawing = draw("0 TEXT\n8 0\n62 1\n10 10\n20 20\n40 7\n1 H");
+    const drawing = drawDxf("0 TEXT\n8 0\n62 1\n10 10\n20 20\n40 7\n1 H");
     expect(drawing.colors[drawing.paths.stroke[1]]).toBe("#ff0000");
     expect(drawing.paths.fill[1]).toBe(-1);
     const ys = pointsOf(drawing, 1).map(([, y]) => y);
@@ -92,8 +66,8 @@ describe("TEXT of a DXF", () => {
 
   it("is reported where text is not wanted, and where the font has not its characters", () => {
     const entity = "0 TEXT\n8 0\n10 10\n20 20\n40 7\n1 ";
-    expect(codes(draw(`${entity}H`, { text: "none" }))).toEqual(["text-not-drawn"]);
-    expect(codes(draw(`${entity}漢`))).toEqual(["glyphs-missing"]);
+    expect(codes(drawDxf(`${entity}H`, { text: "none" }))).toEqual(["text-not-drawn"]);
+    expect(codes(drawDxf(`${entity}漢`))).toEqual(["glyphs-missing"]);
   });
 
   it("has the answers of blocks, but not what they ask for", () => {
@@ -102,10 +76,10 @@ describe("TEXT of a DXF", () => {
     const insert = "0 INSERT\n8 0\n2 B\n66 1\n10 5\n20 5";
     const answer = (flags: number): string =>
       `0 ATTRIB\n8 0\n10 10\n20 20\n40 7\n1 a\n2 TAG\n70 ${flags}\n11 50\n21 60\n74 3\n0 SEQEND`;
-    const drawing = draw(`${insert}\n${answer(0)}`, BOXES, blocks);
+    const drawing = drawDxf(`${insert}\n${answer(0)}`, BOXES, blocks);
     expect(shapesOf(drawing).slice(1)).toEqual(["M50 47L55 47L55 40L50 40Z"]);
     expect(codes(drawing)).toEqual([]);
-    expect(draw(`${insert}\n${answer(1)}`, BOXES, blocks).paths.count).toBe(1);
+    expect(drawDxf(`${insert}\n${answer(1)}`, BOXES, blocks).paths.count).toBe(1);
   });
 });
 
@@ -171,7 +145,7 @@ describe("HATCH of a DXF", () => {
     `92 2\n72 0\n73 1\n93 4\n${[from, from, to, from, to, to, from, to].map((v, i) => `${10 + 10 * (i % 2)} ${v}`).join("\n")}\n97 0`;
 
   it("is a filled shape without a line, its islands left out", () => {
-    const drawing = draw(hatch(`91 2\n${square(10, 50)}\n${square(20, 30)}`));
+    const drawing = drawDxf(hatch(`91 2\n${square(10, 50)}\n${square(20, 30)}`));
     expect(shapesOf(drawing)[1]).toBe("M10 90L50 90L50 50L10 50ZM20 80L30 80L30 70L20 70Z");
     expect(drawing.paths.stroke[1]).toBe(-1);
     expect(drawing.colors[drawing.paths.fill[1]]).toBe("#00ff00");
@@ -180,13 +154,13 @@ describe("HATCH of a DXF", () => {
   });
 
   it("says that a pattern is taken as one colour", () => {
-    expect(codes(draw(hatch(`91 1\n${square(10, 50)}`, 0)))).toEqual(["gradient-fill"]);
+    expect(codes(drawDxf(hatch(`91 1\n${square(10, 50)}`, 0)))).toEqual(["gradient-fill"]);
   });
 
   it("follows bulges", () => {
     // A circle of two half circles about 50, 50.
     const path = "92 2\n72 1\n73 1\n93 2\n10 40\n20 50\n42 1\n10 60\n20 50\n42 1\n97 0";
-    const points = pointsOf(draw(hatch(`91 1\n${path}`)), 1);
+    const points = pointsOf(drawDxf(hatch(`91 1\n${path}`)), 1);
     for (const [x, y] of points) expect(Math.hypot(x - 50, y - 50)).toBeCloseTo(10, 4);
     expect(Math.min(...points.map(([, y]) => y))).toBeCloseTo(40, 2);
     expect(Math.max(...points.map(([, y]) => y))).toBeCloseTo(60, 2);
@@ -195,7 +169,7 @@ describe("HATCH of a DXF", () => {
   it("chains edges that stand either way round into one ring", () => {
     const line = (...at: number[]): string => `72 1\n10 ${at[0]}\n20 ${at[1]}\n11 ${at[2]}\n21 ${at[3]}`;
     const path = ["92 1", "93 3", line(30, 10, 10, 10), line(30, 10, 30, 30), line(10, 10, 30, 30), "97 0"];
-    expect(shapesOf(draw(hatch(`91 1\n${path.join("\n")}`)))[1]).toBe("M10 90L30 90L30 70L10 90Z");
+    expect(shapesOf(drawDxf(hatch(`91 1\n${path.join("\n")}`)))[1]).toBe("M10 90L30 90L30 70L10 90Z");
   });
 
   it("takes arcs either way, ellipses, splines and whole circles", () => {
@@ -203,7 +177,7 @@ describe("HATCH of a DXF", () => {
     const arc = (ccw: number, start: number, end: number): string =>
       `72 2\n10 50\n20 50\n40 10\n50 ${start}\n51 ${end}\n73 ${ccw}`;
     const top = (path: string): number[] => {
-      const points = pointsOf(draw(hatch(`91 1\n92 1\n93 2\n${path}\n97 0`)), 1);
+      const points = pointsOf(drawDxf(hatch(`91 1\n92 1\n93 2\n${path}\n97 0`)), 1);
       for (const [x, y] of points) {
         if (Math.abs(y - 50) > 1e-6) expect(Math.hypot(x - 50, y - 50)).toBeCloseTo(10, 4);
       }
@@ -216,25 +190,25 @@ describe("HATCH of a DXF", () => {
     expect(top(arc(1, 0, 360))).toEqual([40, 60]);
 
     const ellipse = "72 3\n10 50\n20 50\n11 20\n21 0\n40 0.5\n50 0\n51 360\n73 1";
-    for (const [x, y] of pointsOf(draw(hatch(`91 1\n92 1\n93 1\n${ellipse}\n97 0`)), 1))
+    for (const [x, y] of pointsOf(drawDxf(hatch(`91 1\n92 1\n93 1\n${ellipse}\n97 0`)), 1))
       expect(Math.hypot((x - 50) / 20, (y - 50) / 10)).toBeCloseTo(1, 4);
 
     const knots = [0, 0, 0, 0, 1, 1, 1, 1].map((knot) => `40 ${knot}`).join("\n");
     const spline = `72 4\n94 3\n73 0\n74 0\n95 8\n96 4\n${knots}\n10 10\n20 10\n10 10\n20 90\n10 90\n20 90\n10 90\n20 10\n97 0`;
-    const drawing = draw(hatch(`91 1\n92 1\n93 2\n${spline}\n72 1\n10 90\n20 10\n11 10\n21 10\n97 0`));
+    const drawing = drawDxf(hatch(`91 1\n92 1\n93 2\n${spline}\n72 1\n10 90\n20 10\n11 10\n21 10\n97 0`));
     expect(shapesOf(drawing)[1]).toBe("M10 90C10 10 90 10 90 90L10 90Z");
   });
 
   it("is passed over where its boundary is damaged", () => {
-    expect(draw(hatch("91 1\n92 1\n93 1\n72 1")).paths.count).toBe(1);
-    expect(draw("0 HATCH\n8 0").paths.count).toBe(1);
+    expect(drawDxf(hatch("91 1\n92 1\n93 1\n72 1")).paths.count).toBe(1);
+    expect(drawDxf("0 HATCH\n8 0").paths.count).toBe(1);
   });
 });
 
 describe("colours of a DXF's index", () => {
   it("are the same for all kinds of entities", () => {
     for (let index = 1; index < 256; index += index < 10 || index >= 249 ? 1 : 3) {
-      const drawing = draw(
+      const drawing = drawDxf(
         `0 LINE\n8 0\n62 ${index}\n10 0\n20 0\n11 9\n21 9\n0 TEXT\n8 0\n62 ${index}\n10 1\n20 1\n1 H`,
       );
       expect(drawing.paths.stroke[2], `index ${index}`).toBe(drawing.paths.stroke[1]);

@@ -1,30 +1,13 @@
 /** What the codes inside an MTEXT do to its letters. Height 7 makes an em of 10: boxes of 5 × 7, 7 from one to the next. */
 import { describe, expect, it } from "vitest";
-import { importDrawing } from "../../../src/import/import-drawing.js";
 import type { ImportOptions } from "../../../src/import/import-options.js";
 import type { TextFont } from "../../../src/import/text-font.js";
+import { boxes, drawDxf } from "./support/dxf.js";
 import { codes, shapesOf } from "./support/shapes.js";
 
-const boxes: TextFont = {
-  kind: "outline",
-  layout: (line) => ({
-    glyphs: [...line].map((char) => ({
-      path: char === " " ? "" : "M0 0L0.5 0L0.5 -0.7L0 -0.7Z",
-      x: 0,
-      y: 0,
-      advance: 0.7,
-    })),
-    missing: [],
-  }),
-};
-
-/** A page of 100 × 100 mm with the text hanging from 10, 10 of it. */
-const draw = (written: string, more = "", options: ImportOptions = { text: "outline", font: boxes }) => {
-  const frame = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 100\n20 0\n10 100\n20 100\n10 0\n20 100";
-  const mtext = `0 MTEXT\n8 0\n10 10\n20 90\n40 7${more}\n1 ${written}`;
-  const text = `0 SECTION\n2 HEADER\n9 $INSUNITS\n70 4\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n${frame}\n${mtext}\n0 ENDSEC\n0 EOF`;
-  return importDrawing("a.dxf", text.replace(/^(\d+) /gm, "$1\n"), options);
-};
+/** The text hangs from 10, 10 of the page. */
+const draw = (written: string, more = "", options: ImportOptions = { text: "outline", font: boxes }) =>
+  drawDxf(`0 MTEXT\n8 0\n10 10\n20 90\n40 7${more}\n1 ${written}`, options);
 /** Corners of letters and bars, in the order in which they are drawn. */
 const drawn = (written: string, more = ""): string[] =>
   shapesOf(draw(written, more))
