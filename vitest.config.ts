@@ -8,6 +8,9 @@ const ALONE = [
   "test/**/*.alone.test.ts",
 ];
 
+/** A test waits for what has to come. How long that takes says nothing where the computer is slow, or busy. */
+const PATIENCE = { testTimeout: 600_000, hookTimeout: 600_000, expect: { poll: { timeout: 60_000 } } };
+
 export default defineConfig({
   test: {
     maxWorkers: 2,
@@ -17,8 +20,7 @@ export default defineConfig({
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
           exclude: ALONE,
-          testTimeout: 120_000,
-          hookTimeout: 120_000,
+          ...PATIENCE,
           pool: "forks",
           setupFiles: ["test/support/fixed-seed.ts"],
         },
@@ -28,8 +30,7 @@ export default defineConfig({
           name: "alone",
           include: ALONE,
           globalSetup: ["test/support/built.ts"],
-          testTimeout: 120_000,
-          hookTimeout: 120_000,
+          ...PATIENCE,
           pool: "forks",
           setupFiles: ["test/support/fixed-seed.ts"],
           fileParallelism: false,

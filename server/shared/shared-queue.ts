@@ -156,14 +156,17 @@ export class SharedQueue {
     }
   }
 
-  /** Takes what is another server's out of the own queue; returns what was said of it. */
+  /**
+   * Takes what is another server's out of the own queue; returns what was said of it. It is said first: whoever sees
+   * that the job is gone finds out why, and after a crash between the two it is said again rather than never.
+   */
   async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
     const { store, queue, log, notice } = this.#parts;
     const message = `"${queue.get(jobId).name}" was given to another server while this one was away.`;
-    await queue.remove(jobId);
-    store.forgetShared(id);
     log(`shared queue: ${message}`);
     notice(message);
+    await queue.remove(jobId);
+    store.forgetShared(id);
     return message;
   }
 

@@ -5,6 +5,7 @@ import { temporaryFolder } from "../support/server-process.js";
 import {
   MACHINE,
   SharedDatabase,
+  introduce,
   jobsOf,
   noticesOf,
   send,
@@ -26,7 +27,7 @@ const start = async (name: string): Promise<Response> =>
 beforeAll(async () => {
   database = await SharedDatabase.open();
   server = await database.serve(data.path, { log: (line) => logged.push(line) });
-  await send(server.url, "PATCH", "/plotters/main", { name: "Left" });
+  await introduce(server, "Left");
 });
 afterAll(async () => {
   await server.close();
@@ -41,11 +42,11 @@ describe("a plotter whose model nobody has named", () => {
       .toContainEqual(expect.stringMatching(/takes only jobs for .* itself: nobody has said what model/));
     await share(server, "fern", { machine: MACHINE });
     await share(server, "moss", { plotter: "Left" });
-    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["moss queued"]);
+    await expect.poll(() => jobsOf(server)).toEqual(["moss queued"]);
     await send(server.url, "DELETE", `/jobs/${await jobNamed("moss")}`);
     expect((await stateOf(server)).plotters[0]!.machine).toBe(null);
-    await send(server.url, "PATCH", "/plotters/main", { machine: MACHINE });
-    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["fern queued"]);
+    await introduce(server, "Left", MACHINE);
+    await expect.poll(() => jobsOf(server)).toEqual(["fern queued"]);
   });
 });
 
@@ -64,7 +65,7 @@ describe("a shared job that was taken and has not begun", () => {
     ).json()) as { id: string };
     await send(server.url, "PATCH", `/jobs/${copy.id}`, { name: "copy" });
     expect((await start("copy")).status).toBe(200);
-    await expect.poll(() => jobsOf(server), { timeout: 20_000 }).toEqual(["fern here queued", "copy done"]);
+    await expect.poll(() => jobsOf(server)).toEqual(["fern here queued", "copy done"]);
   });
 
   it("is left by a queue that runs on, and the job behind it begins", async () => {
@@ -79,7 +80,7 @@ describe("a shared job that was taken and has not begun", () => {
     await send(server.url, "PATCH", "/queue", { runOn: true });
     await start("first");
     await expect
-      .poll(async () => (await jobsOf(server)).slice(0, 3), { timeout: 20_000 })
+      .poll(async () => (await jobsOf(server)).slice(0, 3))
       .toEqual(["fern here queued", "behind done", "first done"]);
     const { jobs } = await stateOf(server);
     expect(jobs[0]!.message).toMatch(/can't be reached/);
@@ -88,16 +89,14 @@ describe("a shared job that was taken and has not begun", () => {
 
   it("begins when the database is back, and is nobody else's from that instant on", async () => {
     await database.restore();
-    await expect.poll(() => start("fern here").then(({ status }) => status), { timeout: 20_000 }).toBe(200);
-    expect(await sharedOf(server)).toMatchObject({ hasBegun: true });
-    await expect
-      .poll(async () => (await jobsOf(server)).includes("fern here done"), { timeout: 20_000 })
-      .toBe(true);
+    await expect.poll(() => start("fern here").then(({ status }) => status)).toBe(200);
+    expect(await sharedOf(server, "fern")).toMatchObject({ hasBegun: true });
+    await expect.poll(async () => (await jobsOf(server)).includes("fern here done")).toBe(true);
   });
 
   it("is taken out of the queue when it proves to be another server's", async () => {
     await share(server, "ivy", { plotter: "left" });
-    await expect.poll(async () => (await jobsOf(server))[0], { timeout: 20_000 }).toBe("ivy queued");
+    await expect.poll(async () => (await jobsOf(server))[0]).toBe("ivy queued");
     await database.query("UPDATE plotwright_jobs SET server_id = 'other' WHERE name = 'ivy'");
     const refused = await start("ivy");
     expect([refused.status, await refused.text()]).toEqual([
@@ -110,11 +109,9 @@ describe("a shared job that was taken and has not begun", () => {
 
   it("begins once when two ask for it in the same instant", async () => {
     await share(server, "oak", { plotter: "left" });
-    await expect.poll(async () => (await jobsOf(server))[0], { timeout: 20_000 }).toBe("oak queued");
+    await expect.poll(async () => (await jobsOf(server))[0]).toBe("oak queued");
     const answers = await Promise.all([start("oak"), start("oak")]);
     expect(answers.map(({ status }) => status)).toEqual([200, 200]);
-    await expect
-      .poll(async () => (await jobsOf(server)).includes("oak done"), { timeout: 20_000 })
-      .toBe(true);
+    await expect.poll(async () => (await jobsOf(server)).includes("oak done")).toBe(true);
   });
 });

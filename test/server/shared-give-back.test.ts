@@ -5,10 +5,11 @@ import { temporaryFolder } from "../support/server-process.js";
 import {
   MACHINE,
   SharedDatabase,
+  introduce,
   jobsOf,
   noticesOf,
   send,
-  share,
+  shareAndTake,
   sharedOf,
   stateOf,
 } from "./support/shared-servers.js";
@@ -25,18 +26,14 @@ describe("a job that a server has taken", () => {
     const open = async (dataDir: string, name: string): Promise<PlotwrightServer> => {
       const server = await database.serve(dataDir);
       undo.push(() => server.close());
-      await send(server.url, "PATCH", "/plotters/main", { name, machine: MACHINE });
+      await introduce(server, name, MACHINE);
       return server;
     };
     const [leftData, rightData] = [temporaryFolder("give-left"), temporaryFolder("give-right")];
     undo.push(leftData.remove, rightData.remove);
 
     const left = await open(leftData.path, "Left");
-    expect((await share(left, "fern", { machine: MACHINE })).status).toBe(201);
-    await expect
-      .poll(() => sharedOf(left), { timeout: 30_000 })
-      .toMatchObject({ state: "stored", hasBegun: false });
-    const { id } = await sharedOf(left);
+    const id = await shareAndTake(left, "fern", { machine: MACHINE });
     const right = await open(rightData.path, "Right");
     const giveBack = (): Promise<Response> => send(right.url, "POST", `/shared-jobs/${id}/give-back`);
     const refused = await giveBack();
@@ -46,22 +43,22 @@ describe("a job that a server has taken", () => {
     ]);
 
     await left.close();
+    expect((await giveBack()).status).toBe(409);
+    await database.age("fern");
     await expect
-      .poll(() => noticesOf(right), { timeout: 30_000 })
+      .poll(() => noticesOf(right))
       .toEqual([expect.stringMatching(/^"fern" is with .*, which has gone/)]);
     expect((await giveBack()).status).toBe(200);
-    await expect.poll(() => jobsOf(right), { timeout: 30_000 }).toEqual(["fern queued"]);
+    await expect.poll(() => jobsOf(right)).toEqual(["fern queued"]);
 
     const back = await open(leftData.path, "Left");
-    await expect.poll(() => jobsOf(back), { timeout: 30_000 }).toEqual([]);
+    await expect.poll(() => jobsOf(back)).toEqual([]);
     expect(await noticesOf(back)).toEqual(['"fern" was given to another server while this one was away.']);
 
     const { jobs } = await stateOf(right);
     await send(right.url, "POST", `/jobs/${jobs[0]!.id}/start`);
-    await expect.poll(() => jobsOf(right), { timeout: 30_000 }).toEqual(["fern done"]);
-    await expect
-      .poll(() => sharedOf(back), { timeout: 30_000 })
-      .toMatchObject({ state: "stored", hasBegun: true });
+    await expect.poll(() => jobsOf(right)).toEqual(["fern done"]);
+    await expect.poll(() => sharedOf(back, "fern")).toMatchObject({ state: "stored", hasBegun: true });
     await right.close();
     const tooLate = await send(back.url, "POST", `/shared-jobs/${id}/give-back`);
     expect([tooLate.status, await tooLate.text()]).toEqual([409, expect.stringContaining("has begun")]);

@@ -3,128 +3,108 @@
  * with a virtual plotter; one is killed in mid-job.
  */
 import { once } from "node:events";
-import { PGlite } from "@electric-sql/pglite";
-import { PGLiteSocketServer } from "@electric-sql/pglite-socket";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  sharedJobSchema,
-  snapshotSchema,
-  type Job,
-  type SharedJob,
-  type SharedTarget,
-} from "../../src/schema/index.js";
+import type { Job, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import {
+  MACHINE,
+  SharedDatabase,
+  introduce,
+  linesSvg,
+  send,
+  share,
+  sharedJobsOf,
+  stateOf,
+  type AtUrl,
+} from "./support/shared-servers.js";
 
 /** PLOTWRIGHT_SHARED_JOBS=40 for the long run. */
 const JOB_COUNT = Number(process.env["PLOTWRIGHT_SHARED_JOBS"] ?? 12);
-const svg = (count: number): string =>
-  `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">${Array.from(
-    { length: count },
-    (_, i) => `<path d="M5 ${2 + i / 4}h50"/>`,
-  ).join("")}</svg>`;
+const LINES = 8;
+/** The second job of the left server: so long that it is met in the middle of it. */
+const LONG_INDEX = 4;
+const MANY_LINES = 60;
 
-const json = (method: string, body: unknown): RequestInit => ({
-  method,
-  body: JSON.stringify(body),
-  headers: { "Content-Type": "application/json" },
-});
-const jobsOf = async (url: string): Promise<Job[]> =>
-  snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).jobs;
+const jobsOf = async (server: AtUrl): Promise<Job[]> => (await stateOf(server)).jobs;
 const countOf = (jobs: readonly Job[], ...states: Job["state"][]): number =>
   jobs.filter(({ state }) => states.includes(state)).length;
 
 /** What their operator does: takes up what a busy computer or a kill has interrupted, and begins what waits. */
-async function goOn(url: string): Promise<void> {
+async function goOn(server: AtUrl): Promise<void> {
   const action: Partial<Record<Job["state"], string>> = {
     failed: "requeue",
     interrupted: "recover",
     paused: "resume",
     queued: "start",
   };
-  for (const { id, state } of await jobsOf(url)) {
+  for (const { id, state } of await jobsOf(server)) {
     const name = action[state];
-    if (name !== undefined) await fetch(`${url}/api/v1/jobs/${id}/${name}`, { method: "POST" });
+    if (name !== undefined) await send(server.url, "POST", `/jobs/${id}/${name}`);
   }
 }
 
 describe("two servers that share a queue", () => {
   const folders = [temporaryFolder("shared-left"), temporaryFolder("shared-right")] as const;
-  let database: PGlite;
-  let socket: PGLiteSocketServer;
+  let database: SharedDatabase;
   const servers: ServerProcess[] = [];
 
   const start = (side: 0 | 1): Promise<ServerProcess> =>
     startServerProcess({
       dataDir: folders[side].path,
       virtualSpeed: 20,
-      args: ["--shared-queue", `postgres://postgres:postgres@${socket.getServerConn()}/postgres`],
+      args: ["--shared-queue", database.url],
     });
   beforeAll(async () => {
-    database = await PGlite.create();
-    socket = new PGLiteSocketServer({ db: database, port: 0, host: "127.0.0.1", maxConnections: 20 });
-    await socket.start();
+    database = await SharedDatabase.open();
     for (const side of [0, 1] as const) {
       const server = await start(side);
       servers.push(server);
-      const plotter = { name: side === 0 ? "Left" : "Right", machine: "axidraw-v3" };
-      expect((await fetch(`${server.url}/api/v1/plotters/main`, json("PATCH", plotter))).status).toBe(200);
-      await fetch(`${server.url}/api/v1/queue`, json("PATCH", { runOn: true }));
+      await introduce(server, side === 0 ? "Left" : "Right", MACHINE);
+      await send(server.url, "PATCH", "/queue", { runOn: true });
     }
   });
   afterAll(async () => {
     for (const server of servers) await server.stop();
-    await socket.stop();
     await database.close();
     for (const folder of folders) folder.remove();
   });
 
   it(`plots each of ${JOB_COUNT} jobs once where it is meant to be, though one server is killed in mid-job`, async () => {
-    const send = async (server: ServerProcess, name: string, target: SharedTarget): Promise<void> => {
-      const body = { name, drawing: svg(8), settings: DEFAULT_PLOT_SETTINGS, target };
-      expect((await fetch(`${server.url}/api/v1/shared-jobs`, json("POST", body))).status).toBe(201);
-    };
     const [left, right] = servers as [ServerProcess, ServerProcess];
     const names: string[] = [];
     for (let index = 0; index < JOB_COUNT; index++) {
       const target: SharedTarget =
-        index % 4 === 0
-          ? { plotter: "Left" }
-          : index % 4 === 1
-            ? { plotter: "right" }
-            : { machine: "axidraw-v3" };
+        index % 4 === 0 ? { plotter: "Left" } : index % 4 === 1 ? { plotter: "right" } : { machine: MACHINE };
       const name = `${index} ${Object.values(target).join("")}`;
       names.push(name);
-      await send(index % 2 === 0 ? left : right, name, target);
+      const drawing = linesSvg(index === LONG_INDEX ? MANY_LINES : LINES);
+      await share(index % 2 === 0 ? left : right, name, target, drawing);
     }
 
     await expect
       .poll(
         async () => {
-          for (const { url } of [left, right]) await goOn(url);
-          const jobs = await jobsOf(left.url);
-          return countOf(jobs, "done") >= 1 && countOf(jobs, "plotting") === 1;
+          for (const server of [left, right]) await goOn(server);
+          const jobs = await jobsOf(left);
+          const long = jobs.find(({ name }) => name === names[LONG_INDEX]);
+          return countOf(jobs, "done") >= 1 && long?.state === "plotting";
         },
-        { timeout: 600_000, interval: 200 },
+        { timeout: 600_000 },
       )
       .toBe(true);
     const gone = once(left.process, "exit");
     left.process.kill("SIGKILL");
     await gone;
     // The other one goes on, with everything that is not meant for the one that is gone.
-    const shared = async (url: string): Promise<SharedJob[]> => {
-      const { jobs } = (await (await fetch(`${url}/api/v1/shared-jobs`)).json()) as { jobs: unknown[] };
-      return jobs.map((job) => sharedJobSchema.parse(job));
-    };
     await expect
       .poll(
         async () => {
-          await goOn(right.url);
+          await goOn(right);
           const isForRight = ({ state, target }: SharedJob): boolean =>
             state === "waiting" && target !== "plotter left";
-          return (await shared(right.url)).filter(isForRight).length;
+          return (await sharedJobsOf(right)).filter(isForRight).length;
         },
-        { timeout: 600_000, interval: 200 },
+        { timeout: 600_000 },
       )
       .toBe(0);
 
@@ -133,17 +113,20 @@ describe("two servers that share a queue", () => {
     await expect
       .poll(
         async () => {
-          for (const { url } of [again, right]) await goOn(url);
-          return countOf([...(await jobsOf(again.url)), ...(await jobsOf(right.url))], "done");
+          for (const server of [again, right]) await goOn(server);
+          return countOf([...(await jobsOf(again)), ...(await jobsOf(right))], "done");
         },
-        { timeout: 600_000, interval: 200 },
+        { timeout: 600_000 },
       )
       .toBe(JOB_COUNT);
 
-    const [onLeft, onRight] = [await jobsOf(again.url), await jobsOf(right.url)];
+    const [onLeft, onRight] = [await jobsOf(again), await jobsOf(right)];
     expect([...onLeft, ...onRight].map(({ name }) => name).sort()).toEqual([...names].sort());
     expect(onLeft.filter(({ name }) => name.endsWith("right"))).toEqual([]);
     expect(onRight.filter(({ name }) => name.endsWith("Left"))).toEqual([]);
-    expect((await shared(right.url)).map(({ state }) => state)).toEqual(Array(JOB_COUNT).fill("stored"));
+    // A job may be plotted sooner than its server has said in the database that it has it.
+    await expect
+      .poll(async () => (await sharedJobsOf(right)).map(({ state }) => state))
+      .toEqual(Array(JOB_COUNT).fill("stored"));
   }, 1_800_000);
 });

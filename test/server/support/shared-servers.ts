@@ -1,6 +1,8 @@
 /** Servers that share a queue by PGlite: PostgreSQL in this process, behind a socket that can be cut. */
 import { PGlite } from "@electric-sql/pglite";
 import { PGLiteSocketServer } from "@electric-sql/pglite-socket";
+import pg from "pg";
+import { expect } from "vitest";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../../../server/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
@@ -12,30 +14,64 @@ import {
 } from "../../../src/schema/index.js";
 
 export const MACHINE = "axidraw-v3";
-const SVG =
-  '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black"><path d="M5 5h50"/></svg>';
+/** A heartbeat is never that old while a server runs, however busy the computer is. */
+const LOST_AFTER_MS = 3_600_000;
+
+/** Lines of 50 mm. */
+export const linesSvg = (count: number): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">${Array.from(
+    { length: count },
+    (_, i) => `<path d="M5 ${2 + i / 4}h50"/>`,
+  ).join("")}</svg>`;
+
+/** In this process or in one of its own. */
+export interface AtUrl {
+  readonly url: string;
+}
 
 export async function send(url: string, method: string, path: string, body?: unknown): Promise<Response> {
   const json = { body: JSON.stringify(body), headers: { "Content-Type": "application/json" } };
   return fetch(`${url}/api/v1${path}`, { method, ...(body === undefined ? {} : json) });
 }
 
-export const stateOf = async ({ url }: PlotwrightServer): Promise<Snapshot> =>
+export const stateOf = async ({ url }: AtUrl): Promise<Snapshot> =>
   snapshotSchema.parse(await (await send(url, "GET", "/state")).json());
-export const noticesOf = async (server: PlotwrightServer): Promise<string[]> =>
+export const noticesOf = async (server: AtUrl): Promise<string[]> =>
   (await stateOf(server)).serverNotices.map(({ message }) => message);
 /** As "fern queued". */
-export const jobsOf = async (server: PlotwrightServer): Promise<string[]> =>
+export const jobsOf = async (server: AtUrl): Promise<string[]> =>
   (await stateOf(server)).jobs.map(({ name, state }) => `${name} ${state}`);
 
-/** The newest. */
-export async function sharedOf({ url }: PlotwrightServer): Promise<SharedJob> {
+/** Newest first. */
+export async function sharedJobsOf({ url }: AtUrl): Promise<SharedJob[]> {
   const { jobs } = (await (await send(url, "GET", "/shared-jobs")).json()) as { jobs: unknown[] };
-  return sharedJobSchema.parse(jobs[0]);
+  return jobs.map((job) => sharedJobSchema.parse(job));
+}
+export const sharedOf = async (server: AtUrl, name: string): Promise<SharedJob | undefined> =>
+  (await sharedJobsOf(server)).find((job) => job.name === name);
+
+/** Gives a server's plotter a name, and says what model it is where that is told. */
+export async function introduce({ url }: AtUrl, name: string, machine?: string): Promise<void> {
+  const patch = { name, ...(machine === undefined ? {} : { machine }) };
+  expect((await send(url, "PATCH", "/plotters/main", patch)).status).toBe(200);
 }
 
-export const share = (server: PlotwrightServer, name: string, target: SharedTarget): Promise<Response> =>
-  send(server.url, "POST", "/shared-jobs", { name, drawing: SVG, settings: DEFAULT_PLOT_SETTINGS, target });
+export async function share(
+  { url }: AtUrl,
+  name: string,
+  target: SharedTarget,
+  drawing = linesSvg(1),
+): Promise<void> {
+  const body = { name, drawing, settings: DEFAULT_PLOT_SETTINGS, target };
+  expect((await send(url, "POST", "/shared-jobs", body)).status).toBe(201);
+}
+
+/** Shares a job that this server takes itself, and waits until it has. Returns the shared job's id. */
+export async function shareAndTake(server: AtUrl, name: string, target: SharedTarget): Promise<string> {
+  await share(server, name, target);
+  await expect.poll(() => sharedOf(server, name)).toMatchObject({ state: "stored", hasBegun: false });
+  return (await sharedOf(server, name))!.id;
+}
 
 export class SharedDatabase {
   readonly #database: PGlite;
@@ -66,8 +102,23 @@ export class SharedDatabase {
     this.#socket = await listen(this.#database, this.#port);
   }
 
+  /** As one more of its clients: never within another one's transaction. */
   async query(text: string): Promise<void> {
-    await this.#database.query(text);
+    const client = new pg.Client({ connectionString: this.url });
+    await client.connect();
+    try {
+      await client.query(text);
+    } finally {
+      await client.end();
+    }
+  }
+
+  /** As if the server that has this job, and runs no more, had gone long ago. */
+  async age(jobName: string): Promise<void> {
+    await this.query(
+      `UPDATE plotwright_servers SET seen_at = seen_at - interval '${2 * LOST_AFTER_MS} milliseconds'
+       WHERE id = (SELECT server_id FROM plotwright_jobs WHERE name = '${jobName}')`,
+    );
   }
 
   async close(): Promise<void> {
@@ -83,7 +134,7 @@ export class SharedDatabase {
       dataDir,
       sharedQueue: this.url,
       sharedPollMs: 100,
-      sharedLostAfterMs: 3_000,
+      sharedLostAfterMs: LOST_AFTER_MS,
       ...options,
     });
   }
