@@ -158,7 +158,7 @@ describe("pens on the page", () => {
     await test.field("Line width").fill("4");
     await test.page.getByLabel("Colour by").selectOption("pen");
     await test.page.getByLabel("Colour: Red").fill("#00c000");
-    await test.page.waitForTimeout(300);
+    await test.drawn();
     const counts = await colorCounts(test.page.getByRole("img", { name: "Preview", exact: true }));
     const ofChannel = (shift: number): number =>
       [...counts].reduce((sum, [rgb, count]) => {
@@ -273,9 +273,7 @@ describe("layers on a phone", () => {
     await touch("touchStart", x, start);
     for (let k = 1; k <= 5; k++) await touch("touchMove", x, start + ((end - start) * k) / 5);
     await touch("touchEnd", x, end);
-    await page.waitForTimeout(300);
-    const after = await namesOn(page);
-    expect(after.slice(0, 2)).toEqual([before[1], before[0]]);
+    await expect.poll(async () => (await namesOn(page)).slice(0, 2)).toEqual([before[1], before[0]]);
     const sizes = await page
       .locator(".layer-list button, .layer-list label, .layer-pen")
       .evaluateAll((all) =>

@@ -24,7 +24,7 @@ beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2 });
   page = await (await browser.newContext({ viewport: { width: 900, height: 600 } })).newPage();
-  page.setDefaultTimeout(20_000);
+  page.setDefaultTimeout(90_000);
   await page.goto(server.url);
   await waitForPlan(page);
 });
@@ -174,7 +174,7 @@ describe("setting a plotter up", () => {
       servoPosAt100Pct: 20_000,
       widthMm: 290,
     } satisfies Partial<MachineProfile>);
-    expect(await machinePanel().getByLabel("Model").inputValue()).toBe("old-friend");
+    await expect.poll(() => machinePanel().getByLabel("Model").inputValue()).toBe("old-friend");
   });
 
   it("plots with the new profile from then on", async () => {

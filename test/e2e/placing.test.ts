@@ -28,7 +28,7 @@ interface Box {
 async function onScreen(what: "paper" | "ink"): Promise<Box> {
   // Off the paper, so that nothing is told about the stroke under the pointer.
   await test.page.mouse.move(700, 20);
-  await test.page.waitForTimeout(300);
+  await test.drawn();
   const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
   const at = (await canvas.boundingBox())!;
   // Without the notices over its upper edge, which are as dark as ink.

@@ -1,7 +1,7 @@
 /** What of a file is not drawn: said on the page, and shown on the paper where it is. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, dropFile, openTab, waitForPlan } from "../support/page-actions.js";
+import { colorCounts, dropFile, openTab, waitForPicture, waitForPlan } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140">
@@ -25,7 +25,8 @@ beforeAll(async () => {
 afterAll(async () => test.close());
 
 async function markedPixels(page: Page): Promise<number> {
-  await page.waitForTimeout(250);
+  await waitForPlan(page);
+  await waitForPicture(page);
   const counts = await colorCounts(page.getByRole("img", { name: "Preview", exact: true }));
   return [...counts].reduce((sum, [rgb, count]) => sum + (isMarked(rgb) ? count : 0), 0);
 }

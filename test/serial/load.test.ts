@@ -64,14 +64,16 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
 
   const answers: Promise<number>[] = [];
   const paths = ["/state", `/jobs/${id}`, "/openapi.json", `/jobs/${id}/drawing`, "/plotters/main"];
+  const ask = async (path: string): Promise<number> => {
+    const response = await fetch(`${server.url}/api/v1${path}`);
+    await response.arrayBuffer();
+    return response.status;
+  };
+  const from = Date.now();
   const asking = setInterval(() => {
-    const path = paths[answers.length % paths.length]!;
-    answers.push(
-      fetch(`${server.url}/api/v1${path}`).then(async (response) => {
-        await response.arrayBuffer();
-        return response.status;
-      }),
-    );
+    // A busy computer lets some beats out: what they would have asked is asked with the next one.
+    const due = ((Date.now() - from) / 1_000) * REQUESTS_PER_S;
+    while (answers.length < due) answers.push(ask(paths[answers.length % paths.length]!));
   }, 1_000 / REQUESTS_PER_S);
   undo.push(() => clearInterval(asking));
   const { job } = await events.find(
@@ -83,7 +85,8 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
   expect(job.state).toBe("done");
   expect(answers.length).toBeGreaterThan(0.8 * LEAST_PLOT_S * REQUESTS_PER_S);
   expect(new Set(await Promise.all(answers))).toEqual(new Set([200]));
-  for (const { bytes } of streams) expect(bytes).toBeGreaterThan(100 * 16 * 0.5 * LEAST_PLOT_S);
+  for (const stream of streams)
+    await expect.poll(() => stream.bytes).toBeGreaterThan(100 * 16 * 0.5 * LEAST_PLOT_S);
   const { statistics, state } = await board.report();
   expect([statistics.underrunCount, statistics.underrunS]).toEqual([0, 0]);
   expect(state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });

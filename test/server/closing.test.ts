@@ -9,9 +9,10 @@ import { seeded } from "../support/live-plot.js";
 import { temporaryFolder } from "../support/server-process.js";
 import { EventStream } from "./support/event-stream.js";
 
+/** More than is plotted in all that the test does, though it does it slowly. */
 const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60" stroke="black">' +
-  `${Array.from({ length: 30 }, (_, i) => `<path d="M5 ${5 + i}h80"/>`).join("")}</svg>`;
+  `${Array.from({ length: 500 }, (_, i) => `<path d="M5 ${5 + i / 10}h80"/>`).join("")}</svg>`;
 
 const undo: (() => unknown)[] = [];
 afterEach(async () => {

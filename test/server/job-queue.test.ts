@@ -417,7 +417,7 @@ describe("the queue", () => {
       }),
       { numRuns: 40 },
     );
-  }, 60_000);
+  });
 });
 
 async function startAfresh(): Promise<void> {

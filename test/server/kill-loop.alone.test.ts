@@ -110,7 +110,7 @@ class Client {
 
   /** Has one job plotted to its end, whatever became of it before. */
   async finishOne(): Promise<void> {
-    for (let tries = 0; tries < 10 && this.done.size === 0; tries++) {
+    for (let tries = 0; tries < 100 && this.done.size === 0; tries++) {
       const jobs = await this.state();
       const job = jobs.find(({ state }) => !ENDED_STATES.includes(state));
       const next = { interrupted: "recover", paused: "resume", queued: "start" } as const;
@@ -214,7 +214,9 @@ describe("a server that is killed without warning", () => {
     `loses no job, doubles none and keeps their order, ${KILL_COUNT} times`,
     async () => {
       let cutOffCount = 0;
-      for (let kill = 0; kill < KILL_COUNT; kill++) {
+      const isEnough = (): boolean => cutOffCount > KILL_COUNT / 10;
+      // Whether a kill meets a request that is under way is chance: some more where too few have.
+      for (let kill = 0; kill < KILL_COUNT || (kill < 4 * KILL_COUNT && !isEnough()); kill++) {
         for (let step = client.below(7); step > 0; step--) {
           expect(await client.carryOut(client.choose(await client.state()))).toBe(true);
         }
@@ -237,7 +239,7 @@ describe("a server that is killed without warning", () => {
       console.info(
         `${KILL_COUNT} kills, ${cutOffCount} within a request; ${client.order.length} jobs taken, ${client.done.size} plotted to the end`,
       );
-      expect(cutOffCount).toBeGreaterThan(KILL_COUNT / 10);
+      expect(isEnough()).toBe(true);
       expect(client.done.size).toBeGreaterThan(0);
     },
     Math.max(120_000, KILL_COUNT * 30_000),

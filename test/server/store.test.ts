@@ -134,7 +134,7 @@ describe("a store", () => {
     } finally {
       rmSync(second, { recursive: true, force: true });
     }
-  }, 120_000);
+  });
 });
 
 /** What may be on disk after the kill: what was told last, and what was being done. */

@@ -70,7 +70,7 @@ async function close(): Promise<void> {
 const put = (name: string, text = `<svg>${name}</svg>`): void => writeFileSync(join(watched, name), text);
 const names = (): string[] => queue.list().map(({ name }) => name);
 const queued = (...wanted: string[]): Promise<void> =>
-  expect.poll(() => [...names()].sort(), { timeout: 20_000 }).toEqual([...wanted].sort());
+  expect.poll(() => [...names()].sort()).toEqual([...wanted].sort());
 
 describe("the watched folder", () => {
   it("queues what lies there and what comes, once each, and nothing twice after a restart", async () => {
@@ -118,7 +118,7 @@ describe("the watched folder", () => {
     };
     put("torn.svg");
     await open();
-    await expect.poll(() => notices.list().length, { timeout: 20_000 }).toBe(1);
+    await expect.poll(() => notices.list().length).toBe(1);
     const message = '"torn.svg" in the watched folder can\'t be plotted: The file breaks off.';
     expect(notices.list()[0]?.message).toBe(message);
     expect(logged).toContain(message);
@@ -126,7 +126,7 @@ describe("the watched folder", () => {
     put("huge.svg", "x".repeat(100_001));
     put("good.svg");
     await queued("good.svg");
-    await expect.poll(() => notices.list().length, { timeout: 20_000 }).toBe(3);
+    await expect.poll(() => notices.list().length).toBe(3);
     await close();
     await open();
     put("more.svg");
@@ -148,9 +148,7 @@ describe("the watched folder", () => {
     expect(queue.list()[1]?.settings.pen.downPct).toBe(12);
     put("c.settings.json", '{ "pen": { "downPct": 400 } }');
     put("c.svg");
-    await expect
-      .poll(() => notices.list()[0]?.message, { timeout: 20_000 })
-      .toMatch(/c\.settings\.json: pen\./);
+    await expect.poll(() => notices.list()[0]?.message).toMatch(/c\.settings\.json: pen\./);
   });
 
   it("does not follow links out of the folder, and says when the folder is not there", async () => {

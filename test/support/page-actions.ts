@@ -31,6 +31,19 @@ export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"):
   if (await tab.isVisible()) await tab.click();
 }
 
+/** Until the page has shown whatever it was told before: what changes with the next frame has changed then. */
+export const nextFrames = (page: Page): Promise<void> =>
+  page.evaluate(
+    () => new Promise<void>((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve()))),
+  );
+
+/** Waits until the preview shows all of what was set and planned last. */
+export async function waitForPicture(page: Page): Promise<void> {
+  await nextFrames(page);
+  await page.locator(".stage canvas[aria-busy=false]").waitFor();
+  await nextFrames(page);
+}
+
 /** Waits until the drawing on the paper is planned: the figures are there, and no plan is under way. */
 export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Strokes").waitFor({ state: "attached" });

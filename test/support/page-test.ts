@@ -3,9 +3,11 @@ import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-c
 import { importSvg, prepare, prepareSettingsOf, type StrokeSet } from "../../src/index.js";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "./browser.js";
-import { dropFile, openTab, plotBar, waitForPlan } from "./page-actions.js";
+import { dropFile, nextFrames, openTab, plotBar, waitForPicture, waitForPlan } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
+/** For what the page has to show: it is slow where the computer is busy. */
+const PATIENCE_MS = 90_000;
 const DESKTOP = { width: 1440, height: 900 };
 
 export class PageTest {
@@ -35,6 +37,7 @@ export class PageTest {
     const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
     const context = await browser.newContext({ viewport: DESKTOP, colorScheme: "light", ...options });
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
+    test.page.setDefaultTimeout(PATIENCE_MS);
     await test.page.goto(server.url);
     await waitForPlan(test.page);
     return test;
@@ -55,8 +58,14 @@ export class PageTest {
 
   /** Waits until what was changed last has been planned. */
   async planned(): Promise<void> {
-    await this.page.waitForTimeout(100);
+    await nextFrames(this.page);
     await waitForPlan(this.page);
+  }
+
+  /** Waits until that is seen, too. */
+  async drawn(): Promise<void> {
+    await this.planned();
+    await waitForPicture(this.page);
   }
 
   /** Folds a group of settings open or shut. */
