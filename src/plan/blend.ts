@@ -30,7 +30,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { CornerSpeeds } from "./corner-speeds.js";
-import type { RunLimits } from "./limits.js";
+import { capSegments, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { SoftLine } from "./soft-line.js";
 import { writeStraight, type Straight } from "./straight.js";
@@ -64,12 +64,31 @@ export class BlendPlanner {
   /** Writes one run from rest to rest. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const n = path.segmentCount;
+    if (n === 1) return this.writeSingle(path, limits, out);
     this.reserve(n + 1);
     const line = this.line.of(path, limits);
     this.roundCorners(line, limits.accel);
     this.lookAhead(line, limits.accel);
     out.reserve(2 * n, n);
     this.writeBlocks(line, limits, out);
+  }
+
+  /** One straight from rest to rest has no corner: what the steps of `write` would leave of it, without them. */
+  private writeSingle(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const { x, y, ux, uy, length, cap2, startAlong } = path;
+    capSegments(path, limits);
+    out.reserve(2, 1);
+    const l = length[0]!;
+    if (!(l > NO_PIECE)) return;
+    const { straight } = this;
+    straight.x = x[0]!;
+    straight.y = y[0]!;
+    straight.ux = ux[0]!;
+    straight.uy = uy[0]!;
+    straight.alongMm = startAlong;
+    straight.alongPerMm = 1;
+    straight.length = l;
+    writeStraight(straight, 0, 0, Math.sqrt(cap2[0]!), limits.accel, limits.floorS, out);
   }
 
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */

@@ -12,11 +12,12 @@ import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
+import { PenMoveColumns } from "./pen-move-columns.js";
 import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter } from "./run-writer.js";
 import type { MotionSettings, PenSettings } from "./settings.js";
-import type { PenMove, Place, Trajectory } from "./trajectory.js";
+import type { Place, Trajectory } from "./trajectory.js";
 
 export interface PlanOptions {
   /** Where in the drawing to begin, in the middle of a stroke too; default: its beginning. */
@@ -68,10 +69,11 @@ class PlanBuilder {
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
   private readonly writer: RunWriter;
-  private readonly penMoves: PenMove[] = [];
-  private readonly firstBlock: number[] = [];
-  private readonly runStroke: number[] = [];
-  private readonly runStartS: number[] = [];
+  private readonly penMoves: PenMoveColumns;
+  private runCount = 0;
+  private readonly firstBlock: Uint32Array;
+  private readonly runStroke: Int32Array;
+  private readonly runStartS: Float64Array;
   private readonly travelLimits: RunLimits;
   /** By layer index. */
   private readonly drawLimits: readonly RunLimits[];
@@ -103,7 +105,13 @@ class PlanBuilder {
     );
     this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
-    const segments = pointCount(strokes) + strokeCount(strokes);
+    // A travel and a stroke each, and the way home; a lift, a wait and a drop each, and one at either end.
+    const count = strokeCount(strokes);
+    this.firstBlock = new Uint32Array(2 * count + 2);
+    this.runStroke = new Int32Array(2 * count + 1);
+    this.runStartS = new Float64Array(2 * count + 1);
+    this.penMoves = new PenMoveColumns(3 * count + 2);
+    const segments = pointCount(strokes) + count;
     this.blocks = new BlockColumns(segments, motion.mode === "scurve");
     this.writer = new RunWriter(motion.mode, motion.fit ?? null);
   }
@@ -146,7 +154,7 @@ class PlanBuilder {
   lift(travelMm: number): void {
     if (this.penUp) return;
     this.heightPct = upHeight(this.pen, travelMm);
-    this.movePen(true, liftTiming(this.pen, this.heightPct));
+    this.liftAnyway();
   }
 
   liftAnyway(): void {
@@ -170,19 +178,21 @@ class PlanBuilder {
   private movePen(up: boolean, { heightPct, waitS }: PenTiming): void {
     this.penUp = up;
     const { blocks } = this;
-    this.penMoves.push({ beforeRun: this.runStroke.length, up, startS: blocks.clockS, waitS, heightPct });
+    this.penMoves.push(this.runCount, up, blocks.clockS, waitS, heightPct);
     blocks.clockS += waitS;
   }
 
   private beginRun(stroke: number): void {
-    this.firstBlock.push(this.blocks.count);
-    this.runStroke.push(stroke);
-    this.runStartS.push(this.blocks.clockS);
+    const run = this.runCount++;
+    this.firstBlock[run] = this.blocks.count;
+    this.runStroke[run] = stroke;
+    this.runStartS[run] = this.blocks.clockS;
   }
 
   finish(): Trajectory {
-    const { blocks } = this;
+    const { blocks, penMoves, runCount } = this;
     blocks.trim();
+    this.firstBlock[runCount] = blocks.count;
     return {
       blockCount: blocks.count,
       durationS: blocks.durationS,
@@ -197,12 +207,14 @@ class PlanBuilder {
       startS: blocks.startS,
       alongMm: blocks.alongMm,
       runs: {
-        count: this.runStroke.length,
-        firstBlock: Uint32Array.from([...this.firstBlock, blocks.count]),
-        stroke: Int32Array.from(this.runStroke),
-        startS: Float64Array.from(this.runStartS),
+        count: runCount,
+        firstBlock: this.firstBlock.slice(0, runCount + 1),
+        stroke: this.runStroke.slice(0, runCount),
+        startS: this.runStartS.slice(0, runCount),
       },
-      penMoves: this.penMoves,
+      get penMoves() {
+        return penMoves.moves;
+      },
       totalS: blocks.clockS,
       endX: this.x,
       endY: this.y,
