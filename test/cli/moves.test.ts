@@ -28,7 +28,7 @@ const place = async () => {
   return { xMm, yMm, penUp, motorsOn };
 };
 
-describe("moves by hand from the command line", { timeout: 60_000 }, () => {
+describe("moves by hand from the command line", () => {
   it("end exactly where they were asked to, and know the place from the command before", async () => {
     expect(await onBoard("jog", "20", "10.5")).toEqual(done);
     expect(await onBoard("jog", "-5", "-0.5", "--travel-speed", "50")).toEqual(done);
@@ -67,7 +67,7 @@ describe("moves by hand from the command line", { timeout: 60_000 }, () => {
   });
 });
 
-describe("a machine of one's own", { timeout: 60_000 }, () => {
+describe("a machine of one's own", () => {
   it("is taken from a file", async () => {
     const file = join(folder, "mine.json");
     writeFileSync(file, JSON.stringify(MINE));

@@ -60,7 +60,7 @@ describe("plotwright plan", () => {
       expect(report["strokes"]).toBeGreaterThan(0);
       expect(report["durationS"]).toBeGreaterThan(1);
     }
-  }, 120_000);
+  });
 
   it("writes commands that take the board as long as the plan says, and bring it back home", async () => {
     const generations = ["2.5.3", "2.8.1", "3.0.3"];
@@ -81,7 +81,7 @@ describe("plotwright plan", () => {
         expect([Math.hypot(xMm, yMm) < 0.02, penUp, motorsOn]).toEqual([true, true, false]);
       }
     }
-  }, 240_000);
+  });
 
   it("prints the commands to stdout with -, from motors-on to motors-off", async () => {
     const { code, out } = await cli("plan", sample(firstSample), "--ebb", "-");
@@ -217,7 +217,7 @@ describe("bad input on the command line", () => {
         expect.stringMatching(/^plotwright: .{15,}/),
       ]);
     }
-  }, 60_000);
+  });
 
   it("never expands entities, so that a bomb of them is a short text at most", async () => {
     const entities = [..."bcdefghij"]
@@ -255,7 +255,7 @@ describe("bad input on the command line", () => {
       expect(err).not.toMatch(/internal/);
       expect(code === 0 ? err === "" : err.length > 20).toBe(true);
     }
-  }, 120_000);
+  });
 
   it("ends with 2 for usage it does not know, and writes nothing", async () => {
     const file = write("good.svg", svg('<path d="M10 10h50"/>'));

@@ -40,7 +40,7 @@ beforeAll(() => {
   const tarball = readdirSync(folder).find((name) => name.endsWith(".tgz")) ?? "";
   const flags = ["--ignore-scripts", "--prefer-offline", "--no-audit", "--no-fund"];
   succeed("npm", ["install", ...flags, path.join(folder, tarball)], app);
-}, 300_000);
+});
 
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 

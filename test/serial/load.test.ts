@@ -10,6 +10,7 @@ import { startServerProcess, temporaryFolder } from "../support/server-process.j
 
 const STREAM_COUNT = 50;
 const REQUESTS_PER_S = 20;
+const MOST_AT_ONCE = 4;
 const LEAST_PLOT_S = 20;
 
 /** One dense curve of some 1000 mm. */
@@ -71,9 +72,11 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
   };
   const from = Date.now();
   const asking = setInterval(() => {
-    // A busy computer lets some beats out: what they would have asked is asked with the next one.
+    // A busy computer lets some beats out: what they would have asked is asked with the next ones.
     const due = ((Date.now() - from) / 1_000) * REQUESTS_PER_S;
-    while (answers.length < due) answers.push(ask(paths[answers.length % paths.length]!));
+    for (let more = 0; more < MOST_AT_ONCE && answers.length < due; more++) {
+      answers.push(ask(paths[answers.length % paths.length]!));
+    }
   }, 1_000 / REQUESTS_PER_S);
   undo.push(() => clearInterval(asking));
   const { job } = await events.find(

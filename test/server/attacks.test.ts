@@ -38,8 +38,8 @@ beforeEach(() => begin());
 afterEach(() => end());
 
 /** A server with a plot under way, and its operator's cookie. */
-async function begin(times: NonNullable<Parameters<typeof startApp>[0]>["times"] = {}): Promise<void> {
-  app = await startApp({ trustsLoopback: false, times });
+async function begin(options: Parameters<typeof startApp>[0] = {}): Promise<void> {
+  app = await startApp({ trustsLoopback: false, ...options });
   const paired = await fetch(`${app.url}${app.access.pairingPath("operate")}`);
   cookie = (paired.headers.get("set-cookie") ?? "").split(";")[0] ?? "";
   const added = await fetch(`${app.url}/api/v1/jobs?name=a`, {
@@ -243,7 +243,8 @@ describe("while a plot runs", () => {
       [413],
     );
     await end();
-    await begin({ headersTimeout: 1_500, requestTimeout: 2_500, connectionsCheckingInterval: 100 });
+    await begin({ times: { connectionsCheckingInterval: 100 } });
+    app.hurry(1_500, 2_500);
     const status = (text: string): Answer => ({ status: Number(text.slice(9, 12)), text });
     const slowHead = `POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nCookie: ${cookie}\r\n`;
     await refused("slow headers", overSocket(slowHead).then(status), [408]);

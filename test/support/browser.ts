@@ -11,5 +11,6 @@ export async function launchBrowser(): Promise<Browser> {
     );
   }
   // As on a computer without a graphics card: drawn by the processor, which is quicker than a card that is imitated.
-  return chromium.launch({ executablePath, args: process.getuid?.() === 0 ? ["--no-sandbox"] : [] });
+  const args = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+  return chromium.launch({ executablePath, args, timeout: 120_000 });
 }

@@ -56,6 +56,18 @@ function manyStrokes(): string {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path fill="none" stroke="#000" d="${lines.join("")}"/></svg>`;
 }
 
+/** From now on the page waits to say that it plans, which may be over when somebody looks from outside. */
+const notePlanning = (page: Page): Promise<void> =>
+  plotBar(page).evaluate((bar) => {
+    const planning = new Promise<void>((resolve) => {
+      const look = (): void => {
+        if (bar.textContent?.includes("Planning…")) resolve();
+      };
+      new MutationObserver(look).observe(bar, { subtree: true, childList: true, characterData: true });
+    });
+    (window as unknown as { planning: Promise<void> }).planning = planning;
+  });
+
 async function lay(page: Page, name: string, text: string): Promise<void> {
   await dropFile(page, `${name}.svg`, text);
   await page.getByText(name).first().waitFor();
@@ -91,8 +103,9 @@ export const PAGE_STATES: readonly PageState[] = [
   {
     name: "05-planning",
     reach: async ({ page }) => {
+      await notePlanning(page);
       await dropFile(page, "many.svg", manyStrokes());
-      await plotBar(page).getByText("Planning…").waitFor();
+      await page.evaluate(() => (window as unknown as { planning: Promise<void> }).planning);
     },
   },
   {

@@ -37,6 +37,8 @@ export interface TestApp {
   /** "method path" of every route below /api/v1. */
   routes(): string[];
   drawingsOnDisk(): string[];
+  /** From now on requests have to come that fast. */
+  hurry(headersMs: number, wholeMs: number): void;
   close(): Promise<void>;
 }
 
@@ -48,11 +50,7 @@ export async function startApp(
     readonly lapseMs?: number;
     readonly boards?: readonly FoundBoard[];
     readonly tls?: TlsFiles;
-    readonly times?: {
-      readonly headersTimeout?: number;
-      readonly requestTimeout?: number;
-      readonly connectionsCheckingInterval?: number;
-    };
+    readonly times?: { readonly connectionsCheckingInterval: number };
   } = {},
 ): Promise<TestApp> {
   const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
@@ -143,6 +141,10 @@ export async function startApp(
       ),
     logged,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),
+    hurry: (headersMs, wholeMs) => {
+      http.headersTimeout = headersMs;
+      http.requestTimeout = wholeMs;
+    },
     close: async () => {
       hub.close();
       http.closeAllConnections();
