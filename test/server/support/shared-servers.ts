@@ -66,6 +66,16 @@ export async function share(
   expect((await send(url, "POST", "/shared-jobs", body)).status).toBe(201);
 }
 
+/**
+ * Asks for a job to begin, as "200", or what was said against it. A database that a busy computer keeps waiting counts
+ * as away after some seconds: who asks again gets the answer.
+ */
+export async function startOf({ url }: AtUrl, id: string): Promise<string> {
+  const answer = await send(url, "POST", `/jobs/${id}/start`);
+  const text = await answer.text();
+  return answer.ok ? "200" : `${answer.status} ${text}`;
+}
+
 /** Shares a job that this server takes itself, and waits until it has. Returns the shared job's id. */
 export async function shareAndTake(server: AtUrl, name: string, target: SharedTarget): Promise<string> {
   await share(server, name, target);
