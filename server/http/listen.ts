@@ -11,8 +11,17 @@ export interface TlsFiles {
   readonly key: string;
 }
 
-/** Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. */
-const TIMES = { headersTimeout: 20_000, requestTimeout: 10 * 60_000, connectionsCheckingInterval: 10_000 };
+/**
+ * Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. A connection is kept for the next request
+ * longer than a computer stops a program for that it has no time for: a program that wakes after that ends what it
+ * kept too long before it reads, and the request that had come meanwhile would be lost.
+ */
+const TIMES = {
+  headersTimeout: 20_000,
+  requestTimeout: 10 * 60_000,
+  keepAliveTimeout: 75_000,
+  connectionsCheckingInterval: 10_000,
+};
 const MOST_CONNECTIONS = 1_000;
 
 /** Says so and hangs up: what the other side leaves half open would keep the server from closing its port. */
