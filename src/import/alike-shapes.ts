@@ -41,9 +41,15 @@ export interface Drawn {
   readonly look: Look;
 }
 
+/** A shape that others may be like. */
+export interface Model extends Drawn {
+  /** Of a path: which of its attributes is the path data, if nothing else says what is drawn; else −1. */
+  readonly pathAt: number;
+}
+
 export class AlikeShapes {
   /** The shape that the next may be like; null for none. */
-  model: Drawn | null = null;
+  model: Model | null = null;
   /** By name number: whether the attribute may differ. */
   private readonly isOutline: Uint8Array;
 
@@ -65,11 +71,21 @@ export class AlikeShapes {
       declared.get("transform") === undefined &&
       declared.get("clip-path") === undefined &&
       attribute(this.tree, drawn.element, "pathLength") === undefined;
-    if (isModel) this.model = drawn;
+    if (isModel) this.model = { ...drawn, pathAt: this.pathAt(drawn, declared) };
+  }
+
+  private pathAt({ element, tag }: Drawn, declared: Declared): number {
+    if (tag !== "path" || declared.get("d") !== undefined) return -1;
+    const { attributeOffsets, attributeNames, names } = this.tree;
+    const from = attributeOffsets[element];
+    for (let i = from; i < attributeOffsets[element + 1]; i++) {
+      if (names[attributeNames[i]] === "d") return i - from;
+    }
+    return -1;
   }
 
   /** The model, if `element` is like it; else null. */
-  modelOf(element: number, outer: Context): Drawn | null {
+  modelOf(element: number, outer: Context): Model | null {
     const { model, tree, isOutline } = this;
     if (model === null || model.outer !== outer) return null;
     const { attributeOffsets, attributeNames, values } = tree;

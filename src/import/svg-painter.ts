@@ -3,11 +3,12 @@ import { compose, meanScale, rotation, scaling, translation } from "../geometry/
 import type { Box } from "../geometry/box.js";
 import type { DashPattern } from "../drawing/drawing.js";
 import { MM_PER_PX } from "../units.js";
+import type { Model } from "./alike-shapes.js";
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
 import { lengthPx } from "./length.js";
-import { drawPathData } from "./path-data.js";
+import { drawPathData, drawPlainPolyline } from "./path-data.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
@@ -16,7 +17,7 @@ import { placeText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "./text-font.js";
-import { attribute, type SvgTree } from "./svg-tree.js";
+import { attribute, OWN_STRING, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "./warnings.js";
 
@@ -61,6 +62,19 @@ export class SvgPainter {
       this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
     }
     return look;
+  }
+
+  /** A path like `model`, if it is a plain polyline; else false, and nothing is drawn. */
+  drawPlainPath(element: number, { pathAt, context, look }: Model): boolean {
+    if (pathAt < 0) return false;
+    const { attributeOffsets, values } = this.tree;
+    const place = values.places[attributeOffsets[element] + pathAt];
+    const { shape } = this.geometry;
+    shape.clear();
+    if (place >= OWN_STRING || !drawPlainPolyline(shape, values.text, place)) return false;
+    this.element = element;
+    this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
+    return true;
   }
 
   /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */

@@ -30,7 +30,7 @@ const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 
 /** Added to a value's place: it is not in the text but a string of its own, with that number. */
-const OWN_STRING = 0x80000000;
+export const OWN_STRING = 0x80000000;
 
 /** Faults of the XML that leave no doubt about what was meant; browsers accept them in pages. */
 const HARMLESS = ["undefined entity", "unquoted attribute value", "attribute without value", "]]>"];

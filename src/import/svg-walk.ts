@@ -126,6 +126,7 @@ export class SvgWalk {
   private visit(element: number, outer: Context): void {
     const model = this.alike.modelOf(element, outer);
     if (model !== null) {
+      if (this.painter.drawPlainPath(element, model)) return;
       // `declared` still is the model's.
       this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
       return;

@@ -18,6 +18,7 @@ export interface PreparedLayer extends StrokeLayer {
 /** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
   const layer = new Uint32Array(lines.tag.length);
+  if (table.layers.length === 1) return { ...lines, tag: layer };
   for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
   const tagged = { ...lines, tag: layer };
   if (isSorted(layer)) return tagged;
@@ -114,7 +115,7 @@ function unshifted(
   let next = 0;
   const renumbered = layers.map((_, k) => (isVisible[k] ? next++ : 0));
   const layer = new Uint16Array(lineCount(lines));
-  for (let i = 0; i < layer.length; i++) layer[i] = renumbered[lines.tag[i]];
+  if (layers.length > 1) for (let i = 0; i < layer.length; i++) layer[i] = renumbered[lines.tag[i]];
   return {
     xy: lines.xy,
     offsets: lines.offsets,

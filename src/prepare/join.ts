@@ -17,10 +17,10 @@ import {
   SAME_POINT,
   distance,
   isClosedLine,
-  lineCount,
   lineLength,
   type Lines,
 } from "../geometry/polyline.js";
+import { tagRanges } from "./tour.js";
 
 /** More candidates than this at one place are not compared: it keeps a star of 100 000 rays linear. */
 const MOST_CANDIDATES = 24;
@@ -31,9 +31,7 @@ const UNPAIRED = -1;
 /** Lines of one tag must stand together. `radius` in mm; 0 joins only what meets to the bit (or nearly). */
 export function joinLines(lines: Lines, radius: number): Lines {
   const builder = new LineBuilder();
-  const count = lineCount(lines);
-  for (let first = 0, end = 0; first < count; first = end) {
-    while (end < count && lines.tag[end] === lines.tag[first]) end++;
+  for (const [first, end] of tagRanges(lines)) {
     joinRange(lines, first, end, Math.max(radius, SAME_POINT), builder);
   }
   return builder.finish();

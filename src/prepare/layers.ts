@@ -38,7 +38,8 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
     indexOfKey[key] = layers.length - 1;
   }
   const ofShape = new Uint16Array(paths.count);
-  for (let shape = 0; shape < paths.count; shape++) ofShape[shape] = indexOfKey[keyOf(shape)];
+  if (layers.length > 1)
+    for (let shape = 0; shape < paths.count; shape++) ofShape[shape] = indexOfKey[keyOf(shape)];
   return { layers, ofShape };
 }
 

@@ -53,17 +53,18 @@ function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean)
   const firstOf = new Uint32Array(end - first + 1);
   for (let i = first; i < end; i++) {
     const points = offsets[i + 1] - offsets[i];
-    firstOf[i - first + 1] =
-      firstOf[i - first] + (isClosedLine(lines, i) ? (freeStart ? points - 1 : 1) : Math.min(points, 2));
+    let entries = points;
+    if (points > 2) entries = !isClosedLine(lines, i) ? 2 : freeStart ? points - 1 : 1;
+    firstOf[i - first + 1] = firstOf[i - first] + entries;
   }
   const places = new Float64Array(2 * firstOf[end - first]);
   const line = new Uint32Array(firstOf[end - first]);
   for (let i = first; i < end; i++) {
     const from = firstOf[i - first];
     const to = firstOf[i - first + 1];
-    const closed = isClosedLine(lines, i);
+    const isOpen = to - from === 2 && !isClosedLine(lines, i);
     for (let e = from; e < to; e++) {
-      const p = closed ? offsets[i] + e - from : e === from ? offsets[i] : offsets[i + 1] - 1;
+      const p = isOpen && e > from ? offsets[i + 1] - 1 : offsets[i] + e - from;
       places[2 * e] = xy[2 * p];
       places[2 * e + 1] = xy[2 * p + 1];
       line[e] = i;

@@ -2,6 +2,7 @@
 import type { Drawing } from "../drawing/drawing.js";
 import { meanScale } from "../geometry/affine.js";
 import {
+  EMPTY_BOX,
   boxContains,
   boxesTouch,
   boxOfPoints,
@@ -15,7 +16,7 @@ import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
 import { dashLines, scaledPattern } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
-import { boxAt, isFarAway, pageCorners, type Placement } from "./place.js";
+import { isFarAway, pageCorners, type Placement } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "./settings.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
@@ -35,10 +36,21 @@ export function shapesOnPaper(
   warnings: string[],
 ): Uint8Array {
   const wanted = new Uint8Array(drawing.paths.count);
+  const boxes = place.shapeBoxes;
+  const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
   let outside = 0;
   let far = 0;
-  for (let shape = 0; shape < wanted.length; shape++) {
-    const box = boxAt(place.shapeBoxes, shape);
+  for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {
+    const x0 = boxes[at];
+    const y0 = boxes[at + 1];
+    const x1 = boxes[at + 2];
+    const y1 = boxes[at + 3];
+    // Most lie wholly within.
+    if (x0 >= within.x0 && y0 >= within.y0 && x1 <= within.x1 && y1 <= within.y1 && x0 <= x1 && y0 <= y1) {
+      wanted[shape] = 1;
+      continue;
+    }
+    const box = { x0, y0, x1, y1 };
     if (isEmptyBox(box)) continue;
     if (isFarAway(box)) far++;
     else if (limit !== null && !boxesTouch(box, limit)) outside++;

@@ -130,12 +130,13 @@ function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder):
   builder.end(lines.tag[i]);
 }
 
-/** Ranges [first, end) of lines that share a tag. */
-export function tagRanges(lines: Lines): [number, number][] {
+/** Ranges [first, end) of lines that share a tag; lines of one tag stand together. */
+export function tagRanges({ tag }: Lines): [number, number][] {
+  const count = tag.length;
+  if (count > 0 && tag[0] === tag[count - 1]) return [[0, count]];
   const ranges: [number, number][] = [];
-  const count = lineCount(lines);
   for (let first = 0, end = 0; first < count; first = end) {
-    while (end < count && lines.tag[end] === lines.tag[first]) end++;
+    while (end < count && tag[end] === tag[first]) end++;
     ranges.push([first, end]);
   }
   return ranges;
