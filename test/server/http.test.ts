@@ -173,6 +173,12 @@ describe("the HTTP interface", () => {
     }
   });
 
+  it("keeps a connection for the next request longer than a busy computer stops a program for", async () => {
+    const { headers } = await call("GET", "/state");
+    const [, keptS] = /timeout=(\d+)/.exec(headers.get("keep-alive") ?? "") ?? [];
+    expect(Number(keptS)).toBeGreaterThanOrEqual(60);
+  });
+
   it("answers in one form to whatever it does not understand", async () => {
     expect(await fault(await call("GET", "/nothing"))).toMatchObject({ status: 404, code: "not-found" });
     expect(await fault(await call("POST", "/jobs", { name: "x" }))).toMatchObject({ status: 400 });
