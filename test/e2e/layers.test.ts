@@ -27,6 +27,7 @@ beforeAll(async () => {
   await test.group("Drawing", false);
   await test.group("Layers");
   await test.group("Pens");
+  await test.page.locator(".layer-list .layer-name").first().waitFor();
 });
 
 afterAll(async () => test.close());

@@ -33,6 +33,7 @@ async function markedPixels(page: Page): Promise<number> {
 
 describe("the report", () => {
   it("names what is not drawn, and what can be done about it", async () => {
+    await test.page.locator(".report li").first().waitFor();
     const notes = await test.page.locator(".report li").allInnerTexts();
     expect(notes.join("\n")).toMatch(/1 picture is not drawn[^\n]*Trace/);
     expect(notes.length).toBeGreaterThanOrEqual(1);
