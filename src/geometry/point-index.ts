@@ -51,13 +51,15 @@ export class PointIndex {
    */
   constructor(xy: Float64Array, ids?: Uint32Array) {
     this.xy = xy;
-    this.ids = ids ? ids.slice() : new Uint32Array(xy.length / 2);
-    if (!ids) for (let id = 0; id < this.ids.length; id++) this.ids[id] = id;
-    this.xs = new Float64Array(this.ids.length);
-    this.ys = new Float64Array(this.ids.length);
-    for (let k = 0; k < this.ids.length; k++) {
-      this.xs[k] = xy[2 * this.ids[k]];
-      this.ys[k] = xy[2 * this.ids[k] + 1];
+    const count = ids?.length ?? xy.length / 2;
+    this.ids = new Uint32Array(count);
+    this.xs = new Float64Array(count);
+    this.ys = new Float64Array(count);
+    for (let k = 0; k < count; k++) {
+      const id = ids ? ids[k] : k;
+      this.ids[k] = id;
+      this.xs[k] = xy[2 * id];
+      this.ys[k] = xy[2 * id + 1];
     }
     this.places = new Uint32Array(xy.length / 2);
     this.gone = new Uint8Array(this.ids.length);

@@ -42,6 +42,16 @@ function keepsFloor(length: number, v0: number, v1: number, phases: Phases, floo
   );
 }
 
+/** Profiles to choose from: peak, rise, fall, peak … */
+const candidates = new Float64Array(3 * 10);
+let candidateCount = 0;
+
+function add(peak: number, rise: number, fall: number): void {
+  candidates[candidateCount++] = peak;
+  candidates[candidateCount++] = rise;
+  candidates[candidateCount++] = fall;
+}
+
 /**
  * Puts the fastest profile that keeps the floor in place of `phases`, the fastest of all, if that has a phase
  * too short and there is one.
@@ -55,47 +65,65 @@ export function keepFloor(
   phases: Phases,
 ): void {
   if (keepsFloor(length, v0, v1, phases, floorS)) return;
+  const top = phases.peak;
   let fastest = timeOf(length, v0, v1, phases) + LOSS * floorS;
-  const { peak: top, rise: up, fall: down } = phases;
-  const consider = (peak: number, rise: number, fall: number): void => {
+  addCandidates(length, v0, v1, accel, floorS, phases);
+  const next = { peak: 0, rise: 0, fall: 0 };
+  for (let k = 0; k < candidateCount; k += 3) {
+    next.peak = candidates[k]!;
+    next.rise = candidates[k + 1]!;
+    next.fall = candidates[k + 2]!;
+    const { peak, rise, fall } = next;
     if (!(peak > 0 && peak <= top && rise >= 0 && fall >= 0 && rise + fall <= length * (1 + NO_PHASE)))
-      return;
-    const next = { peak, rise, fall };
+      continue;
     const time = timeOf(length, v0, v1, next);
-    if (!(time < fastest) || !keepsFloor(length, v0, v1, next, floorS)) return;
+    if (!(time < fastest) || !keepsFloor(length, v0, v1, next, floorS)) continue;
     fastest = time;
-    Object.assign(phases, next);
-  };
+    phases.peak = peak;
+    phases.rise = rise;
+    phases.fall = fall;
+  }
+}
+
+function addCandidates(
+  length: number,
+  v0: number,
+  v1: number,
+  accel: number,
+  floorS: number,
+  { peak: top, rise: up, fall: down }: Phases,
+): void {
+  candidateCount = 0;
   const high = Math.max(v0, v1);
   // Ramps made longer where they are too short, at the same peak.
   const rampTo = (peak: number, v: number): number =>
     peak > v ? ((peak + v) / 2) * Math.max((peak - v) / accel, floorS) : 0;
-  consider(top, up > 0 ? rampTo(top, v0) : 0, down > 0 ? rampTo(top, v1) : 0);
+  add(top, up > 0 ? rampTo(top, v0) : 0, down > 0 ? rampTo(top, v1) : 0);
   // A lower peak, with a steady phase as long as the floor; or two phases of that length.
   const lower =
     (accel / 2) *
     (Math.sqrt(floorS ** 2 + (4 / accel) * (length + (v0 * v0 + v1 * v1) / (2 * accel))) - floorS);
-  if (lower > high) consider(lower, rampTo(lower, v0), rampTo(lower, v1));
+  if (lower > high) add(lower, rampTo(lower, v0), rampTo(lower, v1));
   const even = length / floorS - (v0 + v1) / 2;
   if (even > high && even - Math.min(v0, v1) <= accel * floorS) {
     const rise = ((v0 + even) / 2) * floorS;
-    consider(even, rise, length - rise);
+    add(even, rise, length - rise);
   }
   // Two phases, one as long as the floor and the other at full acceleration.
   const early = 2 * accel * length - accel * floorS * v0 + v1 * v1;
   const first = (Math.sqrt((accel * floorS) ** 2 + 4 * early) - accel * floorS) / 2;
-  if (first > high) consider(first, ((v0 + first) / 2) * floorS, length - ((v0 + first) / 2) * floorS);
+  if (first > high) add(first, ((v0 + first) / 2) * floorS, length - ((v0 + first) / 2) * floorS);
   const late = 2 * accel * length - accel * floorS * v1 + v0 * v0;
   const last = (Math.sqrt((accel * floorS) ** 2 + 4 * late) - accel * floorS) / 2;
-  if (last > high) consider(last, length - ((v1 + last) / 2) * floorS, ((v1 + last) / 2) * floorS);
+  if (last > high) add(last, length - ((v1 + last) / 2) * floorS, ((v1 + last) / 2) * floorS);
   // No steady phase: one of the ramps, or both, take its way.
   if (top > high && up > 0 && down > 0) {
     const share = (top * top - v0 * v0) / (2 * top * top - v0 * v0 - v1 * v1);
-    consider(top, share * length, length - share * length);
-    consider(top, length - down, down);
-    consider(top, up, length - up);
+    add(top, share * length, length - share * length);
+    add(top, length - down, down);
+    add(top, up, length - up);
   }
   // One phase for all.
-  if (v1 >= v0 && v1 > 0) consider(v1, length, 0);
-  else if (v0 > 0) consider(v0, 0, length);
+  if (v1 >= v0 && v1 > 0) add(v1, length, 0);
+  else if (v0 > 0) add(v0, 0, length);
 }

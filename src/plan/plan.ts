@@ -111,8 +111,8 @@ class PlanBuilder {
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
     this.penMoves = new PenMoveColumns(3 * count + 2);
-    const segments = pointCount(strokes) + count;
-    this.blocks = new BlockColumns(segments, motion.mode === "scurve");
+    // One segment fewer than points in every stroke, and a travel to it; and the way home.
+    this.blocks = new BlockColumns(pointCount(strokes) + 1, motion.mode === "scurve");
     this.writer = new RunWriter(motion.mode, motion.fit ?? null);
   }
 
