@@ -1,6 +1,7 @@
 /** A planned run as the fit reads it: its blocks in columns, and where it ends at rest. */
 import type { BlockColumns } from "./block-columns.js";
 import type { RunEnd } from "./run-path.js";
+import { blockLength } from "./trajectory.js";
 
 export class FitSource {
   blocks!: BlockColumns;
@@ -29,8 +30,10 @@ export class FitSource {
   alongAt(k: number, clock: number): number {
     const { blocks } = this;
     const next = k + 1 < blocks.count ? blocks.alongMm[k + 1]! : this.end.alongMm;
-    const share = (clock - this.startOf(k)) / blocks.durationS[k]!;
-    return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * Math.min(1, Math.max(0, share));
+    const t = Math.min(blocks.durationS[k]!, Math.max(0, clock - this.startOf(k)));
+    const whole = blockLength(blocks, k, blocks.durationS[k]!);
+    const share = whole > 0 ? Math.min(1, blockLength(blocks, k, t) / whole) : 0;
+    return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * share;
   }
 
   /** Appends block k as it is. */

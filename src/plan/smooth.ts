@@ -21,13 +21,17 @@ const SAME_TIME = 1e-12;
 class Walker {
   k = -1;
   private t = 0;
+  private startAlongSpeed = 0;
   x: number;
   y: number;
   vx = 0;
   vy = 0;
   ax = 0;
   ay = 0;
+  /** mm along the drawing, its speed and its acceleration: the third coordinate of the motion. */
   along: number;
+  alongSpeed = 0;
+  alongAccel = 0;
   /** Seconds until this end reaches the end of its block. */
   left: number;
 
@@ -54,8 +58,8 @@ class Walker {
     this.y = from.y[k]! + t * (from.vy[k]! + (t * this.ay) / 2);
     this.vx = from.vx[k]! + t * this.ax;
     this.vy = from.vy[k]! + t * this.ay;
-    const next = k + 1 < from.count ? from.alongMm[k + 1]! : this.end.alongMm;
-    this.along = from.alongMm[k]! + (next - from.alongMm[k]!) * (t / from.durationS[k]!);
+    this.along = from.alongMm[k]! + t * (this.startAlongSpeed + (t * this.alongAccel) / 2);
+    this.alongSpeed = this.startAlongSpeed + t * this.alongAccel;
   }
 
   private enter(): void {
@@ -71,6 +75,23 @@ class Walker {
     this.ax = inside ? from.ax[k]! : 0;
     this.ay = inside ? from.ay[k]! : 0;
     this.along = inside ? from.alongMm[k]! : this.end.alongMm;
+    this.startAlong(inside ? k : -1);
+  }
+
+  /** The block's part of the drawing is passed as fast as the block is, at its start and at its end. */
+  private startAlong(k: number): void {
+    const { from } = this;
+    if (k < 0) {
+      this.alongSpeed = this.alongAccel = 0;
+      return;
+    }
+    const duration = from.durationS[k]!;
+    const mm = (k + 1 < from.count ? from.alongMm[k + 1]! : this.end.alongMm) - from.alongMm[k]!;
+    const v0 = Math.hypot(this.vx, this.vy);
+    const v1 = Math.hypot(this.vx + duration * this.ax, this.vy + duration * this.ay);
+    const perMm = v0 + v1 > 0 ? (2 * mm) / ((v0 + v1) * duration) : 0;
+    this.startAlongSpeed = this.alongSpeed = perMm * v0;
+    this.alongAccel = (perMm * (v1 - v0)) / duration;
   }
 }
 
@@ -84,6 +105,7 @@ export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, o
   const trail = new Walker(from, end, window);
   let x = lead.x;
   let y = lead.y;
+  let along = lead.along;
   let k = out.count;
   let clock = out.clockS;
   for (;;) {
@@ -95,6 +117,9 @@ export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, o
     const vy = same ? lead.vy - (lead.ay * window) / 2 : (lead.y - trail.y) / window;
     const ax = same ? lead.ax : (lead.vx - trail.vx) / window;
     const ay = same ? lead.ay : (lead.vy - trail.vy) / window;
+    const alongSpeed = (lead.along - trail.along) / window;
+    const alongAccel = (lead.alongSpeed - trail.alongSpeed) / window;
+    const alongJerk = (lead.alongAccel - trail.alongAccel) / window;
     const jx = (lead.ax - trail.ax) / window;
     const jy = (lead.ay - trail.ay) / window;
     if (dt > 2 * SAME_TIME) {
@@ -108,12 +133,13 @@ export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, o
       jxOut[k] = jx;
       jyOut[k] = jy;
       startS[k] = clock;
-      alongMm[k] = (lead.along + trail.along) / 2;
+      alongMm[k] = along;
       k++;
     }
     clock += dt;
     x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
+    along += dt * (alongSpeed + dt * (alongAccel / 2 + (dt * alongJerk) / 6));
     lead.advance(dt);
     trail.advance(dt);
   }

@@ -151,7 +151,7 @@ export class ThirdOrderPlanner {
     // A ramp too small to be written must not be given way either: √Δ in its time makes way of rounding.
     const rise = isRounding(peak - v0, peak) ? 0 : rampLength(v0, peak, accel, jerk);
     const fall = isRounding(peak - v1, peak) ? 0 : rampLength(peak, v1, accel, jerk);
-    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, (v0 + peak) / 2, own, out);
+    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, null, own, out);
     const cruise = length - rise - fall;
     if (cruise > NO_PIECE) {
       out.push(cruise / peak, this.x, this.y, ux * peak, uy * peak, 0, 0, this.along);
@@ -159,16 +159,16 @@ export class ThirdOrderPlanner {
       this.y += uy * cruise;
       this.along += cruise;
     }
-    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, (v1 + peak) / 2, own, out);
+    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, null, own, out);
   }
 
-  /** From one velocity vector to another in two or three blocks; `speed` is that along the drawing. */
+  /** From one velocity vector to another in two or three blocks. `speed`: along the drawing, round a corner of it; null where the way is the drawing's own. */
   private writeChange(
     vx0: number,
     vy0: number,
     vx1: number,
     vy1: number,
-    speed: number,
+    speed: number | null,
     limits: RunLimits,
     out: BlockColumns,
   ): void {
@@ -192,9 +192,11 @@ export class ThirdOrderPlanner {
       ky: number,
     ): void => {
       out.pushJerk(t, this.x, this.y, vx, vy, ax, ay, kx, ky, this.along);
-      this.x += t * (vx + t * (ax / 2 + (t * kx) / 6));
-      this.y += t * (vy + t * (ay / 2 + (t * ky) / 6));
-      this.along += speed * t;
+      const dx = t * (vx + t * (ax / 2 + (t * kx) / 6));
+      const dy = t * (vy + t * (ay / 2 + (t * ky) / 6));
+      this.x += dx;
+      this.y += dy;
+      this.along += speed === null ? Math.hypot(dx, dy) : speed * t;
     };
     const gain = (rise * rise) / 2;
     step(rise, vx0, vy0, 0, 0, jx, jy);

@@ -149,7 +149,11 @@ function blockAlongSpan(trajectory: Trajectory, k: number, ownLength: number): n
 }
 
 /** Length in mm of the first `t` seconds of block `k`: exact for straight blocks, else by Gauss's rule. */
-export function blockLength(trajectory: Trajectory, k: number, t: number): number {
+export function blockLength(
+  trajectory: Pick<Trajectory, "vx" | "vy" | "ax" | "ay" | "jx" | "jy">,
+  k: number,
+  t: number,
+): number {
   const vx = trajectory.vx[k]!;
   const vy = trajectory.vy[k]!;
   const ax = trajectory.ax[k]!;

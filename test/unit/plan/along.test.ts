@@ -1,0 +1,27 @@
+/** mm along the drawing, which holds and stops go on from: where the pen is on it, at every instant of a ramp too. */
+import { describe, expect, it } from "vitest";
+import { DEFAULT_MOTION, DEFAULT_PEN, MOTION_MODES, plan, stateAt } from "../../../src/index.js";
+import { strokesOf } from "../../support/local-planner.js";
+
+/** Round the tip, which is cut off, they go on; and a fit may run ahead a little. */
+const WITHIN_MM = DEFAULT_MOTION.draw.cornerMm + 0.02;
+
+/** Straights and sharp corners, and points so dense that pieces are fitted to them. */
+const DRAWINGS = {
+  "a line there and back": [10, 20, 40, 20, 10, 20],
+  "a line of many points there and back": Array.from({ length: 161 }, (_, i) => [
+    10 + 30 * (1 - Math.abs(1 - i / 80)),
+    20,
+  ]).flat(),
+};
+
+describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
+  it.each(Object.entries(DRAWINGS))("are where the pen is, on %s", (_, line) => {
+    const trajectory = plan(strokesOf(line), { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
+    for (let tS = 0; tS < trajectory.totalS; tS += 0.004) {
+      const { stroke, alongMm, x } = stateAt(trajectory, tS);
+      if (stroke < 0) continue;
+      expect(Math.abs(30 - Math.abs(30 - alongMm) - (x - 10))).toBeLessThan(WITHIN_MM);
+    }
+  });
+});
