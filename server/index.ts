@@ -69,6 +69,8 @@ export interface ServerOptions {
   readonly sharedPollMs?: number;
   /** Silence after which a server that shares jobs counts as gone; 60 000 unless told. */
   readonly sharedLostAfterMs?: number;
+  /** A database that does not answer for so long counts as away; 5 s unless told. */
+  readonly sharedPatienceMs?: number;
   /** Gets one line for each thing worth knowing; silent unless given. */
   readonly log?: (line: string) => void;
 }
@@ -245,7 +247,7 @@ function openLocalName(
 
 /** Only a server that shares its queue loads what it takes for that. */
 async function openShared(
-  { sharedQueue, sharedPollMs, sharedLostAfterMs }: ServerOptions,
+  { sharedQueue, sharedPollMs, sharedLostAfterMs, sharedPatienceMs }: ServerOptions,
   parts: Pick<SharedParts, "queue" | "files" | "plotters" | "log"> & {
     readonly store: Store;
     readonly notices: Notices;
@@ -258,7 +260,7 @@ async function openShared(
   if (serverId !== kept) store.saveSetting("server-id", serverId);
   return new SharedQueue({
     ...parts,
-    shared: await SharedStore.open(sharedQueue, log),
+    shared: await SharedStore.open(sharedQueue, log, sharedPatienceMs),
     serverId,
     serverName: hostname(),
     notice: (message) => notices.add(message),

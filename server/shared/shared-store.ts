@@ -45,7 +45,7 @@ CREATE TABLE IF NOT EXISTS plotwright_servers (
 const RETENTION_DAYS = 3_650;
 const MOST_LISTED = 500;
 /** Of somebody who waits for his plot to begin. A network that is cut tells nobody. */
-const SHORT_MS = 5_000;
+const PATIENCE_MS = 5_000;
 
 /** $1: ms of silence after which a server counts as gone. */
 const LOST = `state IN ('taken', 'stored') AND NOT has_begun AND payload IS NOT NULL AND NOT EXISTS (
@@ -57,15 +57,21 @@ type Row = Record<string, unknown>;
 export class SharedStore {
   readonly #boss: PgBoss;
   readonly #pool: Pool;
+  readonly #patienceMs: number;
   readonly #queues = new Set<string>();
 
-  private constructor(boss: PgBoss, pool: Pool) {
+  private constructor(boss: PgBoss, pool: Pool, patienceMs: number) {
     this.#boss = boss;
     this.#pool = pool;
+    this.#patienceMs = patienceMs;
   }
 
   /** Loads pg and pg-boss, which nothing else needs. Throws `bad-setting` when the database can't be used. */
-  static async open(url: string, log: (line: string) => void): Promise<SharedStore> {
+  static async open(
+    url: string,
+    log: (line: string) => void,
+    patienceMs = PATIENCE_MS,
+  ): Promise<SharedStore> {
     const failed = (cause: unknown): PlotwrightError =>
       new PlotwrightError("bad-setting", `The shared queue's database can't be used: ${words(cause)}.`, {
         cause,
@@ -73,14 +79,14 @@ export class SharedStore {
     let pool: Pool | null = null;
     try {
       const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
-      pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: SHORT_MS });
+      pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: patienceMs });
       const tell = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", tell);
       await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
       boss.on("error", tell);
       await boss.start();
-      return new SharedStore(boss, pool);
+      return new SharedStore(boss, pool, patienceMs);
     } catch (cause) {
       await pool?.end().catch(() => undefined);
       throw failed(cause);
@@ -144,7 +150,7 @@ export class SharedStore {
     const { rowCount } = await this.#pool.query({
       text: "UPDATE plotwright_jobs SET has_begun = true WHERE id = $1 AND server_id = $2",
       values: [id, serverId],
-      query_timeout: SHORT_MS,
+      query_timeout: this.#patienceMs,
     } as QueryConfig);
     return rowCount !== 0;
   }

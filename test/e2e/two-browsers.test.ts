@@ -1,6 +1,6 @@
 /** Several browsers on one server at once: the same picture, one operator, watchers, and one that loses its network. */
 import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { launchBrowser } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
 import { dropFile, historyPanel, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
@@ -18,9 +18,12 @@ let watcher: Page;
 beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8, args: ["--pair-always"] });
-  const links = (): readonly string[] => server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
-  await expect.poll(() => links().length).toBe(2);
-  const [operatePath, watchPath] = links();
+  const linksSaid = (): readonly string[] => {
+    const links = server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
+    if (links.length < 2) throw new Error(`no links to pair with: ${server.output()}`);
+    return links;
+  };
+  const [operatePath, watchPath] = await vi.waitFor(linksSaid, { timeout: 60_000 });
   anna = await pairedPage(operatePath!);
   ben = await pairedPage(operatePath!);
   watcher = await pairedPage(watchPath!);

@@ -14,7 +14,8 @@ import {
 } from "../../../src/schema/index.js";
 
 export const MACHINE = "axidraw-v3";
-/** A heartbeat is never that old while a server runs, however busy the computer is. */
+/** The database answers sooner, and a heartbeat is never that old while a server runs, however busy the computer is. */
+const PATIENCE_MS = 30_000;
 const LOST_AFTER_MS = 3_600_000;
 
 /** Lines of 50 mm. */
@@ -145,6 +146,7 @@ export class SharedDatabase {
       sharedQueue: this.url,
       sharedPollMs: 100,
       sharedLostAfterMs: LOST_AFTER_MS,
+      sharedPatienceMs: PATIENCE_MS,
       ...options,
     });
   }
