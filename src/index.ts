@@ -157,13 +157,9 @@ export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } 
 export { SessionLog } from "./board/session-log.js";
 export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
 export { streamCommands } from "./board/stream-commands.js";
-export {
-  parseSteps,
-  Streamer,
-  type StreamOptions,
-  type StreamPlace,
-  type StreamReport,
-} from "./board/streamer.js";
+export { parseSteps } from "./ebb/replies.js";
+export { Streamer, type StreamOptions, type StreamReport } from "./board/streamer.js";
+export type { StreamPlace } from "./board/timeline.js";
 
 // export
 export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";

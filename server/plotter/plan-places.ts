@@ -61,51 +61,6 @@ export function placeAt(trajectory: Trajectory, planS: number): Place | null {
   return state.stroke >= 0 ? { stroke: state.stroke, alongMm: state.alongMm } : nextPlace(trajectory, planS);
 }
 
-/** Distances that differ by less are the same, mm: the counters know the pen's place to a step only. */
-export const SAME_DISTANCE_MM = 0.02;
-
-/**
- * The time within `aroundS` of `planS` at which the trajectory passes nearest to a point; where it passes
- * more than once, as at the tip of a sharp corner, the pass nearest in time.
- */
-export function nearestTime(
-  trajectory: Trajectory,
-  planS: number,
-  aroundS: number,
-  x: number,
-  y: number,
-): number {
-  const stepS = 0.002;
-  const fromS = Math.max(0, planS - aroundS);
-  const stepCount = Math.ceil((Math.min(trajectory.totalS, planS + aroundS) - fromS) / stepS);
-  const distances = new Float64Array(Math.max(stepCount, 0));
-  const times = new Float64Array(distances.length);
-  // Distance to the straight piece of each step: two samples on a line may both be far from a point on it.
-  let before = stateAt(trajectory, fromS);
-  for (let i = 0; i < distances.length; i++) {
-    const after = stateAt(trajectory, fromS + (i + 1) * stepS);
-    const [dx, dy] = [after.x - before.x, after.y - before.y];
-    const length2 = dx * dx + dy * dy;
-    const share = length2 > 0 ? ((x - before.x) * dx + (y - before.y) * dy) / length2 : 0;
-    const at = Math.min(1, Math.max(0, share));
-    distances[i] = Math.hypot(before.x + at * dx - x, before.y + at * dy - y);
-    times[i] = fromS + (i + at) * stepS;
-    before = after;
-  }
-  const enough = distances.reduce((least, d) => Math.min(least, d), Infinity) + SAME_DISTANCE_MM;
-  let best = planS;
-  let score = Infinity;
-  distances.forEach((distance, i) => {
-    // Time decides only between passes that are as near as each other.
-    const value = distance + SAME_DISTANCE_MM * Math.abs(times[i]! - planS);
-    if (distance <= enough && value < score) {
-      score = value;
-      best = times[i]!;
-    }
-  });
-  return best;
-}
-
 /** A place moved along the drawing by whole strokes or by mm; it stays within the drawing. */
 export function movedPlace(
   strokes: StrokeSet,
@@ -154,12 +109,10 @@ export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: num
   return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
 }
 
-/** How much nearer a place further along must be to be taken, mm a mm: keeps to the right side of a sharp tip. */
-const GAP_MM_PER_MM_ALONG = 0.02;
-
 /**
- * The place on the same stroke nearest to a point, not further than `withinMm` along from the given one: where
- * the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not quite the same.
+ * The place on the same stroke that is nearest to a point, found by following the stroke as long as it comes nearer, not
+ * further than `withinMm`: where the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not
+ * quite the same. The other side of a narrow tip may be nearer still, and is another place.
  */
 export function snappedPlace(
   { xy, offsets }: StrokeSet,
@@ -168,29 +121,30 @@ export function snappedPlace(
   y: number,
   withinMm: number,
 ): Place {
-  let bestMm = place.alongMm;
-  let nearest = Infinity;
+  const { stroke, alongMm } = place;
+  const [first, end] = [offsets[stroke]!, offsets[stroke + 1]! - 1];
+  const lengthOf = (i: number): number =>
+    Math.hypot(xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!);
+  if (first >= end) return place;
+  let i = first;
   let fromMm = 0;
-  for (let i = offsets[place.stroke]!; i + 1 < offsets[place.stroke + 1]!; i++) {
-    const dx = xy[2 * i + 2]! - xy[2 * i]!;
-    const dy = xy[2 * i + 3]! - xy[2 * i + 1]!;
-    const lengthMm = Math.hypot(dx, dy);
-    const low = Math.max(0, place.alongMm - withinMm - fromMm);
-    const high = Math.min(lengthMm, place.alongMm + withinMm - fromMm);
-    if (lengthMm > 0 && low <= high) {
-      const along = ((x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy) / lengthMm;
-      const at = Math.min(high, Math.max(low, along));
-      const gap =
-        Math.hypot(xy[2 * i]! + (dx * at) / lengthMm - x, xy[2 * i + 1]! + (dy * at) / lengthMm - y) +
-        GAP_MM_PER_MM_ALONG * Math.abs(fromMm + at - place.alongMm);
-      if (gap < nearest) {
-        nearest = gap;
-        bestMm = fromMm + at;
-      }
+  while (i + 1 < end && fromMm + lengthOf(i) < alongMm) fromMm += lengthOf(i++);
+  for (let way = 0; ;) {
+    const lengthMm = lengthOf(i);
+    const [dx, dy] = [xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!];
+    const dot = (x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy;
+    const footMm = lengthMm > 0 ? dot / lengthMm : way;
+    const next = footMm > lengthMm ? 1 : footMm < 0 ? -1 : 0;
+    const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));
+    const isThere = next === 0 || next === -way || i + next < first || i + next >= end;
+    if (isThere || Math.abs(nearestMm - alongMm) >= withinMm) {
+      const byMm = Math.min(withinMm, Math.max(-withinMm, nearestMm - alongMm));
+      return { stroke, alongMm: alongMm + byMm };
     }
-    fromMm += lengthMm;
+    way = next;
+    fromMm += way > 0 ? lengthMm : -lengthOf(i - 1);
+    i += way;
   }
-  return { stroke: place.stroke, alongMm: bestMm };
 }
 
 /** The first command that begins `leadS` after command `index` or later. */

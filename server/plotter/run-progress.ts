@@ -8,7 +8,7 @@ import {
   type StreamPlace,
   type Trajectory,
 } from "../../src/index.js";
-import { nearestTime, nextPlace, PlaceTimes, SAME_DISTANCE_MM } from "./plan-places.js";
+import { nextPlace, PlaceTimes } from "./plan-places.js";
 import type { PlotProgress } from "./types.js";
 
 /** A stretch of motion that is or will be streamed, and the plan that it came from. */
@@ -23,14 +23,6 @@ export interface Part {
   readonly next?: Place | null;
 }
 
-/** An instant of a part's plan. */
-export interface Instant {
-  readonly part: Part;
-  readonly planS: number;
-}
-
-/** How far the host's picture of the board's time may be off, s. */
-const AROUND_S = 1;
 /** Of the parts left behind, these are remembered: a plan, the way to rest in it, and a change of heights. */
 const LEFT_COUNT = 3;
 
@@ -41,10 +33,6 @@ export class RunProgress {
 
   private parts: Part[] = [];
   private part: Part | null = null;
-  /** When in its plan the board was seen there last. */
-  private partPlanS = 0;
-  /** Parts that were left not long ago, the latest first, each with when it was. */
-  private left: Instant[] = [];
   private firstTrajectory: Trajectory | null = null;
   private times: PlaceTimes | null = null;
   /** Of the parts that are over. */
@@ -89,42 +77,11 @@ export class RunProgress {
     return found;
   }
 
-  /**
-   * Where in which plan the board stands that was stopped at once at `x`, `y` when it seemed to be at `at`: it has
-   * not got as far as the host believed, perhaps not to that part.
-   */
-  nearest(at: StreamPlace, x: number, y: number): Instant {
-    let best: Instant | null = null;
-    let bestMm = Infinity;
-    for (const { part, planS } of this.around(at)) {
-      const nearS = nearestTime(part.trajectory, planS, AROUND_S, x, y);
-      const there = stateAt(part.trajectory, nearS, this.motion);
-      const mm = Math.hypot(there.x - x, there.y - y);
-      if (mm > bestMm - SAME_DISTANCE_MM) continue;
-      best = { part, planS: nearS };
-      bestMm = mm;
-    }
-    return best ?? { part: this.partOf(at.stream), planS: at.planS };
-  }
-
-  /** The part where it seems to be first, then those before and after it. */
-  private around(at: StreamPlace): Instant[] {
-    const seems = this.parts.findIndex((part) => part.commands === at.stream);
-    const instants = this.parts.map((part, i): Instant => {
-      const { planS, count } = part.commands;
-      if (i === seems) return { part, planS: at.planS };
-      if (part === this.part) return { part, planS: this.partPlanS };
-      return { part, planS: planS[i < seems ? count : 0]! };
-    });
-    return [...instants.slice(seems, seems + 1), ...instants.filter((_, i) => i !== seems), ...this.left];
-  }
-
   /** Where the board is now. */
   update(at: StreamPlace): PlotProgress {
     const part = this.partOf(at.stream);
     if (part !== this.part) this.enter(part, at.stream.planS[0]!);
     this.partS = Math.max(this.partS, at.planS - this.partStartS);
-    this.partPlanS = at.planS;
     const now = stateAt(part.trajectory, at.planS, this.motion);
     const left =
       now.stroke >= 0 ? { stroke: now.stroke, alongMm: now.alongMm } : nextPlace(part.trajectory, at.planS);
@@ -148,12 +105,9 @@ export class RunProgress {
     this.doneS += this.partS;
     this.partS = 0;
     this.partStartS = startS;
-    if (this.part) {
-      this.left = [{ part: this.part, planS: this.partPlanS }, ...this.left].slice(0, LEFT_COUNT);
-    }
     this.part = part;
-    // What has been left is never played again.
-    this.parts = this.parts.slice(this.parts.indexOf(part));
+    // What has been left is never played again; but the board may not have got as far as it seems.
+    this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - LEFT_COUNT));
   }
 
   /** The same place's time in the first plan. */

@@ -38,7 +38,7 @@ import type { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotProgress } from "./types.js";
 
 /** How far mm along the plan and mm along the drawing may be apart. */
-const SNAP_MM = 2;
+const SNAP_MM = 0.5;
 /** Nearer to the end of a stroke, a place counts as its end. */
 const EDGE_MM = 0.05;
 /** A pen that is down already changes its height in this time. */
@@ -151,16 +151,12 @@ export class RunStream {
   stopAtOnce(): void {
     if (!this.isPlaying) return;
     this.emergency = true;
-    this.abandon(new PlotwrightError("conflict", "The plot was stopped at once."));
+    this.streamer?.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
   /** Stops the motors for good: what plays, or would be played next, fails with the error. */
   fail(error: PlotwrightError): void {
     this.failure = error;
-    this.abandon(error);
-  }
-
-  private abandon(error: PlotwrightError): void {
     this.carriage.connection.session.write([{ line: "ES" }]);
     this.streamer?.abandon(error);
   }
@@ -252,11 +248,12 @@ export class RunStream {
   /** The board has dropped its queue: what it has drawn is what its counters say. */
   private async afterEmergency(streamer: Streamer): Promise<void> {
     this.emergency = false;
-    const at = streamer.place();
     await this.carriage.findPlace();
+    const { steps1, steps2 } = this.carriage.boardState!;
+    const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
+    const part = this.progress.partOf(at.stream);
     const { x, y } = this.carriage.place(machineOf(this.settings.current))!;
-    const { part, planS } = this.progress.nearest(at, x, y);
-    this.stopped = { place: this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory) };
+    this.stopped = { place: this.placeIn(part, at.planS, x, y) ?? this.endOf(part.trajectory) };
     this.carriage.penUp = null;
   }
 

@@ -1,6 +1,7 @@
 import type { CommandStream } from "../ebb/command-stream.js";
 import type { BoardSession } from "./session.js";
-import { Streamer, type StreamOptions, type StreamPlace, type StreamReport } from "./streamer.js";
+import { Streamer, type StreamOptions, type StreamReport } from "./streamer.js";
+import type { StreamPlace } from "./timeline.js";
 import type { Cancellation } from "./transport.js";
 
 /** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */

@@ -16,9 +16,12 @@
  */
 import { commandLine } from "../ebb/compile.js";
 import type { CommandStream } from "../ebb/command-stream.js";
+import type { FirmwareFeatures } from "../ebb/firmware.js";
+import { parseSteps, stepsLeft, waitingCount } from "../ebb/replies.js";
 import { PlotwrightError } from "../errors.js";
 import type { BoardSession, Outgoing } from "./session.js";
-import { BoardTimeline } from "./timeline.js";
+import { placeOfStop, type StopNotes } from "./stop-place.js";
+import { BoardTimeline, type StreamPlace } from "./timeline.js";
 import type { Clock } from "./transport.js";
 
 export interface StreamOptions {
@@ -37,14 +40,6 @@ export interface StreamOptions {
   readonly onPoll?: (line: string, reply: string) => void;
   /** What to add to the board's step counters for the places of the streams. Default 0, 0. */
   readonly origin?: readonly [number, number];
-}
-
-/** Where in which stream the board is. */
-export interface StreamPlace {
-  readonly stream: CommandStream;
-  readonly commandIndex: number;
-  /** Trajectory seconds of `stream`. */
-  readonly planS: number;
 }
 
 export interface StreamReport {
@@ -90,6 +85,7 @@ export class Streamer {
   private cancelPoll: (() => void) | null = null;
   private ending = false;
   private failure: PlotwrightError | null = null;
+  private stop: StopNotes | null = null;
   private settle: { resolve(report: StreamReport): void; reject(error: PlotwrightError): void } | null = null;
 
   constructor(session: BoardSession, options: StreamOptions) {
@@ -181,6 +177,35 @@ export class Streamer {
     }
     if (!this.stream) throw new TypeError("nothing has been played");
     return { stream: this.stream, commandIndex: 0, planS: this.stream.planS[0]! };
+  }
+
+  /**
+   * Tells the board to drop what it has (ES); `play` rejects with `error`. Where it was then, `placeOfStop` tells from the
+   * step counters read after this.
+   */
+  stopAtOnce(error: PlotwrightError): void {
+    const query = this.options.queueDepth > 1 ? "QU,6" : "QM";
+    const waitS = this.timeline.longestS();
+    const stop: StopNotes = { boardS: this.timeline.boardS(), waitingCount: null, stepsLeft: null };
+    this.stop ??= stop;
+    const note = (line: string, take: (reply: string) => void): Outgoing => ({
+      line,
+      waitS,
+      onReply: (failed, reply) => {
+        if (!failed) take(reply);
+      },
+    });
+    this.session.write([
+      note(query, (reply) => (stop.waitingCount = waitingCount(query, reply))),
+      note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
+    ]);
+    this.fail(error);
+  }
+
+  /** Where the board was when it stopped at once; null when it had nothing to run. */
+  placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): StreamPlace | null {
+    if (!this.stop) throw new TypeError("nothing was stopped");
+    return placeOfStop({ ...this.stop, commands: this.timeline.recent() }, features, steps1, steps2);
   }
 
   /** Stops writing and gives up waiting; what the board has is not touched. */
@@ -396,20 +421,6 @@ export class Streamer {
     this.settle = null;
     settle?.reject(error);
   }
-}
-
-/** `m1,m2` of `QS`. */
-export function parseSteps(reply: string): readonly [number, number] {
-  const [first, second] = reply.split(",").map(Number);
-  return [first ?? 0, second ?? 0];
-}
-
-/** Commands waiting in the board's queue, as the answers to these queries tell it; null: they do not say. */
-function waitingCount(line: string, reply: string): number | null {
-  if (line === "QU,6") return Number(reply.split(",").pop());
-  if (line === "QG") return Number.parseInt(reply, 16) & 1;
-  if (line === "QM") return reply.split(",").length === 4 ? Number(reply.split(",")[3]) : null;
-  return null;
 }
 
 const stuck = (): PlotwrightError =>

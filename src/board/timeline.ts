@@ -12,6 +12,14 @@ import type { CommandStream } from "../ebb/command-stream.js";
 import { BoardPace } from "./board-pace.js";
 import type { Clock } from "./transport.js";
 
+/** Where in which stream the board is. */
+export interface StreamPlace {
+  readonly stream: CommandStream;
+  readonly commandIndex: number;
+  /** Trajectory seconds of `stream`. */
+  readonly planS: number;
+}
+
 /** A command that takes board time, written and not yet known to be over. */
 export interface InFlight {
   readonly number: number;
@@ -27,11 +35,16 @@ const WAITED_S = 0.02;
 /** How long an estimate of the board's time may be ahead of what it acknowledges. */
 const ACK_SLACK_S = 0.05;
 
+/** Commands remembered that should be over: some more than a board can still have. */
+const KEPT_COUNT = 64;
+
 export class BoardTimeline {
   /** Where the last command written ends. */
   endS = 0;
   private readonly pace = new BoardPace();
   private flight: InFlight[] = [];
+  /** Those before them. */
+  private readonly over: InFlight[] = [];
   private writtenCount = 0;
   private ackedCount = 0;
   /** The command that polls find executing, and since when. */
@@ -114,7 +127,13 @@ export class BoardTimeline {
     const isOver = ({ endS, number }: InFlight): boolean => endS <= boardS && number < this.ackedCount;
     let over = 0;
     while (over < this.flight.length && isOver(this.flight[over]!)) over++;
-    if (over > 0) this.flight.splice(0, over);
+    if (over > 0) this.over.push(...this.flight.splice(0, over));
+    if (this.over.length > 2 * KEPT_COUNT) this.over.splice(0, this.over.length - KEPT_COUNT);
+  }
+
+  /** The commands written last, those in flight and some that should be over. */
+  recent(): readonly InFlight[] {
+    return [...this.over, ...this.flight];
   }
 
   private entry(number: number): InFlight | undefined {

@@ -54,6 +54,26 @@ export function commandName(line: string): string {
   return (comma < 0 ? line : line.slice(0, comma)).trim().toUpperCase();
 }
 
+/** `m1,m2` of `QS`. */
+export function parseSteps(reply: string): readonly [number, number] {
+  const [first, second] = reply.split(",").map(Number);
+  return [first ?? 0, second ?? 0];
+}
+
+/** Commands waiting in the board's queue, as the answers to these queries tell it; null: they do not say. */
+export function waitingCount(line: string, reply: string): number | null {
+  if (line === "QU,6") return Number(reply.split(",").pop());
+  if (line === "QG") return Number.parseInt(reply, 16) & 1;
+  if (line === "QM") return reply.split(",").length === 4 ? Number(reply.split(",")[3]) : null;
+  return null;
+}
+
+/** What `ES` tells of the move that it ended: steps still to be made, of each motor; null: firmware 3 does not tell. */
+export function stepsLeft(reply: string): readonly [number, number] | null {
+  const [, , , left1, left2] = reply.split(",").map(Number);
+  return left1 === undefined || left2 === undefined ? null : [left1, left2];
+}
+
 const CR = 13;
 const LF = 10;
 /** The board never answers more than this; what is longer is noise on the line. */

@@ -169,8 +169,10 @@ export class BoardCore {
     left2: number;
   } {
     const running = this.running;
+    const { arithmetic, stopEndsTimed } = this.features;
+    // Before firmware 3 the pen's moves and delays go on.
     const isStoppable = (order: Order): boolean =>
-      this.features.stopEndsTimed || (order.kind === "move" && !order.isTimed);
+      arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !order.isTimed));
     let hit = false;
     let left: [number, number] = [0, 0];
     const waiting = this.fifo.filter((order) => order.kind === "move" && isStoppable(order));

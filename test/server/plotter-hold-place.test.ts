@@ -1,0 +1,50 @@
+/**
+ * The place that an emergency stop is gone on from, among lines that lie on one another: the step counters do not tell
+ * their sides apart. The truth is the board's own count of ticks.
+ */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { MOTION_MODES, stateAt, type Trajectory } from "../../src/index.js";
+import { firmwareFeatures } from "../../src/ebb/firmware.js";
+import { seeded, settingsOf } from "../support/live-plot.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks, RETRACED } from "../support/stop-truth.js";
+
+const FIRMWARES = ["2.4.4", "2.5.3", "2.8.1", "3.0.0", "3.0.3"];
+/** Where a corner is rounded by so much, mm along its line are no surer than that. */
+const { cornerMm: ROUNDED_MM } = settingsOf("blend").motion.draw;
+const STOP_COUNT = 4;
+
+/** An instant at random, at the slowest of some: near the tips, where both sides are the nearest. */
+function instant(trajectory: Trajectory, random: () => number): number {
+  const times = Array.from({ length: 4 }, () => 0.95 * trajectory.totalS * random());
+  const speed = (tS: number): number => {
+    const { stroke, vx, vy } = stateAt(trajectory, tS);
+    return stroke < 0 ? Infinity : Math.hypot(vx, vy);
+  };
+  return times.reduce((best, tS) => (speed(tS) < speed(best) ? tS : best));
+}
+
+describe.each(MOTION_MODES)("an emergency stop among lines that lie on one another, in %s mode", (mode) => {
+  it.each(FIRMWARES)("is gone on from at the very place, on firmware %s", async (firmware) => {
+    const random = seeded(MOTION_MODES.indexOf(mode) + 10 * FIRMWARES.indexOf(firmware) + 1);
+    const withinMm = 0.02 + (mode === "junction" ? 0 : ROUNDED_MM);
+    const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);
+    for (let i = 0; i < STOP_COUNT; i++) {
+      const world = new ManualClock();
+      const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+      await world.run(driver.start());
+      const planner = new KeepingPlanner(RETRACED);
+      const run = await world.run(driver.plot(planner, settingsOf(mode)));
+      await world.advance(0.1);
+      const [plot] = planner.plots;
+      await world.advance(instant(plot!.trajectory, random));
+      await world.run(run.emergencyStop());
+      // Reading the place back runs the motors for a tick, which makes no step.
+      const ticks = ranTicks(driver.virtualBoard!) - (hasClear ? 1 + idleTicksTimed : 0);
+      const truthMm = drawnUntilMm(RETRACED, plot!, planSAfter(plot!.commands, ticks));
+      expect(Math.abs(mmOf(RETRACED, run.holdPlace!) - truthMm)).toBeLessThan(withinMm);
+      await world.run(Promise.all([run.cancel(), run.finished]));
+    }
+  });
+});
