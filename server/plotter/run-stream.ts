@@ -90,8 +90,9 @@ export class RunStream {
     this.boardPen = settings.current.pen;
   }
 
+  /** Also while nothing is left to be written and the board is asked whether it is at rest. */
   get isPlaying(): boolean {
-    return this.streamer?.playing ?? false;
+    return this.streamer !== null;
   }
 
   /** On its way to another plan; until it is there, it can't be told to go to a third one. */
@@ -149,9 +150,9 @@ export class RunStream {
 
   /** Drops what the board has: it stops at once, and `play` ends with the place read back. */
   stopAtOnce(): void {
-    if (!this.isPlaying) return;
+    if (!this.streamer) return;
     this.emergency = true;
-    this.streamer?.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
+    this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
   /** Stops the motors for good: what plays, or would be played next, fails with the error. */

@@ -98,6 +98,25 @@ describe("an emergency stop at any instant", () => {
   });
 });
 
+describe("an emergency stop when all is sent", () => {
+  it("holds the plot while its last move is not over", async () => {
+    const { world, board, run } = await plotting("junction");
+    const isNearHome = (): boolean => Math.hypot(board.state().xMm, board.state().yMm) < 1;
+    await world.advance(5);
+    while (!isNearHome()) await world.advance(0.01);
+    board.setFrozen(true);
+    // By the plan it is over; the board is asked whether it is.
+    await world.advance(1);
+    const stopped = run.emergencyStop();
+    board.setFrozen(false);
+    await world.run(stopped);
+    await world.run(run.resume());
+    await world.run(run.finished);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+});
+
 describe("the hold point", () => {
   it("can be moved back, looked at with the pen up, and gone on from", async () => {
     const { world, board, run } = await plotting("junction");
