@@ -1,7 +1,9 @@
 /** mm along the drawing, which holds and stops go on from: where the pen is on it, at every instant of a ramp too. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, MOTION_MODES, plan, stateAt } from "../../../src/index.js";
+import { pointOfPlace } from "../../../server/plotter/plan-places.js";
 import { strokesOf } from "../../support/local-planner.js";
+import { RETRACED } from "../../support/stop-truth.js";
 
 /** Round the tip, which is cut off, they go on; and fitted pieces run a little ahead of the plan or behind it. */
 const WITHIN_MM = 0.08;
@@ -23,5 +25,17 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
       if (stroke < 0) continue;
       expect(Math.abs(30 - Math.abs(30 - alongMm) - (x - 10))).toBeLessThan(WITHIN_MM);
     }
+  });
+
+  it("are where the pen is, on tips and lines gone over again, in whose turns pieces turn back", () => {
+    const trajectory = plan(RETRACED, { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
+    let farthestMm = 0;
+    for (let tS = 0; tS < trajectory.totalS; tS += 0.002) {
+      const { stroke, alongMm, x, y } = stateAt(trajectory, tS);
+      if (stroke < 0) continue;
+      const told = pointOfPlace(RETRACED, { stroke, alongMm });
+      farthestMm = Math.max(farthestMm, Math.hypot(told.x - x, told.y - y));
+    }
+    expect(farthestMm).toBeLessThan(WITHIN_MM);
   });
 });
