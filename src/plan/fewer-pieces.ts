@@ -32,7 +32,7 @@ const INSIDE = 1.0001;
 
 /** Old pieces at most; places looked at. */
 const PIECES = 4;
-export const PLACES = 2 * PIECES - 1;
+const PLACES = 2 * PIECES - 1;
 const DISCS = 5;
 
 export class FewerPieces {
@@ -44,8 +44,6 @@ export class FewerPieces {
   readonly vy = new Float64Array(PIECES);
   /** Seconds that the old ones took. */
   oldS = 0;
-  /** Distance to the left of the line at each place, mm, as `fitThree` has found it. */
-  readonly left = new Float64Array(PLACES);
   private dx = 0;
   private dy = 0;
   private speed = 0;
@@ -61,10 +59,6 @@ export class FewerPieces {
   private readonly turn1 = new Float64Array(PLACES);
   private readonly base = new Float64Array(PLACES);
   private readonly slope = new Float64Array(PLACES);
-  /** Of three pieces: w2 = q − r w1. */
-  private r = 0;
-  private qx = 0;
-  private qy = 0;
   private readonly discX = new Float64Array(DISCS);
   private readonly discY = new Float64Array(DISCS);
   private readonly discR = new Float64Array(DISCS);
@@ -146,10 +140,10 @@ export class FewerPieces {
   }
 
   /**
-   * Three pieces of h1, h2 and h3 seconds, of old ones that were four, whatever their velocities; (rx, ry) is about what w1
-   * should be. Returns how far they are from the line.
+   * Three pieces of h1, h2 and h3 seconds; (rx, ry) is about what w1 should be. Returns how far they are from the line;
+   * or Infinity where that is more than `most` mm, or a limit is broken.
    */
-  fitThree(h1: number, h2: number, h3: number, rx: number, ry: number): number {
+  solveThree(h1: number, h2: number, h3: number, rx: number, ry: number, most: number): number {
     const { h, vx, vy, t, ux, uy, off0, off1, turn0, turn1, base, slope } = this;
     const r = (h1 + h2) / (h2 + h3);
     const qx = (2 * this.dx - h1 * vx[0]! - h3 * vx[3]!) / (h2 + h3);
@@ -200,70 +194,60 @@ export class FewerPieces {
     const inverse = 1 / (n1 * n3 - n2 * n2);
     vx[1] = (bx * n3 - by * n2) * inverse;
     vy[1] = (by * n1 - bx * n2) * inverse;
+    let far = this.farthest(most);
+    if (!(far < most)) return Infinity;
+    if (!this.keepsLimits(h1, h2, h3, r, qx, qy)) {
+      if (!this.bringWithin(h1, h2, h3, r, qx, qy)) return Infinity;
+      far = this.farthest(most);
+    }
+    vx[2] = qx - r * vx[1];
+    vy[2] = qy - r * vy[1];
     h[0] = h1;
     h[1] = h2;
     h[2] = h3;
-    this.r = r;
-    this.qx = qx;
-    this.qy = qy;
-    return this.farthest();
+    return far;
   }
 
-  /**
-   * Brings the three pieces found last within the limits. Returns how far they are from the line then; or Infinity where that is
-   * `most` mm or more, or a limit is broken.
-   */
-  boundThree(most: number): number {
-    const { vx, vy, r, qx, qy } = this;
-    if (!this.keepsLimits() && !this.bringWithin()) return Infinity;
-    vx[2] = qx - r * vx[1]!;
-    vy[2] = qy - r * vy[1]!;
-    const far = this.farthest();
-    return far < most ? far : Infinity;
-  }
-
-  /** How far three pieces with this w1 are from the line. */
-  private farthest(): number {
-    const { ux, uy, base, slope, left } = this;
+  /** How far three pieces with this w1 are from the line; Infinity from `most` on. */
+  private farthest(most: number): number {
+    const { ux, uy, base, slope } = this;
     const wx = this.vx[1]!;
     const wy = this.vy[1]!;
     let far = 0;
     for (let s = 0; s < PLACES; s++) {
-      const d = base[s]! + slope[s]! * (ux[s]! * wy - uy[s]! * wx);
-      left[s] = d;
-      const off = Math.abs(d);
+      const off = Math.abs(base[s]! + slope[s]! * (ux[s]! * wy - uy[s]! * wx));
       if (!(off <= far)) far = off;
     }
-    return far;
+    return far < most ? far : Infinity;
   }
 
-  private keepsLimits(): boolean {
-    const { h, vx, vy, accel, speed, r, qx, qy } = this;
+  private keepsLimits(h1: number, h2: number, h3: number, r: number, qx: number, qy: number): boolean {
+    const { vx, vy, accel, speed } = this;
     const wx = vx[1]!;
     const wy = vy[1]!;
     const zx = qx - r * wx;
     const zy = qy - r * wy;
     return (
-      isWithin(wx - vx[0]!, wy - vy[0]!, accel * h[0]!) &&
-      isWithin(zx - wx, zy - wy, accel * h[1]!) &&
-      isWithin(vx[3]! - zx, vy[3]! - zy, accel * h[2]!) &&
+      isWithin(wx - vx[0]!, wy - vy[0]!, accel * h1) &&
+      isWithin(zx - wx, zy - wy, accel * h2) &&
+      isWithin(vx[3]! - zx, vy[3]! - zy, accel * h3) &&
       isWithin(wx, wy, speed) &&
       isWithin(zx, zy, speed)
     );
   }
 
   /** Moves w1 to where all limits are kept; false where that is not found. */
-  private bringWithin(): boolean {
-    const { h, vx, vy, accel, speed, discX, discY, discR, r, qx, qy } = this;
+  private bringWithin(h1: number, h2: number, h3: number, r: number, qx: number, qy: number): boolean {
+    const { vx, vy, accel, speed, discX, discY, discR } = this;
     discX[0] = vx[0]!;
     discY[0] = vy[0]!;
-    discR[0] = accel * h[0]!;
+    discR[0] = accel * h1;
     discX[1] = qx / (1 + r);
     discY[1] = qy / (1 + r);
-    discR[1] = (accel * h[1]!) / (1 + r);
+    discR[1] = (accel * h2) / (1 + r);
     discX[2] = (qx - vx[3]!) / r;
     discY[2] = (qy - vy[3]!) / r;
-    discR[2] = (accel * h[2]!) / r;
+    discR[2] = (accel * h3) / r;
     discX[3] = discY[3] = 0;
     discR[3] = speed;
     discX[4] = qx / r;

@@ -62,7 +62,7 @@ const TRIALS = 3;
 const FIRST_S = 0.06;
 
 /** The distance is looked at so many times at least, for a piece or a pair. */
-const LOOKS = 12;
+const LOOKS = 16;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
@@ -399,8 +399,7 @@ export class AccelerationFitter {
   }
 
   /**
-   * Compares the pieces with the plan: where each block that they replace begins, also within those that are not short, and
-   * about LOOKS times at least.
+   * Compares the pieces with the plan: twice in every block that they replace, and about LOOKS times at least.
    *
    * @param length how much of the plan's time the pair stands for; Infinity: one steady piece of h1 seconds
    */
@@ -416,7 +415,7 @@ export class AccelerationFitter {
       const start = blocks.startS[i]!;
       if (start >= end) break;
       const d = blocks.durationS[i]!;
-      const looks = d * often > 2.5 ? Math.round(d * often) : d * often > 1 ? 2 : 1;
+      const looks = d * often > 2.5 ? Math.round(d * often) : 2;
       for (let look = 0; look < looks; look++) {
         const u = (d * look) / looks;
         const t = start + u - at.tau;

@@ -1,12 +1,12 @@
 /**
- * Merges neighbouring pieces of constant acceleration of one run: the last three become two, as long as that holds, and
- * then the last four three; then the next piece is taken up.
+ * Merges neighbouring pieces of constant acceleration of one run: the last three become two, or the last four three, as
+ * long as that holds; then the next piece is taken up.
  *
  *   pieces   |----|---|-----|-------|--- …
  *   become   |------|-------|-------|--- …      or      |------|------|-------|--- …
  *
  * fewer-pieces.ts finds the velocities at the knots between the new pieces and foresees how far those are from the plan's line;
- * where the knot between two should be is tried out here, those between three are searched (piece-knots.ts). What promises to hold is followed along the plan (plan-walk.ts) before it is
+ * where the knots should be is tried out here. What promises to hold is followed along the plan (plan-walk.ts) before it is
  * taken. New pieces take less time than the old ones where that is possible, and never more than those or LATER of the
  * plan's time.
  */
@@ -14,28 +14,35 @@ import type { BlockColumns } from "./block-columns.js";
 import { FewerPieces } from "./fewer-pieces.js";
 import type { FitSource } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
-import { PieceKnots } from "./piece-knots.js";
 import type { PieceNotes } from "./piece-notes.js";
 import { PlanWalk } from "./plan-walk.js";
 import type { FitSettings } from "./settings.js";
 import { SLACK } from "./three-jerks.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
-const BETWEEN = 0.98;
+const BETWEEN = 0.97;
 
 /** More of the plan than this is not made anew at once, s. */
 const LONGEST_S = 1.5;
 
-/** Of the plan's time, what new pieces may take: more of it where the old ones are short, up to so many seconds together. */
+/** Of the plan's time, what new pieces may take; shares of that, of which the first that holds is taken. */
 const LATER = 1.01;
-const LATER_IF_SHORT = 1.03;
-const SHORT_S = 0.4;
-
-/** Shares of that, of which the first that holds is taken. */
-const SOONER = [0.95, 0.97, 0.98, 0.99, 1];
+const SOONER = [0.97, 0.98, 0.99, 1];
 
 /** Shares of the time at which the knot between two pieces may be. */
 const SHARES = [0.5, 0.4, 0.6, 0.31, 0.69];
+
+/** The knots between three pieces: looked for first so far into the second and third of the old four, and with this step around. */
+const FIRST = 0.4;
+const SECOND = 0.6;
+const STEP = 0.3;
+
+/** Rounds of that search: it goes on while the distance is below so many times ε, until it is within the share GOOD of it. */
+const HOPES = [2.5, 1.7, 1.3];
+const GOOD = 0.75;
+
+/** Only four pieces that take so long are worth that search, s: it bounds what planning takes for each second drawn. */
+const SEARCHED_S = 0.2;
 
 /** Half of the looks at a new piece, at least; and the seconds between two looks, at most. */
 const HALF_LOOKS = 3;
@@ -50,7 +57,6 @@ const AT_LIMIT = 1.001;
 export class PieceMerger {
   private readonly walk: PlanWalk;
   private readonly fewer = new FewerPieces();
-  private readonly knots = new PieceKnots(this.fewer);
   private pieces!: BlockColumns;
   private limits!: RunLimits;
   /** The notes of new pieces, while it is not known whether they hold. */
@@ -78,8 +84,7 @@ export class PieceMerger {
     let kept = 0;
     for (let i = 0; i < count; i++) {
       this.take(i, kept++);
-      while (kept >= 3 && this.mergesThree(kept - 3)) kept--;
-      if (kept >= 4 && this.mergesFour(kept - 4)) kept--;
+      while ((kept >= 3 && this.mergesThree(kept - 3)) || (kept >= 4 && this.mergesFour(kept - 4))) kept--;
     }
     pieces.count = kept;
   }
@@ -148,15 +153,37 @@ export class PieceMerger {
   }
 
   private mergesFour(i: number): boolean {
+    const { tau } = this.notes;
+    if (tau[i + 4]! - tau[i]! < SEARCHED_S) return false;
     const most = this.open(i, 4);
     if (most === 0) return false;
-    const { fewer, knots } = this;
     const near = BETWEEN * this.settings.toleranceMm;
-    const floor = this.settings.floorMs / 1000;
-    const later = most / fewer.oldS;
-    if (!knots.search(this.pieces, i, later, floor, near)) return false;
+    const later = most / this.fewer.oldS;
+    let first = FIRST;
+    let second = SECOND;
+    let best = this.solveThree(i, first, second, later, HOPES[0]! * near);
+    let step = STEP;
+    for (const hope of HOPES) {
+      if (best <= GOOD * near || !(best < hope * near)) break;
+      const before = best;
+      for (let way = 0; way < 4; way++) {
+        const f = first + (way === 0 ? step : way === 1 ? -step : 0);
+        const s = second + (way === 2 ? step : way === 3 ? -step : 0);
+        const far = this.solveThree(i, f, s, later, best);
+        if (!(far < best)) continue;
+        best = far;
+        first = f;
+        second = s;
+        // Not back again.
+        if (way === 0) way = 1;
+        else if (way === 2) break;
+      }
+      if (best === before) step /= 2;
+    }
+    if (!(best < near)) return false;
     for (const sooner of SOONER) {
-      if (knots.solve(later * sooner, near) < near && this.replaces(i, near)) return true;
+      if (this.solveThree(i, first, second, later * sooner, near) < near && this.replaces(i, near))
+        return true;
     }
     return false;
   }
@@ -168,7 +195,7 @@ export class PieceMerger {
     const speed = this.speedFor(i, old);
     if (!(length < LONGEST_S) || speed === 0) return 0;
     fewer.open(this.pieces, notes, i, old, speed, this.limits.accel);
-    return Math.max(fewer.oldS, (length < SHORT_S ? LATER_IF_SHORT : LATER) * length);
+    return Math.max(fewer.oldS, LATER * length);
   }
 
   /** The limit of speed for pieces [i, i + old): a lower one where a stroke begins and ends, if that is asked for; 0 on the verge. */
@@ -180,6 +207,19 @@ export class PieceMerger {
     for (let p = i; p <= i + old; p++) if (Math.hypot(vx[p]!, vy[p]!) <= AT_LIMIT * easeSpeed) slow++;
     if (slow === 0) return speed;
     return slow > old ? easeSpeed : 0;
+  }
+
+  /** Three pieces with knots at these shares of the second and the third of pieces [i, i + 4), everything `later` times as long. */
+  private solveThree(i: number, first: number, second: number, later: number, most: number): number {
+    const { durationS, vx, vy, ax, ay } = this.pieces;
+    const floor = this.settings.floorMs / 1000;
+    const u = first * durationS[i + 1]!;
+    const v = second * durationS[i + 2]!;
+    const h1 = (durationS[i]! + u) * later;
+    const h2 = (durationS[i + 1]! - u + v) * later;
+    const h3 = (durationS[i + 2]! - v + durationS[i + 3]!) * later;
+    if (!(h1 >= floor && h2 >= floor && h3 >= floor)) return Infinity;
+    return this.fewer.solveThree(h1, h2, h3, vx[i + 1]! + u * ax[i + 1]!, vy[i + 1]! + u * ay[i + 1]!, most);
   }
 
   /** Puts the fewer pieces in the place of those from i on, if they are within `near` of the line all the way. */

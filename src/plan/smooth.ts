@@ -87,8 +87,10 @@ class Walker {
     }
     const duration = from.durationS[k]!;
     const mm = (k + 1 < from.count ? from.alongMm[k + 1]! : this.end.alongMm) - from.alongMm[k]!;
-    const v0 = Math.hypot(this.vx, this.vy);
-    const v1 = Math.hypot(this.vx + duration * this.ax, this.vy + duration * this.ay);
+    const vx1 = this.vx + duration * this.ax;
+    const vy1 = this.vy + duration * this.ay;
+    const v0 = Math.sqrt(this.vx * this.vx + this.vy * this.vy);
+    const v1 = Math.sqrt(vx1 * vx1 + vy1 * vy1);
     const perMm = v0 + v1 > 0 ? (2 * mm) / ((v0 + v1) * duration) : 0;
     this.startAlongSpeed = this.alongSpeed = perMm * v0;
     this.alongAccel = (perMm * (v1 - v0)) / duration;

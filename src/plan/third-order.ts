@@ -151,7 +151,7 @@ export class ThirdOrderPlanner {
     // A ramp too small to be written must not be given way either: √Δ in its time makes way of rounding.
     const rise = isRounding(peak - v0, peak) ? 0 : rampLength(v0, peak, accel, jerk);
     const fall = isRounding(peak - v1, peak) ? 0 : rampLength(peak, v1, accel, jerk);
-    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, null, own, out);
+    if (rise > 0) this.writeChange(ux * v0, uy * v0, ux * peak, uy * peak, 0, own, out);
     const cruise = length - rise - fall;
     if (cruise > NO_PIECE) {
       out.push(cruise / peak, this.x, this.y, ux * peak, uy * peak, 0, 0, this.along);
@@ -159,16 +159,16 @@ export class ThirdOrderPlanner {
       this.y += uy * cruise;
       this.along += cruise;
     }
-    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, null, own, out);
+    if (fall > 0) this.writeChange(ux * peak, uy * peak, ux * v1, uy * v1, 0, own, out);
   }
 
-  /** From one velocity vector to another in two or three blocks. `speed`: along the drawing, round a corner of it; null where the way is the drawing's own. */
+  /** From one velocity vector to another in two or three blocks. `speed`: along the drawing, round a corner of it; 0 where the way is the drawing's own. */
   private writeChange(
     vx0: number,
     vy0: number,
     vx1: number,
     vy1: number,
-    speed: number | null,
+    speed: number,
     limits: RunLimits,
     out: BlockColumns,
   ): void {
@@ -196,7 +196,7 @@ export class ThirdOrderPlanner {
       const dy = t * (vy + t * (ay / 2 + (t * ky) / 6));
       this.x += dx;
       this.y += dy;
-      this.along += speed === null ? Math.hypot(dx, dy) : speed * t;
+      this.along += speed > 0 ? speed * t : Math.sqrt(dx * dx + dy * dy);
     };
     const gain = (rise * rise) / 2;
     step(rise, vx0, vy0, 0, 0, jx, jy);

@@ -163,27 +163,44 @@ export function blockLength(
   const ay = trajectory.ay[k]!;
   const jx = trajectory.jx ? trajectory.jx[k]! : 0;
   const jy = trajectory.jy ? trajectory.jy[k]! : 0;
-  const length = (from: number, to: number): number => {
-    let sum = 0;
-    for (let i = 0; i < GAUSS_NODES.length; i++) {
-      const u = from + (to - from) * GAUSS_NODES[i]!;
-      const wx = vx + u * (ax + (u * jx) / 2);
-      const wy = vy + u * (ay + (u * jy) / 2);
-      sum += GAUSS_WEIGHTS[i]! * Math.sqrt(wx * wx + wy * wy);
-    }
-    return sum * (to - from);
-  };
   // v(u) · d = c + b u + q u²: where the velocity is across its direction at first, or that in which it sets out from rest.
   const c = vx * vx + vy * vy;
-  const [dx, dy] = c > 0 ? [vx, vy] : [ax, ay];
+  const dx = c > 0 ? vx : ax;
+  const dy = c > 0 ? vy : ay;
   const b = dx * ax + dy * ay;
   const q = (dx * jx + dy * jy) / 2;
   const root = Math.sqrt(b * b - 4 * q * c);
-  if (b >= 0 && q >= 0) return length(0, t);
-  const u1 = b < 0 ? (2 * c) / (root - b) : (-b - root) / (2 * q);
-  if (!(u1 > 0 && u1 < t)) return length(0, t);
-  const u2 = b < 0 && q > 0 ? (root - b) / (2 * q) : t;
-  return length(0, u1) + length(u1, Math.min(u2, t)) + (u2 < t ? length(u2, t) : 0);
+  let first = t;
+  let second = t;
+  if (b < 0) first = (2 * c) / (root - b);
+  else if (q < 0) first = (-b - root) / (2 * q);
+  if (b < 0 && q > 0) second = Math.min((root - b) / (2 * q), t);
+  if (!(first > 0 && first < t)) first = second = t;
+  let sum = lengthBetween(0, first, vx, vy, ax, ay, jx, jy);
+  if (first < second) sum += lengthBetween(first, second, vx, vy, ax, ay, jx, jy);
+  if (second < t) sum += lengthBetween(second, t, vx, vy, ax, ay, jx, jy);
+  return sum;
+}
+
+/** Of a way that does not turn back between these two instants. */
+function lengthBetween(
+  from: number,
+  to: number,
+  vx: number,
+  vy: number,
+  ax: number,
+  ay: number,
+  jx: number,
+  jy: number,
+): number {
+  let sum = 0;
+  for (let i = 0; i < GAUSS_NODES.length; i++) {
+    const u = from + (to - from) * GAUSS_NODES[i]!;
+    const wx = vx + u * (ax + (u * jx) / 2);
+    const wy = vy + u * (ay + (u * jy) / 2);
+    sum += GAUSS_WEIGHTS[i]! * Math.sqrt(wx * wx + wy * wy);
+  }
+  return sum * (to - from);
 }
 
 // Gauss–Legendre of three points on [0, 1]: exact up to the fifth degree, so for every straight block.

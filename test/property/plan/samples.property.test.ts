@@ -59,8 +59,8 @@ describe.each(samples)("the corner curves of %s", (file) => {
 
 describe.each([
   { file: "harmonograph.svg", fewer: 10 },
-  { file: "three-colour-hills.svg", fewer: 6.4 },
-  { file: "flower-meadow.svg", fewer: 2.4 },
+  { file: "three-colour-hills.svg", fewer: 5.9 },
+  { file: "flower-meadow.svg", fewer: 2.2 },
   { file: "moonrise.svg", fewer: 1 },
 ])("fitting $file", ({ file, fewer }) => {
   it("leaves fewer pieces than a command a phase and corner, hardly any shorter than the floor, and little more time", () => {
