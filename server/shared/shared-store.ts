@@ -191,22 +191,21 @@ export class SharedStore {
 
   /** Waits again for any server of its target. Throws `conflict` for what has begun or whose server lives. */
   async giveBack(id: string, lostAfterMs: number): Promise<void> {
-    const target = await this.#transaction(async (client) => {
-      const { rows } = await client.query<Row>(
+    const { rows } = await this.#pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
+    if (rows[0] === undefined) throw new PlotwrightError("conflict", whyNot(undefined));
+    // Before the transaction, which would wait with its connection for another one.
+    const queue = await this.#queueOf(String(rows[0]["target"]));
+    const isGiven = await this.#transaction(async (client) => {
+      const { rowCount } = await client.query(
         `UPDATE plotwright_jobs job SET state = 'waiting', server_id = NULL, server = NULL, plotter_id = NULL
-         WHERE ${LOST} AND job.id = $2 RETURNING target`,
+         WHERE ${LOST} AND job.id = $2`,
         [lostAfterMs, id],
       );
-      if (rows[0] === undefined) return null;
-      const text = String(rows[0]["target"]);
-      await this.#boss.send(
-        await this.#queueOf(text),
-        { id },
-        { db: plainDb(client), retentionDays: RETENTION_DAYS },
-      );
-      return text;
+      if (rowCount === 0) return false;
+      await this.#boss.send(queue, { id }, { db: plainDb(client), retentionDays: RETENTION_DAYS });
+      return true;
     });
-    if (target !== null) return;
+    if (isGiven) return;
     const job = (await this.list()).find((one) => one.id === id);
     throw new PlotwrightError("conflict", whyNot(job));
   }

@@ -1,6 +1,5 @@
 /** Servers that share a queue by PGlite: PostgreSQL in this process, behind a socket that can be cut. */
 import { PGlite } from "@electric-sql/pglite";
-import { PGLiteSocketServer } from "@electric-sql/pglite-socket";
 import pg from "pg";
 import { expect } from "vitest";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../../../server/index.js";
@@ -12,6 +11,7 @@ import {
   type SharedTarget,
   type Snapshot,
 } from "../../../src/schema/index.js";
+import { PgliteServer } from "./pglite-server.js";
 
 export const MACHINE = "axidraw-v3";
 /** The database answers sooner, and a heartbeat is never that old while a server runs, however busy the computer is. */
@@ -86,18 +86,18 @@ export async function shareAndTake(server: AtUrl, name: string, target: SharedTa
 
 export class SharedDatabase {
   readonly #database: PGlite;
-  #socket: PGLiteSocketServer;
+  #server: PgliteServer;
   readonly #port: number;
 
-  private constructor(database: PGlite, socket: PGLiteSocketServer) {
+  private constructor(database: PGlite, server: PgliteServer) {
     this.#database = database;
-    this.#socket = socket;
-    this.#port = Number(socket.getServerConn().split(":").at(-1));
+    this.#server = server;
+    this.#port = server.port;
   }
 
   static async open(): Promise<SharedDatabase> {
     const database = await PGlite.create();
-    return new SharedDatabase(database, await listen(database, 0));
+    return new SharedDatabase(database, await PgliteServer.listen(database, 0));
   }
 
   get url(): string {
@@ -106,11 +106,11 @@ export class SharedDatabase {
 
   /** Nobody reaches it until `restore`. */
   async cut(): Promise<void> {
-    await this.#socket.stop();
+    await this.#server.stop();
   }
 
   async restore(): Promise<void> {
-    this.#socket = await listen(this.#database, this.#port);
+    this.#server = await PgliteServer.listen(this.#database, this.#port);
   }
 
   /** As one more of its clients: never within another one's transaction. */
@@ -133,7 +133,7 @@ export class SharedDatabase {
   }
 
   async close(): Promise<void> {
-    await this.#socket.stop();
+    await this.#server.stop();
     await this.#database.close();
   }
 
@@ -150,10 +150,4 @@ export class SharedDatabase {
       ...options,
     });
   }
-}
-
-async function listen(database: PGlite, port: number): Promise<PGLiteSocketServer> {
-  const socket = new PGLiteSocketServer({ db: database, port, host: "127.0.0.1", maxConnections: 20 });
-  await socket.start();
-  return socket;
 }
