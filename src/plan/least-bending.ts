@@ -18,6 +18,21 @@ const ROUNDS = 4;
 const BOUND = 0.3;
 const RELAXATION = 1.8;
 
+/**
+ * What is known of each point, beside each other in memory: the solution's first half; 1/D, and the two diagonals of L in their
+ * column; what one round hands to the next; the right side; the weight of the bounds, 0 where the point is fixed; the bounds.
+ */
+const FIELDS = 9;
+const HALFWAY = 0;
+const INVERSE = 1;
+const BELOW1 = 2;
+const BELOW2 = 3;
+const CARRY = 4;
+const RIGHT = 5;
+const HELD = 6;
+const LOW = 7;
+const HIGH = 8;
+
 export class LeastBending {
   y = new Float64Array(0);
   low = new Float64Array(0);
@@ -25,15 +40,7 @@ export class LeastBending {
   turn = new Float64Array(0);
   private weight = new Float64Array(0);
   private perLength = new Float64Array(0);
-  /** The system as L D Lᵀ: 1/D, and the two diagonals of L, each value in its column's place. */
-  private inverse = new Float64Array(0);
-  private below1 = new Float64Array(0);
-  private below2 = new Float64Array(0);
-  private right = new Float64Array(0);
-  /** Weight of the bounds at each point, 0 where it is fixed. */
-  private bound = new Float64Array(0);
-  private dual = new Float64Array(0);
-  private halfway = new Float64Array(0);
+  private rows = new Float64Array(0);
 
   reserve(points: number): void {
     if (this.y.length > points) return;
@@ -44,103 +51,148 @@ export class LeastBending {
     this.turn = new Float64Array(size);
     this.weight = new Float64Array(size);
     this.perLength = new Float64Array(size);
-    this.inverse = new Float64Array(size);
-    this.below1 = new Float64Array(size);
-    this.below2 = new Float64Array(size);
-    this.right = new Float64Array(size);
-    this.bound = new Float64Array(size);
-    this.dual = new Float64Array(size);
-    this.halfway = new Float64Array(size);
+    this.rows = new Float64Array(FIELDS * size);
   }
 
   /** Sets `y` from `low`, `high` and `turn` of the n + 1 points between n segments; `turn` is used up. */
   solve(n: number, length: Float64Array): void {
     this.begin(n, length);
     this.factor(n);
-    for (let round = 0; round < ROUNDS; round++) this.improve(n);
+    for (let round = 1; round < ROUNDS; round++) {
+      this.goBack(n);
+      this.goForth(n);
+    }
+    this.finish(n);
   }
 
-  /** Weights; the first y is what is fixed, and 0; and what the fixed points do to the turns is done. */
+  /** Weights; and what points that are fixed elsewhere than on the line do to the turns. */
   private begin(n: number, length: Float64Array): void {
-    const { y, low, high, turn, weight, perLength, dual } = this;
-    weight[0] = weight[n] = 0;
-    for (let i = 0; i < n; i++) {
-      perLength[i] = 1 / length[i]!;
-      y[i] = low[i] === high[i] ? low[i]! : 0;
-      dual[i] = 0;
-      if (i === 0) continue;
-      const before = length[i - 1]!;
-      const after = length[i]!;
-      const shorter = Math.min(before, after);
-      weight[i] = (before + after) / (2 * shorter * shorter);
-    }
-    y[n] = low[n]!;
+    const { low, high, turn, weight, perLength } = this;
+    weight[0] = weight[n] = perLength[n] = 0;
+    let before = length[0]!;
+    let a = 1 / before;
+    let y0 = low[0]!;
+    let y1 = low[1] === high[1] ? low[1]! : 0;
+    perLength[0] = a;
     for (let i = 1; i < n; i++) {
-      turn[i]! += (y[i + 1]! - y[i]!) * perLength[i]! - (y[i]! - y[i - 1]!) * perLength[i - 1]!;
+      const after = length[i]!;
+      const c = 1 / after;
+      const greater = (a + c + Math.abs(a - c)) / 2;
+      weight[i] = ((before + after) / 2) * greater * greater;
+      perLength[i] = c;
+      const y2 = low[i + 1] === high[i + 1] ? low[i + 1]! : 0;
+      turn[i]! += (y2 - y1) * c - (y1 - y0) * a;
+      before = after;
+      a = c;
+      y0 = y1;
+      y1 = y2;
     }
   }
 
+  /** The system's factors; and the first way forth, on which no point has moved yet. */
   private factor(n: number): void {
-    const { low, high, turn, weight, perLength, inverse, below1, below2, right, bound } = this;
-    // Of this point's column and of the two before: D L of the first diagonal, and the second one of the system.
-    let [first, first0] = [0, 0];
-    let [second, second0, second00] = [0, 0, 0];
-    for (let i = 0; i <= n; i++) {
-      [first0, second00, second0] = [first, second0, second];
-      if (low[i] === high[i]) {
-        first = second = below1[i] = below2[i] = right[i] = bound[i] = 0;
-        inverse[i] = 1;
-        continue;
-      }
+    const { low, high, turn, weight, perLength, rows } = this;
+    // D L's first diagonal in the column before, the second one's in the two before; L's likewise; the solution's first half.
+    let first1 = 0;
+    let [second1, second2] = [0, 0];
+    let below1 = 0;
+    let [below2, below2Before] = [0, 0];
+    let [s1, s2] = [0, 0];
+    for (let i = 1, r = FIELDS; i < n; i++, r += FIELDS) {
       const a = perLength[i - 1]!;
       const c = perLength[i]!;
+      const e = perLength[i + 1]!;
+      const isFree = low[i] !== high[i];
       const own = weight[i]! * (a + c);
       const before = weight[i - 1]! * a;
       const after = weight[i + 1]! * c;
       const diagonal = before * a + own * (a + c) + after * c;
-      const isNext = low[i + 1] !== high[i + 1];
-      const isAfterNext = i + 2 <= n && low[i + 2] !== high[i + 2];
-      bound[i] = BOUND * diagonal;
-      right[i] = own * turn[i]! - before * turn[i - 1]! - after * turn[i + 1]!;
-      const l1 = i > 0 ? below1[i - 1]! : 0;
-      const l2 = i > 1 ? below2[i - 2]! : 0;
-      const d = diagonal + bound[i]! - l1 * first0 - l2 * second00;
-      first = (isNext ? -own * c - after * (c + perLength[i + 1]!) : 0) - l1 * second0;
-      second = isAfterNext ? after * perLength[i + 1]! : 0;
-      inverse[i] = 1 / d;
-      below1[i] = first / d;
-      below2[i] = second / d;
+      const held = BOUND * diagonal;
+      const right = own * turn[i]! - before * turn[i - 1]! - after * turn[i + 1]!;
+      let d = diagonal + held - below2Before * second2 - below1 * first1;
+      let first = (low[i + 1] !== high[i + 1] ? -own * c - after * (c + e) : 0) - below1 * second1;
+      let second = low[i + 2] !== high[i + 2] ? after * e : 0;
+      let s = right - below2Before * s2 - below1 * s1;
+      if (!isFree) {
+        d = 1;
+        first = second = s = 0;
+      }
+      const inverse = 1 / d;
+      below2Before = below2;
+      below1 = first * inverse;
+      below2 = second * inverse;
+      first1 = first;
+      second2 = second1;
+      second1 = second;
+      s2 = s1;
+      s1 = s;
+      rows[r + HALFWAY] = s;
+      rows[r + INVERSE] = inverse;
+      rows[r + BELOW1] = below1;
+      rows[r + BELOW2] = below2;
+      rows[r + CARRY] = 0;
+      rows[r + RIGHT] = isFree ? right : 0;
+      rows[r + HELD] = isFree ? held : 0;
+      rows[r + LOW] = low[i]!;
+      rows[r + HIGH] = high[i]!;
     }
   }
 
-  private improve(n: number): void {
-    const { y, low, high, inverse, below1, below2, right, bound, dual, halfway } = this;
+  /**
+   * Solves the system's second half, and brings each point within its bounds: from where it would be, over-relaxed and with all
+   * that was cut off before (the dual variable), to y. HALFWAY is the next right side then.
+   */
+  private goBack(n: number): void {
+    const { rows } = this;
+    let x1 = 0;
+    let x2 = 0;
+    for (let r = FIELDS * (n - 1); r > 0; r -= FIELDS) {
+      const x = rows[r + HALFWAY]! * rows[r + INVERSE]! - rows[r + BELOW2]! * x2 - rows[r + BELOW1]! * x1;
+      x2 = x1;
+      x1 = x;
+      const low = rows[r + LOW]!;
+      const high = rows[r + HIGH]!;
+      const free = RELAXATION * x + rows[r + CARRY]!;
+      // The nearest place within bounds, without a branch: which one it is changes from point to point.
+      const y = (Math.abs(free - low) - Math.abs(free - high) + (low + high)) / 2;
+      rows[r + CARRY] = free - RELAXATION * y;
+      rows[r + HALFWAY] = rows[r + RIGHT]! + rows[r + HELD]! * (2 * y - free);
+    }
+  }
+
+  /** Solves the first half. */
+  private goForth(n: number): void {
+    const { rows } = this;
     // The first and the last point are fixed, with 0 in the system.
     let s1 = 0;
     let s2 = 0;
-    let by1 = 0;
-    let by2 = 0;
-    let by2Next = 0;
-    for (let i = 1; i < n; i++) {
-      const s = right[i]! + bound[i]! * (y[i]! - dual[i]!) - by1 * s1 - by2 * s2;
-      halfway[i] = s;
+    let below1 = 0;
+    let below2 = 0;
+    let below2Before = 0;
+    for (let r = FIELDS; r < FIELDS * n; r += FIELDS) {
+      const s = rows[r + HALFWAY]! - below2Before * s2 - below1 * s1;
+      rows[r + HALFWAY] = s;
       s2 = s1;
       s1 = s;
-      by1 = below1[i]!;
-      by2 = by2Next;
-      by2Next = below2[i]!;
+      below1 = rows[r + BELOW1]!;
+      below2Before = below2;
+      below2 = rows[r + BELOW2]!;
     }
+  }
+
+  /** As `goBack`, the last time. */
+  private finish(n: number): void {
+    const { rows, y } = this;
+    y[0] = this.low[0]!;
+    y[n] = this.low[n]!;
     let x1 = 0;
     let x2 = 0;
-    for (let i = n - 1; i > 0; i--) {
-      const x = halfway[i]! * inverse[i]! - below1[i]! * x1 - below2[i]! * x2;
+    for (let i = n - 1, r = FIELDS * i; i > 0; i--, r -= FIELDS) {
+      const x = rows[r + HALFWAY]! * rows[r + INVERSE]! - rows[r + BELOW2]! * x2 - rows[r + BELOW1]! * x1;
       x2 = x1;
       x1 = x;
-      if (bound[i] === 0) continue;
-      const free = RELAXATION * x + (1 - RELAXATION) * y[i]! + dual[i]!;
-      const kept = Math.max(low[i]!, Math.min(high[i]!, free));
-      dual[i] = free - kept;
-      y[i] = kept;
+      const free = RELAXATION * x + rows[r + CARRY]!;
+      y[i] = Math.max(rows[r + LOW]!, Math.min(rows[r + HIGH]!, free));
     }
   }
 }

@@ -44,6 +44,8 @@ const SHEAR = 0.5;
 const HARDLY = 0.015;
 /** Below this s a line is straight. */
 const STRAIGHT = 1e-12;
+/** Added to an s by which is divided: of no account where lengths are. */
+const STRAIGHT_ON = 1e-6;
 
 /** A point that may be moved to bend less, among mm outwards. */
 const FREE = -1;
@@ -65,8 +67,6 @@ export class SoftLine {
   private sine = new Float64Array(0);
   /** mm outwards at corners; FREE where the line may bend, 0 where points stay. */
   private kind = new Float64Array(0);
-  /** mm forwards along the line. */
-  private forward = new Float64Array(0);
   /** mm of δ that moving along the line takes at each point, and what it leaves there. */
   private taken = new Float64Array(0);
   private left = new Float64Array(0);
@@ -88,7 +88,9 @@ export class SoftLine {
     if (curves === NOTHING) return this.same(path, limits);
     this.evenOut(path, limits.corner);
     this.bound(limits.corner);
-    if (curves === BENDS) this.bending.solve(n, this.even.length);
+    const { bending } = this;
+    if (curves === BENDS) bending.solve(n, this.even.length);
+    else bending.y.set(bending.low.subarray(0, n + 1));
     if (!this.move(n)) return this.same(path, limits);
     const { soft } = this;
     capSegments(soft, limits);
@@ -112,7 +114,7 @@ export class SoftLine {
       const dx = ux[i]! - ux[i - 1]!;
       const dy = uy[i]! - uy[i - 1]!;
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      const half = Math.min(length[i - 1]!, length[i]!) / 2;
+      const half = lesser(length[i - 1]!, length[i]!) / 2;
       const v2 = Math.min(cap2[i - 1]!, cap2[i]!);
       sine[i] = s;
       kind[i] = 0;
@@ -132,32 +134,45 @@ export class SoftLine {
   /** Moves points of bends along the line, away from the nearer neighbour. */
   private evenOut(path: RunPath, corner: number): void {
     const { segmentCount: n, x, y, length, ux, uy } = path;
-    const { even, sine, kind, forward, taken, along } = this;
+    const { even, sine, kind, taken, along } = this;
     even.beLike(path);
-    even.x.set(x.subarray(0, n + 1));
-    even.y.set(y.subarray(0, n + 1));
+    const { x: ex, y: ey, length: evenLength, ux: ex1, uy: ey1 } = even;
     const mayLeave = (1 - LEFT) * corner;
-    forward[0] = taken[0] = 0;
+    ex[0] = x[0]!;
+    ey[0] = y[0]!;
+    taken[0] = 0;
+    let forward = 0;
+    let px = x[0]!;
+    let py = y[0]!;
     for (let i = 1; i <= n; i++) {
       const before = length[i - 1]!;
+      let qx = x[i]!;
+      let qy = y[i]!;
       let tau = 0;
-      taken[i] = 0;
+      let leaves = 0;
       if (kind[i] === FREE) {
         const after = length[i]!;
         const s = sine[i]!;
-        const leaves = s + Math.max(sine[i - 1]!, sine[i + 1]!) / 2;
-        let most = (SHEAR / 2) * Math.min(before, after);
-        if (most * leaves > mayLeave) most = mayLeave / leaves;
-        tau = Math.max(-most, Math.min(most, EVEN * (after - before)));
-        taken[i] = Math.abs(tau) * leaves;
+        leaves = s + greater(sine[i - 1]!, sine[i + 1]!) / 2;
+        const most = lesser((SHEAR / 2) * lesser(before, after), mayLeave / (leaves + STRAIGHT_ON));
+        tau = between(EVEN * (after - before), -most, most);
         const per = tau * halfPerCosine(s * s);
-        even.x[i] = x[i]! + per * (ux[i - 1]! + ux[i]!);
-        even.y[i] = y[i]! + per * (uy[i - 1]! + uy[i]!);
+        qx += per * (ux[i - 1]! + ux[i]!);
+        qy += per * (uy[i - 1]! + uy[i]!);
       }
-      forward[i] = tau;
-      along[i - 1] = before + tau - forward[i - 1]!;
+      taken[i] = Math.abs(tau) * leaves;
+      along[i - 1] = before + tau - forward;
+      forward = tau;
+      const dx = qx - px;
+      const dy = qy - py;
+      const l = Math.sqrt(dx * dx + dy * dy);
+      const per = 1 / l;
+      evenLength[i - 1] = l;
+      ex1[i - 1] = dx * per;
+      ey1[i - 1] = dy * per;
+      ex[i] = px = qx;
+      ey[i] = py = qy;
     }
-    even.measure();
   }
 
   /** Turns of the evened line, and how far its points may go to the left and to the right. */
@@ -166,50 +181,67 @@ export class SoftLine {
     const { sine, kind, taken, left, bending } = this;
     bending.reserve(n + 1);
     const { low, high, turn } = bending;
+    sine[0] = turn[0] = low[0] = high[0] = 0;
+    sine[n] = turn[n] = low[n] = high[n] = 0;
     // How far a curve of its own radius passes inside of a point, of this point and its neighbours: more than is left then
     // would have it slow down again.
     let depth0 = 0;
     let depth1 = 0;
     let taken0 = 0;
     let taken1 = 0;
-    for (let i = 0; i <= n; i++) {
-      const k = i + 1;
+    for (let k = 1; k <= n; k++) {
+      // Point k is the neighbour of the one before it, which is bounded here.
       let depth2 = 0;
-      sine[k] = turn[k] = 0;
+      let taken2 = 0;
       if (k < n) {
-        const dx = ux[k]! - ux[i]!;
-        const dy = uy[k]! - uy[i]!;
-        const s = Math.sqrt(dx * dx + dy * dy) / 2;
-        sine[k] = s;
-        turn[k] = ux[i]! * uy[k]! < uy[i]! * ux[k]! ? -2 * s : 2 * s;
-        if (kind[k] === FREE) depth2 = (s * Math.min(length[i]!, length[k]!)) / 4;
+        const ax = ux[k - 1]!;
+        const ay = uy[k - 1]!;
+        const bx = ux[k]!;
+        const by = uy[k]!;
+        const cross = ax * by - ay * bx;
+        taken2 = taken[k]!;
+        if (kind[k] === FREE) {
+          // 2 sin(φ/2) from sin φ.
+          const t = cross * (1 + (cross * cross) / 8);
+          const s = Math.abs(t) / 2;
+          turn[k] = t;
+          sine[k] = s;
+          depth2 = (s * lesser(length[k - 1]!, length[k]!)) / 4;
+        } else {
+          const s = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / 2;
+          turn[k] = cross < 0 ? -2 * s : 2 * s;
+          sine[k] = s;
+        }
       }
-      const taken2 = i < n ? taken[k]! : 0;
-      const rest = corner - Math.max(taken0, taken1, taken2);
-      taken0 = taken1;
-      taken1 = taken2;
-      left[i] = rest;
-      const toLeft = turn[i]! >= 0;
-      if (kind[i] === FREE) {
-        const inside = Math.max(0, rest - Math.max(depth0, depth1, depth2));
-        const outside = sine[i]! < HARDLY ? inside : rest;
-        low[i] = toLeft ? -outside : -inside;
-        high[i] = toLeft ? inside : outside;
-      } else {
-        const outwards = Math.min(kind[i]!, rest);
-        low[i] = high[i] = toLeft ? -outwards : outwards;
+      if (k > 1) {
+        const i = k - 1;
+        const rest = corner - greater(greater(taken0, taken2), taken1);
+        left[i] = rest;
+        if (kind[i] === FREE) {
+          const inside = greater(0, rest - greater(greater(depth0, depth2), depth1));
+          const side = between(turn[i]! / (2 * HARDLY), -1, 1);
+          const more = (rest - inside) / 2;
+          const middle = -side * more;
+          const half = inside + Math.abs(side) * more;
+          low[i] = middle - half;
+          high[i] = middle + half;
+        } else {
+          const outwards = Math.min(kind[i]!, rest);
+          low[i] = high[i] = turn[i]! >= 0 ? -outwards : outwards;
+        }
       }
       depth0 = depth1;
       depth1 = depth2;
+      taken0 = taken1;
+      taken1 = taken2;
     }
   }
 
   /** From the evened line to the soft one. Neighbours that would be sheared stay; false where even that does not help. */
   private move(n: number): boolean {
     const { even, soft, shiftX, shiftY } = this;
-    this.shift(n);
+    if (this.shift(n)) return true;
     if (this.stayWhereSheared(n) > 0 && this.stayWhereSheared(n) > 0) return false;
-    soft.beLike(even);
     for (let i = 0; i <= n; i++) {
       soft.x[i] = even.x[i]! + shiftX[i]!;
       soft.y[i] = even.y[i]! + shiftY[i]!;
@@ -218,26 +250,57 @@ export class SoftLine {
     return true;
   }
 
-  private shift(n: number): void {
-    const { even, sine, kind, bending, shiftX, shiftY } = this;
-    const { ux, uy } = even;
-    const { y, turn, low, high } = bending;
-    shiftX[0] = shiftY[0] = shiftX[n] = shiftY[n] = 0;
-    for (let i = 1; i < n; i++) {
-      const left = low[i] === high[i] ? low[i]! : y[i]!;
-      const s = sine[i]!;
-      if (left === 0) {
-        shiftX[i] = shiftY[i] = 0;
-      } else if (kind[i] !== FREE) {
-        const per = left / (turn[i]! < 0 ? -2 * s : 2 * s);
-        shiftX[i] = per * (ux[i]! - ux[i - 1]!);
-        shiftY[i] = per * (uy[i]! - uy[i - 1]!);
-      } else {
+  /** Moves all points; whether no segment is sheared. */
+  private shift(n: number): boolean {
+    const { even, soft, sine, kind, shiftX, shiftY } = this;
+    const { x, y, ux, uy, length } = even;
+    const { y: moves } = this.bending;
+    soft.beLike(even);
+    const { x: sx, y: sy, length: softLength, ux: sx1, uy: sy1 } = soft;
+    let isSheared = false;
+    let dx0 = 0;
+    let dy0 = 0;
+    let px = x[0]!;
+    let py = y[0]!;
+    shiftX[0] = shiftY[0] = 0;
+    sx[0] = px;
+    sy[0] = py;
+    for (let i = 1; i <= n; i++) {
+      const left = moves[i]!;
+      let dx = 0;
+      let dy = 0;
+      if (kind[i] === FREE) {
+        const s = sine[i]!;
         const per = left * halfPerCosine(s * s);
-        shiftX[i] = -per * (uy[i - 1]! + uy[i]!);
-        shiftY[i] = per * (ux[i - 1]! + ux[i]!);
+        dx = -per * (uy[i - 1]! + uy[i]!);
+        dy = per * (ux[i - 1]! + ux[i]!);
+      } else if (left !== 0) {
+        // Outwards, which is to the right in a turn to the left.
+        const per = -Math.abs(left) / (2 * sine[i]!);
+        dx = per * (ux[i]! - ux[i - 1]!);
+        dy = per * (uy[i]! - uy[i - 1]!);
       }
+      shiftX[i] = dx;
+      shiftY[i] = dy;
+      const apartX = dx - dx0;
+      const apartY = dy - dy0;
+      const before = length[i - 1]!;
+      if (apartX * apartX + apartY * apartY > SHEAR * SHEAR * before * before) isSheared = true;
+      dx0 = dx;
+      dy0 = dy;
+      const qx = x[i]! + dx;
+      const qy = y[i]! + dy;
+      const wayX = qx - px;
+      const wayY = qy - py;
+      const l = Math.sqrt(wayX * wayX + wayY * wayY);
+      const per = 1 / l;
+      softLength[i - 1] = l;
+      sx1[i - 1] = wayX * per;
+      sy1[i - 1] = wayY * per;
+      sx[i] = px = qx;
+      sy[i] = py = qy;
     }
+    return !isSheared;
   }
 
   /** How many segments would be; both ends of each then stay, whichever side one comes from. */
@@ -280,7 +343,6 @@ export class SoftLine {
     this.along = new Float64Array(size);
     this.sine = new Float64Array(size);
     this.kind = new Float64Array(size);
-    this.forward = new Float64Array(size);
     this.taken = new Float64Array(size);
     this.left = new Float64Array(size);
     this.shiftX = new Float64Array(size);
@@ -293,3 +355,12 @@ export class SoftLine {
 function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
+
+/*
+ * Which of two is the greater changes from point to point, so that a processor guesses wrong half of the time: without a branch
+ * it takes half as long.
+ */
+const lesser = (a: number, b: number): number => (a + b - Math.abs(a - b)) / 2;
+const greater = (a: number, b: number): number => (a + b + Math.abs(a - b)) / 2;
+const between = (a: number, low: number, high: number): number =>
+  (Math.abs(a - low) - Math.abs(a - high) + low + high) / 2;
