@@ -169,9 +169,13 @@ export class SliceSearch {
     this.o2 = new MotorOptions(arithmetic);
   }
 
-  /** At the run's start, where the motors stand. */
-  begin(m1: MotorPlace, m2: MotorPlace): void {
-    const { ways, samples } = this;
+  /**
+   * At the run's start, where the motors stand. Where it follows the last run at once, the first jump is from that
+   * one's last slice: a rest of no duration is none.
+   */
+  begin(m1: MotorPlace, m2: MotorPlace, followsAtOnce: boolean): void {
+    const { ways, samples, path } = this;
+    const last = this.pathLength > 0 ? path[this.pathLength - 1]! : ROOT;
     const accel = samples.peakAccel * SHORTEST_MS * SHORTEST_MS;
     this.jumpShare = 1 / (2 + accel * accel);
     this.pathLength = 0;
@@ -180,8 +184,8 @@ export class SliceSearch {
     ways.steps2[ROOT] = m2.steps;
     ways.acc1[ROOT] = m1.acc;
     ways.acc2[ROOT] = m2.acc;
-    ways.speed1[ROOT] = samples.startSpeed1 * SHORTEST_MS;
-    ways.speed2[ROOT] = samples.startSpeed2 * SHORTEST_MS;
+    ways.speed1[ROOT] = followsAtOnce ? ways.speed1[last]! : samples.startSpeed1 * SHORTEST_MS;
+    ways.speed2[ROOT] = followsAtOnce ? ways.speed2[last]! : samples.startSpeed2 * SHORTEST_MS;
   }
 
   /** Finds the next slices, on from the last ones: `path`. True when they end the run. */

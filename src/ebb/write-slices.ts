@@ -18,6 +18,8 @@ export class SliceRuns implements RunWriter {
   private readonly search: SliceSearch;
   /** Ticks by which the last run ended after its plan; the next one sets out as much nearer to its own. */
   private lateTicks = 0;
+  /** When the last slice written was over, board ticks. */
+  private lastEndTick = NaN;
 
   constructor(
     features: FirmwareFeatures,
@@ -37,7 +39,7 @@ export class SliceRuns implements RunWriter {
     if (walk.first === walk.end) return;
     samples.begin(startTick);
     if (samples.isNothing(this.m1, this.m2)) return;
-    search.begin(this.m1, this.m2);
+    search.begin(this.m1, this.m2, startTick === this.lastEndTick);
     let isOver = false;
     while (!isOver) {
       isOver = search.next();
@@ -46,6 +48,7 @@ export class SliceRuns implements RunWriter {
         this.writeSlice(search.path[i]!, planS, run);
       }
     }
+    this.lastEndTick = columns.boardTicks;
     const lateTicks = columns.boardTicks - startTick - samples.endTick;
     this.lateTicks = Math.max(-TICKS_PER_MS, Math.min(TICKS_PER_MS, lateTicks));
     if (samples.isSlowed) columns.warnOnce(TOO_FAST);

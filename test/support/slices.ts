@@ -31,7 +31,7 @@ export function slicesOf(stream: CommandStream, trajectory: Trajectory): Slice[]
   return slices;
 }
 
-/** Largest change of speed between slices, from and to rest included, mm/s. */
+/** Largest change of speed between slices, from and to rest included where there is one, mm/s. */
 export function largestJump(machine: MachineProfile, slices: readonly Slice[]): number {
   let largest = 0;
   let v1 = 0;
@@ -43,10 +43,10 @@ export function largestJump(machine: MachineProfile, slices: readonly Slice[]): 
     v1 = next1;
     v2 = next2;
   };
-  for (const { ms, steps1, steps2, isLast } of slices) {
+  slices.forEach(({ command, ms, steps1, steps2 }, i) => {
     turnTo((1_000 * steps1) / ms, (1_000 * steps2) / ms);
-    if (isLast) turnTo(0, 0);
-  }
+    if (slices[i + 1]?.command !== command + 1) turnTo(0, 0);
+  });
   return largest;
 }
 

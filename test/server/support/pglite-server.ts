@@ -29,7 +29,7 @@ export class PgliteServer {
     this.#database = database;
   }
 
-  /** Port 0: any that is free. */
+  /** On 127.0.0.1; where `port` is 0, on one that is free: `server.port` tells which. */
   static async listen(database: PGlite, port: number): Promise<PgliteServer> {
     const server = new PgliteServer(database);
     server.#server.listen(port, "127.0.0.1");

@@ -56,6 +56,19 @@ describe("slices of constant speed", () => {
     expect(largestJump(machine, slicesOf(stream, trajectory))).toBeLessThan(4.5);
   });
 
+  it("go from a stroke to one that begins where it ends by no larger a jump than within a stroke", () => {
+    const star = Array.from({ length: 720 }, (_, i): Point => {
+      const r = i % 2 === 0 ? 0 : 3 + (i % 7);
+      return [60 + r * Math.cos((i * Math.PI) / 360), 60 + r * Math.sin((i * Math.PI) / 360)];
+    });
+    const strokes = strokeSetOf(star.slice(1).map((point, i) => [star[i]!, point]));
+    const trajectory = plan(strokes, motionForFirmware({ ...DEFAULT_MOTION, mode: "blend" }, firmware), pen);
+    const slices = slicesOf(compile(trajectory, { machine, firmware, pen }), trajectory);
+    const joints = slices.filter((slice, i) => slice.isLast && slices[i + 1]?.command === slice.command + 1);
+    expect(joints).toHaveLength(star.length - 2);
+    expect(largestJump(machine, slices)).toBeLessThan(4.5);
+  });
+
   it.each(["junction", "blend", "scurve"] as const)(
     "are long enough to be read in time in %s, but for a run's last",
     (mode) => {
