@@ -32,8 +32,9 @@ import type { BlockColumns } from "./block-columns.js";
 import { CornerSpeeds } from "./corner-speeds.js";
 import { capSegments, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
+import { keepFloor, type Phases } from "./floor-phases.js";
 import { SoftLine } from "./soft-line.js";
-import { writeStraight, type Straight } from "./straight.js";
+import { NEGLIGIBLE, writeStraight, type Straight } from "./straight.js";
 
 /** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
 const STRAIGHT = 1e-12;
@@ -44,32 +45,28 @@ const SHARP = 0.35;
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
 
+/** Segments written at a time, for which there is room then; and how many blocks each of them makes at most. */
+const SLICE = 4096;
+const MOST_BLOCKS = 4;
+
 export class BlendPlanner {
-  /** L of each vertex, mm; 0 at the ends and where the way goes straight on. */
-  private tangent = new Float64Array(0);
-  /** s of each vertex, 0 where the way goes straight on. */
-  private sine = new Float64Array(0);
-  /** Largest speed at each vertex, mm/s. */
-  private limit = new Float64Array(0);
-  /** (mm/s)²: how much v1² + v1 q may be at each vertex, for braking. */
-  private behind = new Float64Array(0);
-  /** Speeds where each vertex's curve begins and ends, and its q, mm/s. */
-  private vIn = new Float64Array(0);
-  private vOut = new Float64Array(0);
-  private change = new Float64Array(0);
   private readonly line = new SoftLine();
-  private readonly corner = new CornerSpeeds();
+  private readonly corners = new CornerSpeeds();
   private readonly straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, alongPerMm: 1, length: 0 };
+  /** Filled anew for every straight. */
+  private readonly phases: Phases = { peak: 0, rise: 0, fall: 0 };
+  /** While blocks are written: mm of the drawing at the last point, and of the next segment that its corner takes. */
+  private along = 0;
+  private used = 0;
 
   /** Writes one run from rest to rest. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const n = path.segmentCount;
     if (n === 1) return this.writeSingle(path, limits, out);
-    this.reserve(n + 1);
+    this.corners.reserve(n + 1);
     const line = this.line.of(path, limits);
     this.roundCorners(line, limits.accel);
     this.lookAhead(line, limits.accel);
-    out.reserve(2 * n, n);
     this.writeBlocks(line, limits, out);
   }
 
@@ -94,11 +91,11 @@ export class BlendPlanner {
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */
   private roundCorners(path: RunPath, accel: number): void {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
-    const { tangent, sine, limit } = this;
+    const { tangent, sine, most } = this.corners;
     const { room } = this.line;
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
-    limit[0] = limit[n] = 0;
+    most[0] = most[n] = 0;
     for (let i = 1; i < n; i++) {
       const dx = ux[i]! - ux[i - 1]!;
       const dy = uy[i]! - uy[i - 1]!;
@@ -111,100 +108,160 @@ export class BlendPlanner {
       }
       tangent[i] = reach;
       sine[i] = s > STRAIGHT ? s : 0;
-      limit[i] = Math.sqrt(v2);
+      most[i] = Math.sqrt(v2);
     }
   }
 
   /** Speed second: the greatest speeds that straights and curves can connect. */
   private lookAhead(path: RunPath, accel: number): void {
     const { segmentCount: n, length } = path;
-    const { tangent, sine, limit, behind, vIn, vOut, change, corner } = this;
+    const { corners } = this;
+    const { ahead, behind, vIn, vOut, change } = corners;
     const twoA = 2 * accel;
     vIn[0] = vOut[0] = change[0] = 0;
     vIn[n] = vOut[n] = change[n] = 0;
     let left = 0;
     for (let i = n - 1; i > 0; i--) {
+      ahead[i] = Infinity;
       behind[i] = left + twoA * length[i]!;
-      corner.solve(sine[i]!, twoA * tangent[i]!, limit[i]!, Infinity, behind[i]!);
-      vIn[i] = corner.v0;
-      vOut[i] = corner.v1;
-      change[i] = corner.change;
-      left = corner.v0 * (corner.v0 - corner.change);
+      corners.solve(i, accel);
+      left = vIn[i]! * (vIn[i]! - change[i]!);
     }
     left = 0;
     for (let i = 1; i < n; i++) {
-      const before = left + twoA * length[i - 1]!;
-      if (vIn[i]! * (vIn[i]! + change[i]!) > before) {
-        corner.solve(sine[i]!, twoA * tangent[i]!, limit[i]!, before, behind[i]!);
-        vIn[i] = corner.v0;
-        vOut[i] = corner.v1;
-        change[i] = corner.change;
-      }
+      ahead[i] = left + twoA * length[i - 1]!;
+      if (vIn[i]! * (vIn[i]! + change[i]!) > ahead[i]!) corners.solve(i, accel);
       left = vOut[i]! * (vOut[i]! - change[i]!);
     }
   }
 
   /** Pieces last: one parabola a corner, a trapezoid on each straight between. */
-  private writeBlocks(path: RunPath, { accel, floorS }: RunLimits, out: BlockColumns): void {
-    const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
-    const { vIn, vOut, straight } = this;
-    const { along: stands } = this.line;
-    let along = path.startAlong;
-    let used = 0;
-    for (let i = 0; i < n; i++) {
-      const v0 = vIn[i + 1]!;
-      const v1 = vOut[i + 1]!;
-      const tau = this.halfTime(i + 1, n, accel);
-      const ex = ux[i]!;
-      const ey = uy[i]!;
-      const perMm = stands[i]! / length[i]!;
-      straight.length = length[i]! - used - v0 * tau;
-      if (straight.length > NO_PIECE) {
-        straight.x = x[i]! + ex * used;
-        straight.y = y[i]! + ey * used;
-        straight.ux = ex;
-        straight.uy = ey;
-        straight.alongMm = along + used * perMm;
-        straight.alongPerMm = perMm;
-        writeStraight(straight, vOut[i]!, v0, Math.sqrt(cap2[i]!), accel, floorS, out);
-      }
-      along += stands[i]!;
-      used = v1 * tau;
-      if (tau === 0) continue;
-      out.push(
-        2 * tau,
-        x[i + 1]! - ex * v0 * tau,
-        y[i + 1]! - ey * v0 * tau,
-        ex * v0,
-        ey * v0,
-        (ux[i + 1]! * v1 - ex * v0) / (2 * tau),
-        (uy[i + 1]! * v1 - ey * v0) / (2 * tau),
-        along - v0 * tau * perMm,
-      );
+  private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const { segmentCount: n } = path;
+    this.along = path.startAlong;
+    this.used = 0;
+    for (let from = 0; from < n; from += SLICE) {
+      const end = Math.min(n, from + SLICE);
+      out.reserve(MOST_BLOCKS * (end - from), end - from);
+      this.writeSlice(path, from, end, limits, out);
     }
   }
 
   /**
-   * Half of the time that the curve at a vertex takes, s: q/2A. Where speed is the same all the way from the corner before to
-   * the one after it takes no longer if it is long and soft instead; unless it is sharp.
+   * Segments [from, end), each with the corner after it. The straights are those of straight.ts, written here because a
+   * call for each of them and for each of their blocks takes longer than what it does.
    */
-  private halfTime(i: number, n: number, accel: number): number {
-    const { tangent, sine, vIn, vOut, change } = this;
-    const v = vIn[i]!;
-    const isSteady = i < n && vOut[i] === v && vOut[i - 1] === v && vIn[i + 1] === v;
-    if (isSteady && v > 0 && sine[i]! < SHARP) return tangent[i]! / v;
-    return change[i]! / (2 * accel);
-  }
-
-  private reserve(points: number): void {
-    if (this.tangent.length >= points) return;
-    const size = Math.max(points, 2 * this.tangent.length);
-    this.tangent = new Float64Array(size);
-    this.sine = new Float64Array(size);
-    this.limit = new Float64Array(size);
-    this.behind = new Float64Array(size);
-    this.vIn = new Float64Array(size);
-    this.vOut = new Float64Array(size);
-    this.change = new Float64Array(size);
+  private writeSlice(
+    path: RunPath,
+    from: number,
+    end: number,
+    { accel, floorS }: RunLimits,
+    out: BlockColumns,
+  ): void {
+    const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
+    const { phases } = this;
+    const { tangent, sine, vIn, vOut, change } = this.corners;
+    const { along: stands } = this.line;
+    const { durationS, x: bx, y: by, vx, vy, ax, ay, startS, alongMm } = out;
+    const twoA = 2 * accel;
+    let k = out.count;
+    let clock = out.clockS;
+    let along = this.along;
+    let used = this.used;
+    for (let i = from; i < end; i++) {
+      const ex = ux[i]!;
+      const ey = uy[i]!;
+      const whole = length[i]!;
+      const perMm = stands[i]! / whole;
+      const v0 = vOut[i]!;
+      const v1 = vIn[i + 1]!;
+      const after = vOut[i + 1]!;
+      // Half of the time that the corner's curve takes: q/2A. Where speed is the same all the way from the corner before to
+      // the one after it takes no longer if it is long and soft instead; unless it is sharp.
+      let tau = change[i + 1]! / twoA;
+      if (v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1 && sine[i + 1]! < SHARP) {
+        tau = tangent[i + 1]! / v1;
+      }
+      const l = whole - used - v1 * tau;
+      if (l > NO_PIECE) {
+        const start2 = v0 * v0;
+        const end2 = v1 * v1;
+        const peak2 = Math.min((start2 + end2) / 2 + accel * l, Math.max(cap2[i]!, start2, end2));
+        const least2 = NEGLIGIBLE * peak2;
+        let rise = peak2 - start2 > least2 ? (peak2 - start2) / twoA : 0;
+        let fall = peak2 - end2 > least2 ? (peak2 - end2) / twoA : 0;
+        let peak = v0;
+        if (rise > 0 || fall > 0) {
+          peak = Math.sqrt(peak2);
+          if (floorS > 0) {
+            phases.peak = peak;
+            phases.rise = rise;
+            phases.fall = fall;
+            keepFloor(l, v0, v1, accel, floorS, phases);
+            ({ peak, rise, fall } = phases);
+          }
+        }
+        // Each phase begins where the one before ended, and the last one ends where the straight does: rounding opens no gap.
+        const cruises = l - rise - fall > Math.max(NEGLIGIBLE * l, least2 / twoA);
+        let isUp = rise > 0 && (fall > 0 || cruises);
+        let isSteady = fall > 0 && cruises;
+        const px = x[i]! + ex * used;
+        const py = y[i]! + ey * used;
+        const alongStart = along + used * perMm;
+        let at = 0;
+        let w0 = v0;
+        for (;;) {
+          let d = l - at;
+          let w1 = v1;
+          if (isUp) {
+            d = cruises ? rise : l - fall;
+            w1 = peak;
+          } else if (isSteady) {
+            d -= fall;
+            w1 = peak;
+          }
+          const sum = w0 + w1;
+          const t = (2 * d) / sum;
+          const a = ((w1 - w0) * sum) / (2 * d);
+          durationS[k] = t;
+          bx[k] = px + ex * at;
+          by[k] = py + ey * at;
+          vx[k] = ex * w0;
+          vy[k] = ey * w0;
+          ax[k] = ex * a;
+          ay[k] = ey * a;
+          startS[k] = clock;
+          alongMm[k] = alongStart + at * perMm;
+          clock += t;
+          k++;
+          if (isUp) isUp = false;
+          else if (isSteady) isSteady = false;
+          else break;
+          at += d;
+          w0 = w1;
+        }
+      }
+      along += stands[i]!;
+      used = after * tau;
+      if (tau === 0) continue;
+      const wx = ex * v1;
+      const wy = ey * v1;
+      const t = 2 * tau;
+      durationS[k] = t;
+      bx[k] = x[i + 1]! - wx * tau;
+      by[k] = y[i + 1]! - wy * tau;
+      vx[k] = wx;
+      vy[k] = wy;
+      ax[k] = (ux[i + 1]! * after - wx) / t;
+      ay[k] = (uy[i + 1]! * after - wy) / t;
+      startS[k] = clock;
+      alongMm[k] = along - v1 * tau * perMm;
+      clock += t;
+      k++;
+    }
+    out.count = k;
+    out.clockS = clock;
+    this.along = along;
+    this.used = used;
   }
 }

@@ -43,8 +43,8 @@ export class BlockColumns {
     this.segmentsDone += segments;
     if (needed <= this.durationS.length) return;
     const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
-    // Between a quarter more and eight-fold: the first strokes may be unlike the rest.
-    this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 8 * needed) + 64);
+    // Between a quarter more and 32-fold: the first strokes may be unlike the rest.
+    this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 32 * needed) + 64);
   }
 
   /** Appends one block and moves the clock on; for what is not a hot loop. */

@@ -18,38 +18,71 @@
  * fastest corner is the smallest q for which they turn by no more than q:  (v0 − v1)² + 4 s² v0 v1 ≤ q².
  */
 export class CornerSpeeds {
-  v0 = 0;
-  v1 = 0;
-  /** q */
-  change = 0;
+  /** s of each corner, 0 where the way goes straight on. */
+  sine = new Float64Array(0);
+  /** L of each corner, mm; 0 at the ends and where the way goes straight on. */
+  tangent = new Float64Array(0);
+  most = new Float64Array(0);
+  /** F and B. */
+  ahead = new Float64Array(0);
+  behind = new Float64Array(0);
+  /** v0, v1 and q: what `search` finds. */
+  vIn = new Float64Array(0);
+  vOut = new Float64Array(0);
+  change = new Float64Array(0);
 
-  /** Sets v0, v1 and `change`; `reach` is 2 A L, mm²/s². F and B are above 0. */
-  solve(s: number, reach: number, most: number, F: number, B: number): void {
-    this.change = 2 * s * most;
-    const through = most * (most + this.change);
+  reserve(points: number): void {
+    if (this.sine.length >= points) return;
+    const size = Math.max(points, 2 * this.sine.length);
+    this.sine = new Float64Array(size);
+    this.tangent = new Float64Array(size);
+    this.most = new Float64Array(size);
+    this.ahead = new Float64Array(size);
+    this.behind = new Float64Array(size);
+    this.vIn = new Float64Array(size);
+    this.vOut = new Float64Array(size);
+    this.change = new Float64Array(size);
+  }
+
+  /** Sets v0, v1 and q of corner i. F and B are above 0. */
+  solve(i: number, accel: number): void {
+    const most = this.most[i]!;
+    const s = this.sine[i]!;
+    const F = this.ahead[i]!;
+    const B = this.behind[i]!;
+    const change = 2 * s * most;
+    const through = most * (most + change);
     if (through <= F && through <= B) {
-      this.v0 = this.v1 = most;
+      this.vIn[i] = this.vOut[i] = most;
+      this.change[i] = change;
     } else if (s === 0) {
-      this.v0 = this.v1 = Math.min(most, Math.sqrt(Math.min(F, B)));
-      this.change = 0;
-    } else this.search(s, reach, most, F, B);
+      this.vIn[i] = this.vOut[i] = Math.min(most, Math.sqrt(Math.min(F, B)));
+      this.change[i] = 0;
+    } else this.search(i, accel);
   }
 
   /**
    * Newton's steps from where the tangents begin to matter, kept between a q too small and one large enough; halvings
    * where another limit takes over and they would go to and fro.
    */
-  private search(s: number, reach: number, most: number, F: number, B: number): void {
+  private search(corner: number, accel: number): void {
+    const s = this.sine[corner]!;
+    const most = this.most[corner]!;
+    const F = this.ahead[corner]!;
+    const B = this.behind[corner]!;
+    const reach = 2 * accel * this.tangent[corner]!;
     const c = 1 - 2 * s * s;
     let low = 0;
     let high = 2 * most;
     let q = reach / most;
-    if (!(q < high)) q = this.change;
+    if (!(q < high)) q = 2 * s * most;
     let before = Infinity;
+    let v0 = most;
+    let v1 = most;
+    let used = q;
     for (let i = 0; i < 60; i++) {
-      let v0 = most;
+      v0 = v1 = most;
       let slope0 = 0;
-      let v1 = most;
       let slope1 = 0;
       if (most * q >= reach) {
         v0 = v1 = reach / q;
@@ -65,12 +98,10 @@ export class CornerSpeeds {
         v1 = (2 * B) / (q + root);
         slope1 = -v1 / root;
       }
-      this.v0 = v0;
-      this.v1 = v1;
-      this.change = q;
+      used = q;
       const turned = Math.sqrt((v0 - v1) * (v0 - v1) + 4 * s * s * v0 * v1);
       const excess = turned - q;
-      if (Math.abs(excess) <= SAME * most) return;
+      if (Math.abs(excess) <= SAME * most) break;
       if (excess > 0) low = q;
       else high = q;
       const isSlow = Math.abs(excess) > before / 2;
@@ -78,6 +109,9 @@ export class CornerSpeeds {
       q -= excess / ((slope0 * (v0 - c * v1) + slope1 * (v1 - c * v0)) / turned - 1);
       if (isSlow || !(q > low && q < high)) q = (low + high) / 2;
     }
+    this.vIn[corner] = v0;
+    this.vOut[corner] = v1;
+    this.change[corner] = used;
   }
 }
 

@@ -13,13 +13,14 @@ import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
-import { writeSmoothed } from "./smooth.js";
+import { Smoother } from "./smooth.js";
 import { ThirdOrderPlanner } from "./third-order.js";
 
 export class SCurvePlanner {
   private readonly thirdOrder = new ThirdOrderPlanner();
   private readonly blend = new BlendPlanner();
   private readonly blended = new BlockColumns(0, false);
+  private readonly smoother = new Smoother();
 
   /** Writes one run from rest to rest; `out` has jerk columns. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
@@ -39,6 +40,6 @@ export class SCurvePlanner {
       out.count = count;
       out.clockS = clockS;
     }
-    writeSmoothed(blended, path.end(), window, out);
+    this.smoother.write(blended, path.end(), window, out);
   }
 }

@@ -17,134 +17,138 @@ import type { RunEnd } from "./run-path.js";
 /** Ends of blocks nearer in time than this fall together, s. */
 const SAME_TIME = 1e-12;
 
-/** One end of the window, walking through the blocks; at rest before the first and after the last. */
-class Walker {
-  k = -1;
-  private t = 0;
-  private startAlongSpeed = 0;
-  x: number;
-  y: number;
-  vx = 0;
-  vy = 0;
-  ax = 0;
-  ay = 0;
-  /** mm along the drawing, its speed and its acceleration: the third coordinate of the motion. */
-  along: number;
-  alongSpeed = 0;
-  alongAccel = 0;
-  /** Seconds until this end reaches the end of its block. */
-  left: number;
+export class Smoother {
+  /** How fast the drawing's own line is passed at the start of each block, mm/s, and how that changes, mm/s². */
+  private alongSpeed = new Float64Array(0);
+  private alongAccel = new Float64Array(0);
 
-  constructor(
-    private readonly from: BlockColumns,
-    private readonly end: RunEnd,
-    delay: number,
-  ) {
-    this.x = from.x[0]!;
-    this.y = from.y[0]!;
-    this.along = from.alongMm[0]!;
-    this.left = delay;
-    if (!(delay > 0)) this.enter();
-  }
-
-  advance(dt: number): void {
-    if (this.left - dt <= SAME_TIME) return this.enter();
-    this.left -= dt;
-    const { k, from } = this;
-    if (k < 0 || k >= from.count) return;
-    this.t += dt;
-    const t = this.t;
-    this.x = from.x[k]! + t * (from.vx[k]! + (t * this.ax) / 2);
-    this.y = from.y[k]! + t * (from.vy[k]! + (t * this.ay) / 2);
-    this.vx = from.vx[k]! + t * this.ax;
-    this.vy = from.vy[k]! + t * this.ay;
-    this.along = from.alongMm[k]! + t * (this.startAlongSpeed + (t * this.alongAccel) / 2);
-    this.alongSpeed = this.startAlongSpeed + t * this.alongAccel;
-  }
-
-  private enter(): void {
-    const { from } = this;
-    const k = ++this.k;
-    this.t = 0;
-    const inside = k < from.count;
-    this.left = inside ? from.durationS[k]! : Infinity;
-    this.x = inside ? from.x[k]! : this.end.x;
-    this.y = inside ? from.y[k]! : this.end.y;
-    this.vx = inside ? from.vx[k]! : 0;
-    this.vy = inside ? from.vy[k]! : 0;
-    this.ax = inside ? from.ax[k]! : 0;
-    this.ay = inside ? from.ay[k]! : 0;
-    this.along = inside ? from.alongMm[k]! : this.end.alongMm;
-    this.startAlong(inside ? k : -1);
-  }
-
-  /** The block's part of the drawing is passed as fast as the block is, at its start and at its end. */
-  private startAlong(k: number): void {
-    const { from } = this;
-    if (k < 0) {
-      this.alongSpeed = this.alongAccel = 0;
-      return;
+  /** Appends the mean over `window` seconds of the run in `from`, which ends at rest at `end`. */
+  write(from: BlockColumns, end: RunEnd, window: number, out: BlockColumns): void {
+    const { count } = from;
+    this.addRests(from, end);
+    this.measureAlong(from);
+    out.reserve(2 * count + 2, end.segmentCount);
+    const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay, alongMm: pAlong } = from;
+    const { alongSpeed, alongAccel } = this;
+    const { x: outX, y: outY, vx: outVx, vy: outVy, ax: outAx, ay: outAy, startS, alongMm } = out;
+    const outS = out.durationS;
+    const outJx = out.jx!;
+    const outJy = out.jy!;
+    const per = 1 / window;
+    // The window's two ends, 1 the later one: in which block, for how long already, and for how long still.
+    let k1 = 0;
+    let t1 = 0;
+    let left1 = durationS[0]!;
+    let k0 = count + 1;
+    let t0 = 0;
+    let left0 = window;
+    let x = px[0]!;
+    let y = py[0]!;
+    let along = pAlong[0]!;
+    let k = out.count;
+    let clock = out.clockS;
+    for (;;) {
+      const dt = left1 < left0 ? left1 : left0;
+      if (dt === Infinity) break;
+      const ax1 = pax[k1]!;
+      const ay1 = pay[k1]!;
+      const vx1 = pvx[k1]! + t1 * ax1;
+      const vy1 = pvy[k1]! + t1 * ay1;
+      const ax0 = pax[k0]!;
+      const ay0 = pay[k0]!;
+      const vx0 = pvx[k0]! + t0 * ax0;
+      const vy0 = pvy[k0]! + t0 * ay0;
+      let vx = vx1 - (ax1 * window) / 2;
+      let vy = vy1 - (ay1 * window) / 2;
+      let ax = ax1;
+      let ay = ay1;
+      // Within one block the mean is known exactly; differences of far coordinates would add up over a long one.
+      if (k1 !== k0) {
+        const x1 = px[k1]! + (t1 * (pvx[k1]! + vx1)) / 2;
+        const y1 = py[k1]! + (t1 * (pvy[k1]! + vy1)) / 2;
+        const x0 = px[k0]! + (t0 * (pvx[k0]! + vx0)) / 2;
+        const y0 = py[k0]! + (t0 * (pvy[k0]! + vy0)) / 2;
+        vx = (x1 - x0) * per;
+        vy = (y1 - y0) * per;
+        ax = (vx1 - vx0) * per;
+        ay = (vy1 - vy0) * per;
+      }
+      const jx = (ax1 - ax0) * per;
+      const jy = (ay1 - ay0) * per;
+      // The third coordinate of the motion: mm along the drawing.
+      const speed1 = alongSpeed[k1]! + t1 * alongAccel[k1]!;
+      const speed0 = alongSpeed[k0]! + t0 * alongAccel[k0]!;
+      const along1 = pAlong[k1]! + (t1 * (alongSpeed[k1]! + speed1)) / 2;
+      const along0 = pAlong[k0]! + (t0 * (alongSpeed[k0]! + speed0)) / 2;
+      if (dt > 2 * SAME_TIME) {
+        outS[k] = dt;
+        outX[k] = x;
+        outY[k] = y;
+        outVx[k] = vx;
+        outVy[k] = vy;
+        outAx[k] = ax;
+        outAy[k] = ay;
+        outJx[k] = jx;
+        outJy[k] = jy;
+        startS[k] = clock;
+        alongMm[k] = along;
+        k++;
+      }
+      clock += dt;
+      x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
+      y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
+      const alongAccelMean = (speed1 - speed0) * per;
+      const alongJerk = (alongAccel[k1]! - alongAccel[k0]!) * per;
+      along += dt * ((along1 - along0) * per + dt * (alongAccelMean / 2 + (dt * alongJerk) / 6));
+      left1 -= dt;
+      t1 += dt;
+      if (left1 <= SAME_TIME) {
+        k1++;
+        t1 = 0;
+        left1 = durationS[k1]!;
+      }
+      left0 -= dt;
+      t0 += dt;
+      if (left0 <= SAME_TIME) {
+        k0 = k0 > count ? 0 : k0 + 1;
+        t0 = 0;
+        left0 = durationS[k0]!;
+      }
     }
-    const duration = from.durationS[k]!;
-    const mm = (k + 1 < from.count ? from.alongMm[k + 1]! : this.end.alongMm) - from.alongMm[k]!;
-    const vx1 = this.vx + duration * this.ax;
-    const vy1 = this.vy + duration * this.ay;
-    const v0 = Math.sqrt(this.vx * this.vx + this.vy * this.vy);
-    const v1 = Math.sqrt(vx1 * vx1 + vy1 * vy1);
-    const perMm = v0 + v1 > 0 ? (2 * mm) / ((v0 + v1) * duration) : 0;
-    this.startAlongSpeed = this.alongSpeed = perMm * v0;
-    this.alongAccel = (perMm * (v1 - v0)) / duration;
+    out.count = k;
+    out.clockS = clock;
   }
-}
 
-/** Appends the mean over `window` seconds of the run in `from`, which ends at rest at `end`. */
-export function writeSmoothed(from: BlockColumns, end: RunEnd, window: number, out: BlockColumns): void {
-  out.reserve(2 * from.count + 2, end.segmentCount);
-  const { durationS, startS, alongMm } = out;
-  const jxOut = out.jx!;
-  const jyOut = out.jy!;
-  const lead = new Walker(from, end, 0);
-  const trail = new Walker(from, end, window);
-  let x = lead.x;
-  let y = lead.y;
-  let along = lead.along;
-  let k = out.count;
-  let clock = out.clockS;
-  for (;;) {
-    const dt = lead.left < trail.left ? lead.left : trail.left;
-    if (dt === Infinity) break;
-    // Within one block the mean is known exactly; differences of far coordinates would add up over a long one.
-    const same = lead.k === trail.k;
-    const vx = same ? lead.vx - (lead.ax * window) / 2 : (lead.x - trail.x) / window;
-    const vy = same ? lead.vy - (lead.ay * window) / 2 : (lead.y - trail.y) / window;
-    const ax = same ? lead.ax : (lead.vx - trail.vx) / window;
-    const ay = same ? lead.ay : (lead.vy - trail.vy) / window;
-    const alongSpeed = (lead.along - trail.along) / window;
-    const alongAccel = (lead.alongSpeed - trail.alongSpeed) / window;
-    const alongJerk = (lead.alongAccel - trail.alongAccel) / window;
-    const jx = (lead.ax - trail.ax) / window;
-    const jy = (lead.ay - trail.ay) / window;
-    if (dt > 2 * SAME_TIME) {
-      durationS[k] = dt;
-      out.x[k] = x;
-      out.y[k] = y;
-      out.vx[k] = vx;
-      out.vy[k] = vy;
-      out.ax[k] = ax;
-      out.ay[k] = ay;
-      jxOut[k] = jx;
-      jyOut[k] = jy;
-      startS[k] = clock;
-      alongMm[k] = along;
-      k++;
-    }
-    clock += dt;
-    x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
-    y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
-    along += dt * (alongSpeed + dt * (alongAccel / 2 + (dt * alongJerk) / 6));
-    lead.advance(dt);
-    trail.advance(dt);
+  /** Two blocks at rest behind the last one: where the run ends, for ever, and where it begins, from before it. */
+  private addRests(from: BlockColumns, end: RunEnd): void {
+    const { count } = from;
+    from.reserve(2, 0);
+    const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;
+    for (let k = count; k < count + 2; k++) vx[k] = vy[k] = ax[k] = ay[k] = 0;
+    durationS[count] = durationS[count + 1] = Infinity;
+    x[count] = end.x;
+    y[count] = end.y;
+    alongMm[count] = end.alongMm;
+    x[count + 1] = x[0]!;
+    y[count + 1] = y[0]!;
+    alongMm[count + 1] = alongMm[0]!;
   }
-  out.count = k;
-  out.clockS = clock;
+
+  /** A block's part of the drawing is passed as fast as the block is, at its start and at its end. */
+  private measureAlong({ count, durationS, vx, vy, alongMm }: BlockColumns): void {
+    if (this.alongSpeed.length < count + 2) {
+      const size = Math.max(count + 2, 2 * this.alongSpeed.length);
+      this.alongSpeed = new Float64Array(size);
+      this.alongAccel = new Float64Array(size);
+    }
+    const { alongSpeed, alongAccel } = this;
+    let v1 = 0;
+    for (let k = count + 1; k >= 0; k--) {
+      const v0 = Math.sqrt(vx[k]! * vx[k]! + vy[k]! * vy[k]!);
+      const perMm = v0 + v1 > 0 ? (2 * (alongMm[k + 1]! - alongMm[k]!)) / ((v0 + v1) * durationS[k]!) : 0;
+      alongSpeed[k] = perMm * v0;
+      alongAccel[k] = (perMm * (v1 - v0)) / durationS[k]!;
+      v1 = v0;
+    }
+  }
 }

@@ -8,7 +8,7 @@ import type { BlockColumns } from "./block-columns.js";
 import { keepFloor, type Phases } from "./floor-phases.js";
 
 /** A change of speed² below this share of it, or a cruise below this share of the piece or of its way from rest, is rounding. */
-const NEGLIGIBLE = 1e-11;
+export const NEGLIGIBLE = 1e-11;
 
 /** A straight piece: where it begins, where it leads, how far. */
 export interface Straight {
