@@ -124,7 +124,7 @@ export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
 export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
-export { motionForFirmware } from "./ebb/firmware-motion.js";
+export { firmwareLimitsMotion, motionForFirmware } from "./ebb/firmware-motion.js";
 export { plotLines } from "./ebb/plot-lines.js";
 export {
   closingCommands,

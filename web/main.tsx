@@ -6,6 +6,7 @@ import { openEvents } from "./api/events.js";
 import { App } from "./app.js";
 import { keepPage, lookForUpdate } from "./pwa/register.js";
 import { createActions } from "./state/actions.js";
+import { replanForBoard } from "./state/board-watch.js";
 import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
 import { watchJobs } from "./state/notify.js";
 import { Player } from "./preview/player.js";
@@ -85,6 +86,7 @@ openEvents("/api/v1/events", {
     void lookForUpdate();
   },
 });
+replanForBoard(store, actions.replan);
 void greet(store);
 
 const root = document.getElementById("root");

@@ -13,7 +13,8 @@ export interface WorkerInput {
 
 export type ToWorker =
   | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }
-  | { readonly type: "measure"; readonly id: number };
+  /** firmware: of the board that it is for; null: not known. */
+  | { readonly type: "measure"; readonly id: number; readonly firmware: string | null };
 
 export type FromWorker =
   | { readonly type: "ready"; readonly strokes: StrokeSet; readonly warnings: readonly string[] }

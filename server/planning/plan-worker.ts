@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
 import {
+  motionForFirmware,
   PlotwrightError,
   pointCount,
   strokeCount,
@@ -35,17 +36,21 @@ function answer(prepared: Prepared, warnings: readonly string[], message: ToWork
       const plot = planAndCompile(prepared, message.request, input.machine);
       post({ type: "planned", id: message.id, plot }, buffersOf(plot));
     } else {
-      post({ type: "measured", id: message.id, ...measure(prepared, warnings) });
+      post({ type: "measured", id: message.id, ...measure(prepared, warnings, message.firmware) });
     }
   } catch (error) {
     post({ type: "failed", id: message.id, ...fault(error) });
   }
 }
 
-/** Compiled too, though only figures are wanted: what the board can't do shows here, not in mid-plot. */
+/**
+ * Compiled too, though only figures are wanted: what the board can't do shows here, not in mid-plot. The board's own
+ * firmware says how it moves, which makes the time; its commands are not needed for that.
+ */
 function measure(
   prepared: Prepared,
   warnings: readonly string[],
+  firmware: string | null,
 ): { stats: JobStats; warnings: readonly string[] } {
   const { trajectory, commands } = planAndCompile(
     prepared,
@@ -54,7 +59,7 @@ function measure(
       until: null,
       startXMm: 0,
       startYMm: 0,
-      settings: input.settings,
+      settings: { ...input.settings, motion: motionForFirmware(input.settings.motion, firmware) },
       firmware: OLDEST_PLANNED_FIRMWARE,
       board: BOARD_AT_HOME,
     },

@@ -59,9 +59,9 @@ export class WorkerPlanner implements PlotPlanner {
     return answer.plot;
   }
 
-  /** Plans the whole from home and keeps only its figures. */
-  async measure(): Promise<Measured> {
-    const answer = await this.#thread.ask((id) => ({ type: "measure", id }));
+  /** Plans the whole from home, for a board of this firmware if it is known, and keeps only its figures. */
+  async measure(firmware: string | null): Promise<Measured> {
+    const answer = await this.#thread.ask((id) => ({ type: "measure", id, firmware }));
     if (answer.type !== "measured") throw new Error(`The planner answered ${answer.type} to measure`);
     return { stats: answer.stats, warnings: answer.warnings };
   }
@@ -72,10 +72,14 @@ export class WorkerPlanner implements PlotPlanner {
 }
 
 /** What a job would be: its figures and warnings. Throws what import, prepare and plan throw. */
-export async function measureDrawing(input: PlannerInput, signal?: AbortSignal): Promise<Measured> {
+export async function measureDrawing(
+  input: PlannerInput,
+  firmware: string | null,
+  signal?: AbortSignal,
+): Promise<Measured> {
   const planner = await WorkerPlanner.open(input, signal);
   try {
-    return await planner.measure();
+    return await planner.measure(firmware);
   } finally {
     await planner.close();
   }

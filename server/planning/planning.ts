@@ -16,7 +16,8 @@ export function createPlanning(files: DrawingFiles): Planning {
     machine: machineOf(settings),
   });
   return {
-    measure: (drawing, settings, signal) => turn(() => measureDrawing(input(drawing, settings), signal)),
+    measure: (drawing, settings, firmware, signal) =>
+      turn(() => measureDrawing(input(drawing, settings), firmware, signal)),
     open: (drawing, settings, signal) => WorkerPlanner.open(input(drawing, settings), signal),
   };
 }

@@ -1,5 +1,5 @@
 /** The queue: what may be done with jobs, whichever plotter they are for. Every change is on disk before it is announced. */
-import { PlotwrightError } from "../../src/index.js";
+import { firmwareLimitsMotion, PlotwrightError } from "../../src/index.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
@@ -81,7 +81,8 @@ export class JobQueue {
   async #add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
     const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, signal);
+    const firmware = this.#firmwareOf(plotterId);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, signal);
     // It may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
     return this.#book.insert(
@@ -95,14 +96,10 @@ export class JobQueue {
   async patch(id: string, patch: JobPatch): Promise<Job> {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#book.mustBeQueued(id, "Its plotter");
-    let planned: Partial<Job> = {};
-    if (settings !== undefined) {
-      this.#book.mustBeQueued(id, "Its settings");
-      const drawing = this.#parts.store.drawingOf(id);
-      const { stats, warnings } = await this.#parts.planning.measure(drawing, settings);
-      this.#book.mustBeQueued(id, "Its settings");
-      planned = { settings, stats, warnings: [...warnings], remainingS: stats.durationS };
-    }
+    if (settings !== undefined) this.#book.mustBeQueued(id, "Its settings");
+    if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
+    const planned = await this.#measuredAnew(id, patch);
+    // It may have been removed meanwhile.
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
     const job = {
       ...this.get(id),
@@ -111,6 +108,25 @@ export class JobQueue {
       ...(plotterId === undefined ? {} : { plotterId }),
     };
     return this.#book.save(job.state === "queued" ? { ...job, expectedS: this.#expectedS(job) } : job);
+  }
+
+  /** What a change of settings or of the board changes in a job's figures. */
+  async #measuredAnew(id: string, { settings, plotterId }: JobPatch): Promise<Partial<Job>> {
+    const job = this.get(id);
+    const firmware = this.#firmwareOf(plotterId ?? job.plotterId);
+    const movesOtherwise =
+      firmwareLimitsMotion(firmware) !== firmwareLimitsMotion(this.#firmwareOf(job.plotterId));
+    if (settings === undefined && !movesOtherwise) return {};
+    const wanted = settings ?? job.settings;
+    const drawing = this.#parts.store.drawingOf(id);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware);
+    this.#book.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
+    return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
+  }
+
+  /** Null while its board is not known. */
+  #firmwareOf(plotterId: string): string | null {
+    return this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null;
   }
 
   move(id: string, beforeId: string | null): void {

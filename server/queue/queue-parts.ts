@@ -6,9 +6,11 @@ import type { PlotterPort } from "./plotter-port.js";
 import type { Store, WatchedFile } from "./store.js";
 
 export interface Planning {
+  /** firmware: of the board that is to plot it; null: not known. */
   measure(
     drawing: string,
     settings: PlotSettings,
+    firmware: string | null,
     signal?: AbortSignal,
   ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
   open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;

@@ -8,14 +8,19 @@ import { firmwareFeatures } from "./firmware.js";
  */
 const SLICED_ACCEL_MM_PER_S2 = 500;
 
+/** True for firmware that `motionForFirmware` slows; null: not known. Throws `bad-setting` for what is no version. */
+export const firmwareLimitsMotion = (firmware: string | null): boolean =>
+  firmware !== null && firmwareFeatures(firmware).motion === "slices";
+
 /**
  * The settings as this firmware can follow them smoothly: before 2.5.3, which knows constant speeds only, no
- * acceleration is over 500 mm/s². Doing it twice changes nothing; newer firmware gets the settings as they are.
+ * acceleration is over 500 mm/s². Doing it twice changes nothing; newer firmware, and one that is not known (null), gets the
+ * settings as they are.
  *
  * Throws `bad-setting` for what is no version.
  */
-export function motionForFirmware(motion: MotionSettings, firmware: string): MotionSettings {
-  if (firmwareFeatures(firmware).motion !== "slices") return motion;
+export function motionForFirmware(motion: MotionSettings, firmware: string | null): MotionSettings {
+  if (!firmwareLimitsMotion(firmware)) return motion;
   const { draw, travel, layers } = motion;
   return {
     ...motion,

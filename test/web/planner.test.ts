@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { Planner, type WorkerLike } from "../../web/worker/planner.js";
+import { Planner, type PlannerDrawing, type PlannerTask, type WorkerLike } from "../../web/worker/planner.js";
 import type {
   PlanFault,
   Planned,
@@ -10,6 +10,9 @@ import type {
 } from "../../web/worker/protocol.js";
 
 const settings = DEFAULT_PLOT_SETTINGS;
+const taskOf = (drawing: PlannerDrawing, firmware: string | null = null): PlannerTask => ({
+  ...{ drawing, settings, firmware },
+});
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {
@@ -71,16 +74,23 @@ const setUp = () => {
 describe("the planner", () => {
   it("sends a drawing's text once", () => {
     const { planner, worker } = setUp();
-    planner.request({ key: "a", text: "<svg/>" }, settings);
-    planner.request({ key: "a", text: "<svg/>" }, settings);
-    planner.request({ key: "b", text: "<svg></svg>" }, settings);
+    planner.request(taskOf({ key: "a", text: "<svg/>" }));
+    planner.request(taskOf({ key: "a", text: "<svg/>" }));
+    planner.request(taskOf({ key: "b", text: "<svg></svg>" }));
     expect(worker().asked.map(({ text }) => text)).toEqual(["<svg/>", null, "<svg></svg>"]);
+  });
+
+  it("says for which board", () => {
+    const { planner, worker } = setUp();
+    planner.request(taskOf({ key: "a", text: "a" }, "2.4.4"));
+    planner.request(taskOf({ key: "a", text: "a" }));
+    expect(worker().asked.map(({ firmware }) => firmware)).toEqual(["2.4.4", null]);
   });
 
   it("hands on the newest plan only", () => {
     const { planner, worker, heard } = setUp();
-    planner.request({ key: "a", text: "" }, settings);
-    planner.request({ key: "b", text: "" }, settings);
+    planner.request(taskOf({ key: "a", text: "" }));
+    planner.request(taskOf({ key: "b", text: "" }));
     const [first, second] = worker().asked;
     worker().reply({ type: "planned", id: first!.id, planned: planned("a") });
     worker().reply({ type: "planned", id: second!.id, planned: planned("b") });
@@ -89,8 +99,8 @@ describe("the planner", () => {
 
   it("ends a worker that stays with what was overtaken, and asks a new one", () => {
     const { planner, workers, runTimers, asked, worker, heard } = setUp();
-    planner.request({ key: "huge", text: "huge" }, settings);
-    planner.request({ key: "small", text: "small" }, settings);
+    planner.request(taskOf({ key: "huge", text: "huge" }));
+    planner.request(taskOf({ key: "small", text: "small" }));
     runTimers();
     expect(workers).toHaveLength(2);
     expect(workers[0]!.isEnded).toBe(true);
@@ -101,8 +111,8 @@ describe("the planner", () => {
 
   it("lets a worker that has turned to the newest request finish", () => {
     const { planner, workers, runTimers, asked, worker } = setUp();
-    planner.request({ key: "a", text: "a" }, settings);
-    planner.request({ key: "b", text: "b" }, settings);
+    planner.request(taskOf({ key: "a", text: "a" }));
+    planner.request(taskOf({ key: "b", text: "b" }));
     worker().reply({ type: "started", id: asked().id });
     runTimers();
     expect(workers).toHaveLength(1);
@@ -110,7 +120,7 @@ describe("the planner", () => {
 
   it("asks for the prepared drawing as text, and hands it on", () => {
     const { planner, worker, heard } = setUp();
-    planner.request({ key: "a", text: "a" }, settings);
+    planner.request(taskOf({ key: "a", text: "a" }));
     planner.export("svg", "3.0.3");
     expect(worker().exports).toEqual(["svg"]);
     worker().reply({ type: "exported", format: "svg", text: "<svg/>" });
@@ -119,10 +129,10 @@ describe("the planner", () => {
 
   it("says that the worker died, and starts another for the next request", () => {
     const { planner, workers, worker, heard } = setUp();
-    planner.request({ key: "a", text: "a" }, settings);
+    planner.request(taskOf({ key: "a", text: "a" }));
     worker().onerror?.({ message: "out of memory" } as ErrorEvent);
     expect(heard).toEqual(["fault out of memory"]);
-    planner.request({ key: "a", text: "a" }, settings);
+    planner.request(taskOf({ key: "a", text: "a" }));
     expect(workers).toHaveLength(2);
     expect(worker().asked[0]!.text).toBe("a");
   });

@@ -17,7 +17,7 @@ import type { Corner } from "./alignment-mark.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
-import { activeJob, currentPlotter, type Notice, type PageStore } from "./store.js";
+import { activeJob, boardFirmware, currentPlotter, type Notice, type PageStore } from "./store.js";
 
 export type Actions = ReturnType<typeof createActions>;
 
@@ -85,10 +85,11 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const replan = (): void => {
-    const { drawing, settings } = store.getState();
+    const state = store.getState();
+    const { drawing, settings } = state;
     if (!drawing) return;
     store.setState({ isPlanning: true });
-    planner.request(drawing, settings);
+    planner.request({ drawing, settings, firmware: boardFirmware(state) });
   };
 
   const setSettings = (settings: PlotSettings): void => {

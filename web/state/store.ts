@@ -145,6 +145,9 @@ export type PageStore = ReturnType<typeof createPageStore>;
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
+/** Of the current plotter's board; null: not known. */
+export const boardFirmware = (state: PageState): string | null => currentPlotter(state)?.firmware ?? null;
+
 /** The current plotter would do something now: it is there, free, and heard of. */
 export const isReady = (state: PageState): boolean =>
   state.link === "connected" && currentPlotter(state)?.connection === "idle";

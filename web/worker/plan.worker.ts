@@ -7,6 +7,7 @@
  */
 import {
   findMachine,
+  motionForFirmware,
   penStopsOf,
   placeDrawing,
   plan,
@@ -71,7 +72,7 @@ async function run(): Promise<void> {
 
 /** Null where a newer request has come in between. */
 async function answer(request: PlanRequest): Promise<WorkerReply | null> {
-  const { id, drawingKey, settings } = request;
+  const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
   try {
     const t0 = performance.now();
@@ -83,7 +84,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t2 = performance.now();
     if (await isSuperseded()) return null;
     const { motion, pen } = withLayerCodes(settings, ready.strokes.layers);
-    const trajectory = plan(ready.strokes, motion, pen, {
+    const trajectory = plan(ready.strokes, motionForFirmware(motion, firmware), pen, {
       machine: findMachine(settings) ?? undefined,
     });
     const t3 = performance.now();

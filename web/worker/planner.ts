@@ -45,6 +45,13 @@ export interface PlannerDrawing {
   readonly text: DrawingText;
 }
 
+export interface PlannerTask {
+  readonly drawing: PlannerDrawing;
+  readonly settings: PlanSettings;
+  /** Of the board that is to plot it; null: not known. */
+  readonly firmware: string | null;
+}
+
 export class Planner {
   readonly #start: () => WorkerLike;
   readonly #timer: PlannerTimer;
@@ -53,7 +60,7 @@ export class Planner {
   /** The drawing whose text the running worker has. */
   #sentKey: string | null = null;
   #newestId = 0;
-  #latest: { drawing: PlannerDrawing; settings: PlanSettings } | null = null;
+  #latest: PlannerTask | null = null;
   #isBusy = false;
   #stopWaiting: (() => void) | null = null;
 
@@ -64,11 +71,11 @@ export class Planner {
   }
 
   /** Asks for a plan; whatever was asked before and has not come yet will not come. */
-  request(drawing: PlannerDrawing, settings: PlanSettings): void {
-    this.#latest = { drawing, settings };
+  request(task: PlannerTask): void {
+    this.#latest = task;
     if (this.#isBusy) this.#stopWaiting ??= this.#timer.after(PATIENCE_MS, () => this.#restart());
     this.#newestId++;
-    this.#send(drawing, settings);
+    this.#send(task);
   }
 
   /** Asks for the prepared drawing as text; `onExported` brings it. */
@@ -85,12 +92,13 @@ export class Planner {
     this.#isBusy = false;
   }
 
-  #send(drawing: PlannerDrawing, settings: PlanSettings): void {
+  #send({ drawing, settings, firmware }: PlannerTask): void {
     const worker = (this.#worker ??= this.#open());
     const text = this.#sentKey === drawing.key ? null : drawing.text;
     this.#sentKey = drawing.key;
     this.#isBusy = true;
-    worker.postMessage({ type: "plan", id: this.#newestId, drawingKey: drawing.key, text, settings });
+    const id = this.#newestId;
+    worker.postMessage({ type: "plan", id, drawingKey: drawing.key, text, settings, firmware });
   }
 
   #open(): WorkerLike {
@@ -125,7 +133,7 @@ export class Planner {
 
   #restart(): void {
     this.close();
-    if (this.#latest) this.#send(this.#latest.drawing, this.#latest.settings);
+    if (this.#latest) this.#send(this.#latest);
   }
 }
 

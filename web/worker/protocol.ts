@@ -27,6 +27,8 @@ export interface PlanRequest {
   readonly drawingKey: string;
   readonly text: DrawingText | null;
   readonly settings: PlanSettings;
+  /** Of the board that is to plot it; null: not known. */
+  readonly firmware: string | null;
 }
 
 /** The prepared drawing as text, for saving: of the plan that was answered last. */

@@ -93,6 +93,7 @@ export class LedPlotter implements ManagedPlotter {
   readonly id: string;
   readonly runs: LedRun[] = [];
   connection: Plotter["connection"] = "idle";
+  firmware: string | null = "2.8.1";
   readonly asked: string[] = [];
   #onRun: (() => void)[] = [];
 
@@ -112,7 +113,7 @@ export class LedPlotter implements ManagedPlotter {
       kind: "virtual",
       device: null,
       connection: this.connection,
-      firmware: "2.8.1",
+      firmware: this.firmware,
       message: null,
       penUp: true,
       activity: "none",

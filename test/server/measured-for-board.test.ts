@@ -1,0 +1,67 @@
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { createPlanning } from "../../server/planning/planning.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { JobQueue } from "../../server/queue/job-queue.js";
+import { Store } from "../../server/queue/store.js";
+import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
+import { LedPlotter } from "./support/fakes.js";
+
+/** Ways over the page on which travel at 1 000 mm/s² saves time. */
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200">
+  <path fill="none" stroke="black" d="M20 20h30 M150 150h30 M20 170h30 M150 30h30"/></svg>`;
+
+let dir: string;
+let store: Store;
+let files: DrawingFiles;
+let queue: JobQueue;
+const recent = new LedPlotter("recent");
+const old = new LedPlotter("old");
+old.firmware = "2.4.4";
+const unknown = new LedPlotter("unknown");
+unknown.firmware = null;
+
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-measured-"));
+  prepareDataDir(dir);
+  store = Store.open(dir);
+  files = new DrawingFiles(dir, 1_000_000);
+  queue = new JobQueue({
+    ...{ store, files, announce: () => undefined, nowIso: () => new Date().toISOString() },
+    planning: createPlanning(files),
+    plotters: new Map([recent, old, unknown].map((plotter) => [plotter.id, plotter])),
+  });
+});
+afterEach(async () => {
+  await queue.close();
+  store.close();
+  rmSync(dir, { recursive: true, force: true });
+});
+
+async function add(plotterId: string): Promise<Job> {
+  const drawing = await files.add([Buffer.from(SVG)]);
+  return queue.add({ name: plotterId, settings: DEFAULT_PLOT_SETTINGS, drawing, plotterId });
+}
+const durationS = (job: Job): number => job.stats?.durationS ?? NaN;
+
+describe("the time told of a job", () => {
+  it("is that of its plotter's board: one before 2.5.3 speeds up more gently", async () => {
+    const [forRecent, forOld, forUnknown] = [await add("recent"), await add("old"), await add("unknown")];
+    expect(durationS(forOld)).toBeGreaterThan(1.01 * durationS(forRecent));
+    expect(forOld.expectedS).toBe(durationS(forOld));
+    expect(durationS(forUnknown)).toBe(durationS(forRecent));
+  });
+
+  it("is told anew when the job is moved to a board that moves otherwise", async () => {
+    const [forRecent, forOld] = [await add("recent"), await add("old")];
+    const moved = await queue.patch(forRecent.id, { plotterId: "old" });
+    expect(durationS(moved)).toBe(durationS(forOld));
+    expect(moved).toMatchObject({ plotterId: "old", settings: forRecent.settings });
+    expect(moved.expectedS).toBe(durationS(forOld));
+    expect(moved.remainingS).toBe(durationS(forOld));
+    expect(durationS(await queue.patch(forRecent.id, { plotterId: "unknown" }))).toBe(durationS(forRecent));
+  });
+});
