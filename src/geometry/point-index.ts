@@ -1,18 +1,15 @@
 /**
- * A k-d tree over points, for nearest-neighbour questions while points are taken away one by one.
+ * A k-d tree over points, for questions about the nearest few.
  *
  * Method: ids in one array, the median of each range at its middle, ranges split in x and y by turns
  * (J. Bentley, CACM 18(9), 1975; the array form after V. Agafonkin's kdbush). Ranges are nodes, numbered
- * as they are split; each counts what is left in it, so that emptied parts are passed over at once.
+ * as they are split.
  *
  *   ids   [ … left half … | m | … right half … ]        node n
  *           node n + 1          node rights[n]
  *
- * A question about a point of the index starts in that point's own range and goes up from there, into the other
- * halves only where something nearer may be: mostly a few ranges, where the way from the top is log n of them.
- *
- * Built in n log n, asked and removed from in log n on average, whether points are spread evenly,
- * stand in clusters or all at one place: no cell size to get wrong.
+ * Built in n log n, asked in log n on average, whether points are spread evenly, stand in clusters or all at one
+ * place: no cell size to get wrong.
  */
 const LEAF = 8;
 
@@ -22,28 +19,16 @@ export class PointIndex {
   /** The coordinates in the order of `ids`: side by side where they are looked at together. */
   private readonly xs: Float64Array;
   private readonly ys: Float64Array;
-  /** Where each point stands in `ids`. */
-  private readonly places: Uint32Array;
-  private readonly gone: Uint8Array;
-  /** By place in `ids`: the range that the point is a leaf's of, or the middle of. */
-  private readonly nodes: Uint32Array;
-  /** By node: first and last place in it, the node that it is a half of (−1: none), its right half, how it is split. */
+  /** By node: first and last place in it, its right half, how it is split. */
   private readonly starts: Uint32Array;
   private readonly ends: Uint32Array;
-  private readonly parents: Int32Array;
   private readonly rights: Uint32Array;
   private readonly axes: Uint8Array;
-  /** By node: points left in a leaf; of a split range those of its two halves and middle that are not empty. */
-  private readonly live: Uint8Array;
   private nodeCount = 0;
-  private remaining: number;
 
   // The question under way; fields, because a closure for each would cost more than the search.
   private qx = 0;
   private qy = 0;
-  /** Where it stands in `ids`. */
-  private best = -1;
-  private best2 = Infinity;
 
   /**
    * `xy` interleaved, mm; point i is xy[2i], xy[2i+1]. Kept, not copied.
@@ -61,20 +46,13 @@ export class PointIndex {
       this.xs[k] = xy[2 * id];
       this.ys[k] = xy[2 * id + 1];
     }
-    this.places = new Uint32Array(xy.length / 2);
-    this.gone = new Uint8Array(this.ids.length);
-    this.remaining = this.ids.length;
-    this.nodes = new Uint32Array(this.ids.length);
     // Leaves have at least LEAF / 2 points, and there is one split range fewer than leaves.
     const most = Math.ceil((4 * this.ids.length) / LEAF) + 1;
     this.starts = new Uint32Array(most);
     this.ends = new Uint32Array(most);
-    this.parents = new Int32Array(most);
     this.rights = new Uint32Array(most);
     this.axes = new Uint8Array(most);
-    this.live = new Uint8Array(most);
-    this.build(0, this.ids.length - 1, 0, -1);
-    for (let k = 0; k < this.ids.length; k++) this.places[this.ids[k]] = k;
+    this.build(0, this.ids.length - 1, 0);
   }
 
   /** All points, neighbours in the tree side by side: any stretch of it lies in a few compact boxes. */
@@ -82,53 +60,8 @@ export class PointIndex {
     return this.ids;
   }
 
-  /** Points not removed yet. */
-  get size(): number {
-    return this.remaining;
-  }
-
-  remove(id: number): void {
-    const { live } = this;
-    const place = this.places[id];
-    this.gone[place] = 1;
-    this.remaining--;
-    for (let node = this.nodes[place]; node >= 0; node = this.parents[node]) if (--live[node] > 0) return;
-  }
-
-  /** The nearest point left, or −1. */
-  nearest(x: number, y: number): number {
-    this.qx = x;
-    this.qy = y;
-    this.best = -1;
-    this.best2 = Infinity;
-    this.search(0);
-    return this.best < 0 ? -1 : this.ids[this.best];
-  }
-
-  /** The nearest point left to point `id`, itself if that is left; −1 for none. */
-  nearestTo(id: number): number {
-    const { xs, ys, starts, ends, parents } = this;
-    const place = this.places[id];
-    const x = (this.qx = xs[place]);
-    const y = (this.qy = ys[place]);
-    this.best = -1;
-    this.best2 = Infinity;
-    let node = this.nodes[place];
-    this.search(node);
-    for (let parent = parents[node]; parent >= 0; parent = parents[node]) {
-      const middle = (starts[parent] + ends[parent]) >> 1;
-      const gap = this.axes[parent] === 0 ? x - xs[middle] : y - ys[middle];
-      if (gap * gap < this.best2) {
-        if (this.gone[middle] === 0) this.offer(middle);
-        this.search(node === parent + 1 ? this.rights[parent] : parent + 1);
-      }
-      node = parent;
-    }
-    return this.best < 0 ? -1 : this.ids[this.best];
-  }
-
   /**
-   * Writes the `count` points nearest to point `id` that are left, nearest first, into `out` from `at`,
+   * Writes the `count` points nearest to point `id`, nearest first, into `out` from `at`,
    * without the point itself and `except`. Answers how many there were.
    */
   nearestMany(id: number, except: number, count: number, out: Int32Array, at: number): number {
@@ -139,26 +72,19 @@ export class PointIndex {
     return list.size;
   }
 
-  /** Answers the number of the range [from, to], a half of `parent`. */
-  private build(from: number, to: number, axis: 0 | 1, parent: number): number {
+  /** Answers the number of the range [from, to]. */
+  private build(from: number, to: number, axis: 0 | 1): number {
     const node = this.nodeCount++;
     this.starts[node] = from;
     this.ends[node] = to;
-    this.parents[node] = parent;
     this.axes[node] = axis;
-    if (to - from < LEAF) {
-      this.nodes.fill(node, from, to + 1);
-      this.live[node] = to - from + 1;
-      return node;
-    }
+    if (to - from < LEAF) return node;
     const middle = (from + to) >> 1;
     if (axis === 0) this.select(this.xs, this.ys, middle, from, to);
     else this.select(this.ys, this.xs, middle, from, to);
-    this.nodes[middle] = node;
-    this.live[node] = 3;
     const other = axis === 0 ? 1 : 0;
-    this.build(from, middle - 1, other, node);
-    this.rights[node] = this.build(middle + 1, to, other, node);
+    this.build(from, middle - 1, other);
+    this.rights[node] = this.build(middle + 1, to, other);
     return node;
   }
 
@@ -190,38 +116,6 @@ export class PointIndex {
     }
   }
 
-  private search(node: number): void {
-    if (this.live[node] === 0) return;
-    const { xs, ys, qx, qy } = this;
-    const from = this.starts[node];
-    const to = this.ends[node];
-    if (to - from < LEAF) {
-      const { gone } = this;
-      for (let k = from; k <= to; k++) {
-        const dx = xs[k] - qx;
-        const dy = ys[k] - qy;
-        const d2 = dx * dx + dy * dy;
-        if (d2 >= this.best2 || gone[k] === 1) continue;
-        this.best2 = d2;
-        this.best = k;
-      }
-      return;
-    }
-    const middle = (from + to) >> 1;
-    if (this.gone[middle] === 0) this.offer(middle);
-    const gap = this.axes[node] === 0 ? qx - xs[middle] : qy - ys[middle];
-    const right = this.rights[node];
-    this.search(gap <= 0 ? node + 1 : right);
-    if (gap * gap < this.best2) this.search(gap <= 0 ? right : node + 1);
-  }
-
-  private offer(place: number): void {
-    const d2 = this.distance2(place);
-    if (d2 >= this.best2) return;
-    this.best2 = d2;
-    this.best = place;
-  }
-
   private distance2(place: number): number {
     const dx = this.xs[place] - this.qx;
     const dy = this.ys[place] - this.qy;
@@ -229,15 +123,14 @@ export class PointIndex {
   }
 
   private searchMany(node: number, list: NearestList): void {
-    if (this.live[node] === 0) return;
     const from = this.starts[node];
     const to = this.ends[node];
     if (to - from < LEAF) {
-      for (let k = from; k <= to; k++) if (this.gone[k] === 0) list.offer(this.ids[k], this.distance2(k));
+      for (let k = from; k <= to; k++) list.offer(this.ids[k], this.distance2(k));
       return;
     }
     const middle = (from + to) >> 1;
-    if (this.gone[middle] === 0) list.offer(this.ids[middle], this.distance2(middle));
+    list.offer(this.ids[middle], this.distance2(middle));
     const gap = this.axes[node] === 0 ? this.qx - this.xs[middle] : this.qy - this.ys[middle];
     const right = this.rights[node];
     this.searchMany(gap <= 0 ? node + 1 : right, list);

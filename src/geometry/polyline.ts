@@ -19,19 +19,6 @@ export interface Lines {
 /** Nearer than this two points are one: far below any machine's step, far above rounding. */
 export const SAME_POINT = 1e-6;
 
-/** Whether a point of the lines [from, to) repeats the one before it, so that a `LineBuilder` leaves it out. */
-export function repeatsPoints({ xy, offsets }: Lines, from: number, to: number): boolean {
-  for (let i = from; i < to; i++) {
-    const end = 2 * offsets[i + 1];
-    for (let at = 2 * offsets[i] + 2; at < end; at += 2) {
-      const dx = xy[at] - xy[at - 2];
-      const dy = xy[at + 1] - xy[at - 1];
-      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return true;
-    }
-  }
-  return false;
-}
-
 export const lineCount = (lines: Lines): number => lines.tag.length;
 
 /** Collects lines point by point, leaving out points that repeat the one before. */
@@ -127,43 +114,79 @@ export class LineBuilder {
 
   /** Adds lines [from, to), each with its own tag. */
   copyRange(lines: Lines, from: number, to: number): void {
-    if (this.points > this.first || repeatsPoints(lines, from, to)) {
-      for (let i = from; i < to; i++) this.copy(lines, i, lines.tag[i]);
-      return;
+    for (let i = from; i < to; i++) {
+      i = this.copyWholes(lines, i, to);
+      if (i < to) this.copy(lines, i, lines.tag[i]);
     }
-    const { offsets } = lines;
-    const begin = offsets[from];
-    this.reserve(offsets[to] - begin);
+  }
+
+  /** Of lines [from, to) those before the first of which a point would be left out; answers which that is. */
+  private copyWholes({ xy, offsets, tag }: Lines, from: number, to: number): number {
+    if (this.points > this.first) return from;
+    this.reserve(offsets[to] - offsets[from]);
     while (this.lines + to - from + 1 > this.tags.length) this.growLines();
-    this.xy.set(lines.xy.subarray(2 * begin, 2 * offsets[to]), 2 * this.points);
-    this.tags.set(lines.tag.subarray(from, to), this.lines);
-    const shift = this.points - begin;
-    for (let i = from; i < to; i++) this.offsets[++this.lines] = offsets[i + 1] + shift;
-    this.points = this.first = offsets[to] + shift;
+    const { xy: out, offsets: outOffsets, tags } = this;
+    let { points, lines } = this;
+    let i = from;
+    for (; i < to; i++) {
+      const end = 2 * offsets[i + 1];
+      let at = 2 * points;
+      let x = Infinity;
+      let y = Infinity;
+      let k = 2 * offsets[i];
+      for (; k < end; k += 2) {
+        const dx = xy[k] - x;
+        const dy = xy[k + 1] - y;
+        if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) break;
+        x = out[at++] = xy[k];
+        y = out[at++] = xy[k + 1];
+      }
+      if (k < end) break;
+      points = at / 2;
+      tags[lines] = tag[i];
+      outOffsets[++lines] = points;
+    }
+    this.points = this.first = points;
+    this.lines = lines;
+    return i;
   }
 
   /**
-   * Adds the mapped points coords[from], coords[from + 1] … before `to` as one line, without a call for each of them.
-   * False, and nothing done, where one would be left out.
+   * Adds polylines as lines of their own, without a call for each point: polyline i, from `from` up to `to`, has the
+   * numbers [offsets[i], offsets[i + 1]) of `coords`, to be mapped, and the tag i. Answers the first of which a point
+   * would be left out, which is not added, nor are those after it; `to` where there is none.
    */
-  addMapped(coords: Float64Array, from: number, to: number, map: Affine, tag: number): boolean {
-    if (this.points > this.first) return false;
-    this.reserve((to - from) / 2);
+  addMapped(coords: Float64Array, offsets: Uint32Array, from: number, to: number, map: Affine): number {
+    if (this.points > this.first) return from;
+    this.reserve((offsets[to] - offsets[from]) / 2);
+    while (this.lines + to - from + 1 > this.tags.length) this.growLines();
     const { a, b, c, d, e, f } = map;
-    const out = this.xy;
-    let at = 2 * this.points;
-    let x = Infinity;
-    let y = Infinity;
-    for (let k = from; k < to; k += 2) {
-      const dx = a * coords[k] + c * coords[k + 1] + e - x;
-      const dy = b * coords[k] + d * coords[k + 1] + f - y;
-      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return false;
-      x = out[at++] = a * coords[k] + c * coords[k + 1] + e;
-      y = out[at++] = b * coords[k] + d * coords[k + 1] + f;
+    const { xy: out, offsets: outOffsets, tags } = this;
+    let { points, lines } = this;
+    let i = from;
+    for (; i < to; i++) {
+      const end = offsets[i + 1];
+      let at = 2 * points;
+      let x = Infinity;
+      let y = Infinity;
+      let k = offsets[i];
+      for (; k < end; k += 2) {
+        const px = a * coords[k] + c * coords[k + 1] + e;
+        const py = b * coords[k] + d * coords[k + 1] + f;
+        const dx = px - x;
+        const dy = py - y;
+        if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) break;
+        x = out[at++] = px;
+        y = out[at++] = py;
+      }
+      if (k < end) break;
+      points = at / 2;
+      tags[lines] = i;
+      outOffsets[++lines] = points;
     }
-    this.points = at / 2;
-    this.end(tag);
-    return true;
+    this.points = this.first = points;
+    this.lines = lines;
+    return i;
   }
 
   private reserve(points: number): void {

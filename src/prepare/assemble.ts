@@ -18,9 +18,10 @@ export interface PreparedLayer extends StrokeLayer {
 /** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
   const layer = new Uint32Array(lines.tag.length);
-  if (table.layers.length === 1) return { ...lines, tag: layer };
+  // Written out, since what is spread is an object of another kind to V8: all that reads lines would be compiled anew.
+  const tagged = { xy: lines.xy, offsets: lines.offsets, tag: layer };
+  if (table.layers.length === 1) return tagged;
   for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
-  const tagged = { ...lines, tag: layer };
   if (isSorted(layer)) return tagged;
   const next = new Uint32Array(table.layers.length + 1);
   for (const k of layer) next[k + 1]++;

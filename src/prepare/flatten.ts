@@ -31,25 +31,37 @@ export function flattenShapes(
   let shape = 0;
   const tagOf = (): number => shape;
   const range = { verbs: paths.verbs, verbFrom: 0, verbTo: 0, coords: paths.coords, coordFrom: 0 };
-  for (; shape < paths.count; shape++) {
-    if ((shape & 1023) === 0) stopIfCancelled(work);
-    if (wanted[shape] === 0) continue;
+  for (let end = 0; shape < paths.count; shape++) {
+    stopIfCancelled(work);
+    if (shape >= end) end = polylinesEnd(paths, wanted, shape);
+    shape = builder.addMapped(paths.coords, paths.coordOffsets, shape, end, map);
+    if (shape === paths.count || wanted[shape] === 0) continue;
     range.verbFrom = paths.verbOffsets[shape];
     range.verbTo = paths.verbOffsets[shape + 1];
     range.coordFrom = paths.coordOffsets[shape];
-    const coordTo = paths.coordOffsets[shape + 1];
-    const isLine = paths.stroke[shape] >= 0 && isPolyline(range);
-    if (isLine && builder.addMapped(paths.coords, range.coordFrom, coordTo, map, shape)) continue;
     flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, tagOf);
   }
   return builder.finish();
 }
 
-/** One subpath of straight pieces that is not closed. */
-function isPolyline({ verbs, verbFrom, verbTo }: VerbRange): boolean {
-  if (verbTo - verbFrom < 2) return false;
-  for (let v = verbFrom + 1; v < verbTo; v++) if (verbs[v] !== VERB_LINE) return false;
-  return true;
+/** Shapes taken at once. */
+const MOST_AT_ONCE = 1 << 16;
+
+/** The first shape from `shape` on that is not wanted, or not a stroke of straight pieces only and not closed. */
+function polylinesEnd(
+  { count, verbs, verbOffsets, stroke }: DrawingPaths,
+  wanted: Uint8Array,
+  shape: number,
+): number {
+  const most = Math.min(count, shape + MOST_AT_ONCE);
+  for (; shape < most && wanted[shape] === 1 && stroke[shape] >= 0; shape++) {
+    const end = verbOffsets[shape + 1];
+    let v = verbOffsets[shape] + 1;
+    if (v >= end) break;
+    while (v < end && verbs[v] === VERB_LINE) v++;
+    if (v < end) break;
+  }
+  return shape;
 }
 
 /** Adds a line for each subpath; `tagOf` is given the number of the subpath, counted by VERB_MOVE. */

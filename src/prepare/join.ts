@@ -12,14 +12,7 @@
  * Nothing is moved: joining adds the gap, at most `radius`, as a straight piece.
  * Dots and closed lines stay as they are.
  */
-import {
-  LineBuilder,
-  SAME_POINT,
-  distance,
-  isClosedLine,
-  lineLength,
-  type Lines,
-} from "../geometry/polyline.js";
+import { LineBuilder, SAME_POINT, distance, lineLength, type Lines } from "../geometry/polyline.js";
 import { tagRanges } from "./tour.js";
 
 /** More candidates than this at one place are not compared: it keeps a star of 100 000 rays linear. */
@@ -38,8 +31,8 @@ export function joinLines(lines: Lines, radius: number): Lines {
 }
 
 function joinRange(lines: Lines, first: number, end: number, radius: number, builder: LineBuilder): void {
-  const places = placesOfEnds(lines, first, end);
-  const joinable = joinableEnds(lines, first, end);
+  const places = new Float64Array(4 * (end - first));
+  const joinable = joinableEnds(lines, first, end, places);
   const near = crowdedEnds(places, joinable, radius);
   if (near.length === 0) {
     builder.copyRange(lines, first, end);
@@ -48,7 +41,16 @@ function joinRange(lines: Lines, first: number, end: number, radius: number, bui
   const pairing = new Pairing(lines, first, places, near, joinable.length, radius);
   pairing.run(SAME_POINT, true);
   if (radius > SAME_POINT) pairing.run(radius, false);
-  const { partner } = pairing;
+  writeChains(lines, first, end, pairing.partner, builder);
+}
+
+function writeChains(
+  lines: Lines,
+  first: number,
+  end: number,
+  partner: Int32Array,
+  builder: LineBuilder,
+): void {
   const done = new Uint8Array(end - first);
   for (let i = 0; i < done.length; i++) {
     const from = i;
@@ -58,29 +60,21 @@ function joinRange(lines: Lines, first: number, end: number, radius: number, bui
   }
 }
 
-/** Where each end is: x, y, x, y … */
-function placesOfEnds({ xy, offsets }: Lines, first: number, end: number): Float64Array {
-  const places = new Float64Array(4 * (end - first));
-  let at = 0;
-  for (let i = first; i < end; i++) {
-    const p = 2 * offsets[i];
-    const q = 2 * offsets[i + 1] - 2;
-    places[at++] = xy[p];
-    places[at++] = xy[p + 1];
-    places[at++] = xy[q];
-    places[at++] = xy[q + 1];
-  }
-  return places;
-}
-
-/** The ends of the lines that are neither dots nor closed. */
-function joinableEnds(lines: Lines, first: number, end: number): Uint32Array {
+/** The ends of the lines that are neither dots nor closed. Writes where each end is, x, y, x, y …, into `places`. */
+function joinableEnds({ xy, offsets }: Lines, first: number, end: number, places: Float64Array): Uint32Array {
   const ends = new Uint32Array(2 * (end - first));
   let count = 0;
   for (let i = first; i < end; i++) {
-    if (lines.offsets[i + 1] - lines.offsets[i] < 2 || isClosedLine(lines, i)) continue;
-    ends[count++] = 2 * (i - first);
-    ends[count++] = 2 * (i - first) + 1;
+    const p = 2 * offsets[i];
+    const q = 2 * offsets[i + 1] - 2;
+    const e = 2 * (i - first);
+    const x0 = (places[2 * e] = xy[p]);
+    const y0 = (places[2 * e + 1] = xy[p + 1]);
+    const x1 = (places[2 * e + 2] = xy[q]);
+    const y1 = (places[2 * e + 3] = xy[q + 1]);
+    if (p === q || (q > p + 2 && x0 === x1 && y0 === y1)) continue;
+    ends[count++] = e;
+    ends[count++] = e + 1;
   }
   return ends.subarray(0, count);
 }
@@ -90,16 +84,11 @@ function joinableEnds(lines: Lines, first: number, end: number): Uint32Array {
  * but so wide that an end's surroundings mostly lie in two or less of them.
  */
 function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint32Array {
-  const heads = new Int32Array(2 ** Math.ceil(Math.log2(4 * ends.length + 1))).fill(-1);
+  const heads = new Int32Array(2 ** Math.ceil(Math.log2(2 * ends.length + 1))).fill(-1);
   const next = new Int32Array(ends.length);
   const mask = heads.length - 1;
   const perMm = 1 / (4 * radius);
-  for (let k = 0; k < ends.length; k++) {
-    const e = 2 * ends[k];
-    const hash = cellHash(Math.floor(xy[e] * perMm), Math.floor(xy[e + 1] * perMm)) & mask;
-    next[k] = heads[hash];
-    heads[hash] = k;
-  }
+  linkByCell(xy, ends, perMm, heads, next);
   const crowded = new Uint32Array(ends.length);
   let count = 0;
   for (let k = 0; k < ends.length; k++) {
@@ -123,6 +112,23 @@ function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint3
     if (isNear) crowded[count++] = ends[k];
   }
   return crowded.subarray(0, count);
+}
+
+/** Chains the ends of each cell, by place in `ends`: the first one at `heads[hash]`, the next after k at `next[k]`. */
+function linkByCell(
+  xy: Float64Array,
+  ends: Uint32Array,
+  perMm: number,
+  heads: Int32Array,
+  next: Int32Array,
+): void {
+  const mask = heads.length - 1;
+  for (let k = 0; k < ends.length; k++) {
+    const e = 2 * ends[k];
+    const hash = cellHash(Math.floor(xy[e] * perMm), Math.floor(xy[e + 1] * perMm)) & mask;
+    next[k] = heads[hash];
+    heads[hash] = k;
+  }
 }
 
 function cellHash(column: number, row: number): number {

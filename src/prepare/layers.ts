@@ -1,5 +1,5 @@
 /** Which layer each shape belongs to: by group of the file, by stroke colour, or all in one. */
-import type { Drawing } from "../drawing/drawing.js";
+import type { Drawing, DrawingPaths } from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
 import { parseLayerName } from "./layer-codes.js";
 import type { LayerMode, PrepareSettings } from "./settings.js";
@@ -17,15 +17,23 @@ export interface LayerTable {
 export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const { paths } = drawing;
   const keyCount = mode === "group" ? drawing.groups.length : mode === "stroke" ? drawing.colors.length : 1;
-  const inks = inksOf(drawing);
   const keyOf = (shape: number): number =>
-    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inks[shape], 0) : 0;
+    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(paths, shape), 0) : 0;
 
   const used = new Uint8Array(keyCount);
   const colors = new Int32Array(keyCount).fill(UNSEEN);
+  const { group, stroke, fill } = paths;
   for (let shape = 0; shape < paths.count; shape++) {
+    // Most are as the one before.
+    const before = shape - 1;
+    const isAlike =
+      shape > 0 &&
+      group[shape] === group[before] &&
+      stroke[shape] === stroke[before] &&
+      fill[shape] === fill[before];
+    if (isAlike) continue;
     const key = keyOf(shape);
-    const ink = inks[shape];
+    const ink = inkOf(paths, shape);
     colors[key] = colors[key] === UNSEEN || colors[key] === ink ? ink : MIXED;
     used[key] = 1;
   }
@@ -71,12 +79,9 @@ export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTabl
 const UNSEEN = -2;
 const MIXED = -1;
 
-/** The colour that each shape is drawn in: its stroke, else its fill (its outline is drawn then). */
-function inksOf({ paths: { stroke, fill, count } }: Drawing): Int32Array {
-  const inks = stroke.slice(0, count);
-  for (let shape = 0; shape < count; shape++) if (inks[shape] < 0) inks[shape] = fill[shape];
-  return inks;
-}
+/** The colour that a shape is drawn in: its stroke, else its fill (its outline is drawn then). */
+const inkOf = ({ stroke, fill }: DrawingPaths, shape: number): number =>
+  stroke[shape] >= 0 ? stroke[shape] : fill[shape];
 
 function layerOf(drawing: Drawing, mode: LayerMode, key: number, ink: number): StrokeLayer {
   const color = ink >= 0 ? drawing.colors[ink] : null;

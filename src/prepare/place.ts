@@ -7,7 +7,7 @@
  *        y  └───────────┘           true     page corner on paper corner
  *                                   place    the drawing's own box where the numbers say, then turned about its middle
  */
-import type { ClipRegion, Drawing } from "../drawing/drawing.js";
+import { VERB_LINE, type ClipRegion, type Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { PlotwrightError } from "../errors.js";
 import {
@@ -103,9 +103,33 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
 
 function shapeBoxes(drawing: Drawing, map: Affine): Float64Array {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
+  const { a, b, c, d, e, f } = map;
   const boxes = new Float64Array(4 * count);
   for (let i = 0; i < count; i++) {
-    boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map, boxes, 4 * i);
+    const verbEnd = verbOffsets[i + 1];
+    let v = verbOffsets[i] + 1;
+    while (v < verbEnd && verbs[v] === VERB_LINE) v++;
+    if (v < verbEnd || verbEnd - verbOffsets[i] < 2) {
+      boundsOfVerbs(verbs, verbOffsets[i], verbEnd, coords, coordOffsets[i], map, boxes, 4 * i);
+      continue;
+    }
+    // Straight pieces only, as in most large drawings: no call for each.
+    let x0 = Infinity;
+    let y0 = Infinity;
+    let x1 = -Infinity;
+    let y1 = -Infinity;
+    for (let k = coordOffsets[i]; k < coordOffsets[i + 1]; k += 2) {
+      const x = a * coords[k] + c * coords[k + 1] + e;
+      const y = b * coords[k] + d * coords[k + 1] + f;
+      if (x < x0) x0 = x;
+      if (x > x1) x1 = x;
+      if (y < y0) y0 = y;
+      if (y > y1) y1 = y;
+    }
+    boxes[4 * i] = x0;
+    boxes[4 * i + 1] = y0;
+    boxes[4 * i + 2] = x1;
+    boxes[4 * i + 3] = y1;
   }
   return boxes;
 }
@@ -123,6 +147,11 @@ function contentBox(drawing: Drawing, boxes: Float64Array, map: Affine, onPage: 
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
   const { count, clip: clipOf } = drawing.paths;
+  if (page === null && clipBoxes.length === 0) {
+    // Far away too where one shape is empty.
+    const whole = boxOfPoints(boxes);
+    if (!isFarAway(whole)) return whole;
+  }
   let content = EMPTY_BOX;
   for (let i = 0; i < count; i++) {
     const at = 4 * i;

@@ -38,6 +38,8 @@ export function shapesOnPaper(
   const wanted = new Uint8Array(drawing.paths.count);
   const boxes = place.shapeBoxes;
   const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
+  // Never where one shape is empty.
+  if (boxContains(within, boxOfPoints(boxes))) return wanted.fill(1);
   let outside = 0;
   let far = 0;
   for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {

@@ -4,10 +4,10 @@
  */
 import {
   LineBuilder,
+  SAME_POINT,
   distance,
   isClosedLine,
   lineCount,
-  repeatsPoints,
   type Lines,
 } from "../geometry/polyline.js";
 
@@ -81,8 +81,8 @@ export function travelAsDrawn(lines: Lines): number {
 
 /** The lines as the tour draws them. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
-  // Nothing to leave out: every line is as long as before.
-  if (!repeatsPoints(lines, 0, lineCount(lines))) return reordered(lines, tour);
+  const whole = reordered(lines, tour);
+  if (whole !== null) return whole;
   const builder = new LineBuilder();
   const { order } = tour;
   for (let k = 0; k < order.length; k++) {
@@ -93,7 +93,8 @@ export function linesOfTour(lines: Lines, tour: Tour): Lines {
   return builder.finish();
 }
 
-function reordered(lines: Lines, tour: Tour): Lines {
+/** Every line as long as before; null where a point repeats the one before it, which is to be left out. */
+function reordered(lines: Lines, tour: Tour): Lines | null {
   const { order, reversed, start } = tour;
   const xy = new Float64Array(lines.xy.length);
   const offsets = new Uint32Array(order.length + 1);
@@ -105,9 +106,14 @@ function reordered(lines: Lines, tour: Tour): Lines {
     const last = 2 * lines.offsets[i + 1] - 2;
     let from = reversed[i] === 1 ? last : first + 2 * start[i];
     const step = reversed[i] === 1 ? -2 : 2;
+    let x = Infinity;
+    let y = Infinity;
     for (let left = last - first; left >= 0; left -= 2) {
-      xy[to++] = lines.xy[from];
-      xy[to++] = lines.xy[from + 1];
+      const dx = lines.xy[from] - x;
+      const dy = lines.xy[from + 1] - y;
+      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return null;
+      x = xy[to++] = lines.xy[from];
+      y = xy[to++] = lines.xy[from + 1];
       from += step;
       // Begun at another of its points, a closed line goes on from its end, which is its first point too.
       if (from > last) from = first + 2;

@@ -8,37 +8,6 @@ const points = fc.array(fc.tuple(value, value), { minLength: 1, maxLength: 60 })
 const RUNS = { numRuns: 1_000 };
 
 describe("PointIndex", () => {
-  it("finds as near a point as a look at all of them, while points are removed", () => {
-    fc.assert(
-      fc.property(
-        points,
-        fc.array(fc.tuple(value, value, fc.boolean()), { maxLength: 80 }),
-        (given, queries) => {
-          const index = new PointIndex(Float64Array.from(given.flat()));
-          const left = new Set(given.keys());
-          for (const [x, y, remove] of queries) {
-            const best = Math.min(
-              Infinity,
-              ...[...left].map((i) => (given[i][0] - x) ** 2 + (given[i][1] - y) ** 2),
-            );
-            const found = index.nearest(x, y);
-            if (left.size === 0) expect(found).toBe(-1);
-            else {
-              expect(left.has(found)).toBe(true);
-              expect((given[found][0] - x) ** 2 + (given[found][1] - y) ** 2).toBe(best);
-              if (remove) {
-                index.remove(found);
-                left.delete(found);
-              }
-            }
-            expect(index.size).toBe(left.size);
-          }
-        },
-      ),
-      RUNS,
-    );
-  });
-
   it("lists the nearest few, nearest first, without the point itself and the one to leave out", () => {
     fc.assert(
       fc.property(points, fc.nat(59), fc.nat(59), fc.integer({ min: 1, max: 8 }), (given, a, b, count) => {

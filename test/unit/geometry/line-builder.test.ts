@@ -33,25 +33,24 @@ describe("a line builder", () => {
       builder.point(-1, -1);
       builder.end(7);
     }
-    for (let i = 2; i < COUNT; i++) byPoint.copy(lines, i, lines.tag[i]!);
+    for (let i = 2; i < COUNT; i++) byPoint.copy(lines, i, i < 1000 ? lines.tag[i]! : i);
     atOnce.copyRange(lines, 2, 1000);
-    for (let i = 1000; i < COUNT; i++) {
-      const [from, to] = [2 * lines.offsets[i]!, 2 * lines.offsets[i + 1]!];
-      expect(atOnce.addMapped(lines.xy, from, to, IDENTITY, lines.tag[i]!)).toBe(true);
-    }
+    const numbers = lines.offsets.map((point) => 2 * point);
+    expect(atOnce.addMapped(lines.xy, numbers, 1000, COUNT, IDENTITY)).toBe(COUNT);
     expect(atOnce.finish()).toEqual(byPoint.finish());
   });
 
   it("leaves out a point that repeats the one before it, whichever way it comes", () => {
-    const xy = Float64Array.of(0, 0, 5, 5, 5, 5, 9, 9);
-    const lines = { xy, offsets: Uint32Array.of(0, 4), tag: Uint32Array.of(2) };
+    const xy = Float64Array.of(1, 1, 2, 2, 0, 0, 5, 5, 5, 5, 9, 9, 3, 3, 4, 4);
+    const lines = { xy, offsets: Uint32Array.of(0, 2, 6, 8), tag: Uint32Array.of(6, 7, 8) };
     const builder = new LineBuilder();
-    expect(builder.addMapped(xy, 0, 8, IDENTITY, 2)).toBe(false);
-    builder.copyRange(lines, 0, 1);
-    builder.copy(lines, 0, 3, true);
+    expect(builder.addMapped(xy, Uint32Array.of(0, 4, 12, 16), 0, 3, IDENTITY)).toBe(1);
+    builder.copyRange(lines, 0, 3);
+    builder.copy(lines, 1, 3, true);
     const built = builder.finish();
-    expect([...built.xy]).toEqual([0, 0, 5, 5, 9, 9, 9, 9, 5, 5, 0, 0]);
-    expect([...built.offsets]).toEqual([0, 3, 6]);
-    expect([...built.tag]).toEqual([2, 3]);
+    const copied = [1, 1, 2, 2, 0, 0, 5, 5, 9, 9, 3, 3, 4, 4];
+    expect([...built.xy]).toEqual([1, 1, 2, 2, ...copied, 9, 9, 5, 5, 0, 0]);
+    expect([...built.offsets]).toEqual([0, 2, 4, 7, 9, 12]);
+    expect([...built.tag]).toEqual([0, 6, 7, 8, 3]);
   });
 });
