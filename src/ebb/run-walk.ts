@@ -99,7 +99,7 @@ export class RunWalk {
     return rateFromStepsPerS(Math.max(j1, j2)) * S_PER_TICK * S_PER_TICK;
   }
 
-  /** First tick in (from, to) at which a motor's speed passes zero by the block's law; Infinity if none does. */
+  /** First tick in (from, to] at which a motor's speed passes zero by the block's law; Infinity if none does. */
   turnTick(block: number, from: number, to: number): number {
     const { startS, vx, vy, ax, ay, jx, jy } = this.trajectory;
     const { machine } = this;
@@ -111,7 +111,7 @@ export class RunWalk {
       const j = motor(machine, jx?.[block] ?? 0, jy?.[block] ?? 0);
       for (const root of rootsOfSpeed(v, a, j)) {
         const tick = Math.round(startTick + root * TICKS_PER_S);
-        if (tick > from && tick < to && tick < earliest) earliest = tick;
+        if (tick > from && tick <= to && tick < earliest) earliest = tick;
       }
     }
     return earliest;

@@ -10,6 +10,7 @@ import {
   motionForFirmware,
   plan,
   type MotionMode,
+  type Trajectory,
 } from "../../src/index.js";
 import { SegmentGrid } from "../support/segment-grid.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
@@ -146,6 +147,49 @@ for (const mode of MODES) {
     });
   });
 }
+
+/** A run from rest to rest in pieces of constant acceleration. Velocities at their joints, mm/s. */
+function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
+  const count = joints.length + 1;
+  const v: readonly Point[] = [[0, 0], ...joints, [0, 0]];
+  const column = (of: (k: number) => number): Float64Array =>
+    Float64Array.from({ length: count }, (_, k) => of(k));
+  const ends = [0, 1].map((axis) => {
+    const places = [0];
+    for (let k = 0; k < count; k++)
+      places.push(places[k]! + (pieceS * (v[k]![axis]! + v[k + 1]![axis]!)) / 2);
+    return places;
+  });
+  return {
+    ...{ blockCount: count, jx: null, jy: null, penMoves: [], totalS: count * pieceS },
+    ...{ x: column((k) => ends[0]![k]!), y: column((k) => ends[1]![k]!) },
+    ...{ vx: column((k) => v[k]![0]), vy: column((k) => v[k]![1]) },
+    ax: column((k) => (v[k + 1]![0] - v[k]![0]) / pieceS),
+    ay: column((k) => (v[k + 1]![1] - v[k]![1]) / pieceS),
+    durationS: column(() => pieceS),
+    startS: column((k) => k * pieceS),
+    alongMm: column(() => 0),
+    runs: {
+      ...{ count: 1, firstBlock: Uint32Array.of(0, count) },
+      ...{ stroke: Int32Array.of(0), startS: Float64Array.of(0) },
+    },
+    ...{ endX: ends[0]![count]!, endY: ends[1]![count]! },
+  };
+}
+
+describe("a motor that turns back where two pieces of the plan meet", () => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("is stopped there, and does not jump on firmware %s", (firmware) => {
+    // Motor speeds x + y and x − y: the one turns 3 ms before the second joint, the other just at it.
+    const trajectory = runOf(0.078, [
+      [-30.9, 23.1],
+      [0.16, 0.15],
+      [37.6, -9.5],
+    ]);
+    const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
+    expect(fast.play(fast.compile(trajectory)).firstWrong).toBeNull();
+    expect(fast.board.statistics().largestJumpMmPerS).toBeLessThan(0.5);
+  });
+});
 
 describe("a plot that asks for more than the motors can step", () => {
   it("is slowed with a warning, and still ends where it should", () => {
