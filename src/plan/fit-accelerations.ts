@@ -34,19 +34,13 @@ import { SteadyPiece, type PieceStart } from "./steady-piece.js";
 import { SLACK } from "./three-jerks.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
-const BETWEEN = 0.985;
+const BETWEEN = 0.97;
 
 /** Share of ε that a steady piece aims at: it is looked at less closely there. */
 const AIM = 0.92;
 
 /** Longest piece, s. */
 const LONGEST_S = 1;
-
-/** Longer blocks are kept as they are. */
-const KEPT_S = 0.2;
-
-/** So are blocks that turn the velocity by more than this, by its cosine. */
-const SHARP = 0.755;
 
 /** At full speed pairs may take so much more time than the plan. */
 const LATER = 1.03;
@@ -61,8 +55,8 @@ const HARDLY = 1.0004;
 const TRIALS = 3;
 const FIRST_S = 0.06;
 
-/** The distance is looked at so many times at least, for a piece or a pair. */
-const LOOKS = 16;
+/** The distance is looked at about so many times at least, for a piece or a pair. */
+const LOOKS = 12;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
@@ -117,7 +111,11 @@ export class AccelerationFitter {
     // Merged pieces may be anywhere on the line at an instant: not where velocity jumps.
     if (mode !== "junction") this.merger.merge(pieces, limits);
     out.reserve(pieces.count, end.segmentCount);
-    for (let i = 0; i < pieces.count; i++) out.pushFrom(pieces, i);
+    const { block, tau } = this.notes;
+    for (let i = 0; i < pieces.count; i++) {
+      pieces.alongMm[i] = this.source.alongAt(block[i]!, tau[i]!);
+      out.pushFrom(pieces, i);
+    }
   }
 
   /** Puts pieces in `out` for all of the plan's blocks. */
@@ -129,7 +127,7 @@ export class AccelerationFitter {
     // Up to here only pairs and kept blocks: steady pieces have led nowhere.
     let calm = 0;
     while (this.at.k < blocks) {
-      this.findAnchor();
+      this.anchor = this.source.nextKept(Math.max(this.anchor, this.at.k));
       if (this.isPlanned && this.at.k === this.anchor) this.keep();
       else if (this.reachAnchor()) continue;
       else if (!(this.at.k >= calm && this.advance()) && !this.join()) {
@@ -146,22 +144,6 @@ export class AccelerationFitter {
     if (!this.tryPair(this.anchor)) return false;
     this.writePair(this.anchor);
     return true;
-  }
-
-  /** The next block to be kept whatever happens: a long one or a sharp corner. */
-  private findAnchor(): void {
-    const { durationS, vx, vy, ax, ay, count } = this.source.blocks;
-    let k = Math.max(this.anchor, this.at.k);
-    for (; k < count; k++) {
-      const d = durationS[k]!;
-      if (d >= KEPT_S) break;
-      const wx = vx[k]! + d * ax[k]!;
-      const wy = vy[k]! + d * ay[k]!;
-      const along = vx[k]! * wx + vy[k]! * wy;
-      const both2 = (vx[k]! * vx[k]! + vy[k]! * vy[k]!) * (wx * wx + wy * wy);
-      if (along < 0 || along * along < SHARP * SHARP * both2) break;
-    }
-    this.anchor = k;
   }
 
   /** Writes a steady piece, as long as is found; false where there is none worth it. */
@@ -218,9 +200,11 @@ export class AccelerationFitter {
   }
 
   private writeSteady(): void {
-    const { at, h1: h, source } = this;
-    this.chain.push(at, this.out);
-    this.push(h, this.a1x, this.a1y, source.alongAt(at.k, at.tau), at.tau);
+    const { at, h1: h, source, steady, notes, out } = this;
+    this.chain.push(at, out);
+    notes.middle[out.count] = steady.leftHalfway(h, this.a1x, this.a1y);
+    notes.knot[out.count + 1] = steady.leftAtEnd(h, this.a1x, this.a1y);
+    this.push(h, this.a1x, this.a1y, at.k, at.tau);
     this.isPlanned = false;
     // τ goes to where the plan is nearest.
     const { x, y, vx, vy, ax, ay, startS } = source.blocks;
@@ -310,20 +294,39 @@ export class AccelerationFitter {
   }
 
   private writePair(m: number): void {
-    const { at, out, source, chain } = this;
+    const { at, out, chain } = this;
     // Steady pieces and the pair are one way from planned state to planned state.
     if (this.isWorth(this.chain.firstBlock(at.k), m, this.chain.count + 2)) {
-      const length = source.startOf(m) - at.tau;
-      this.push(this.h1, this.a1x, this.a1y, source.alongAt(at.k, at.tau), at.tau);
-      const half = at.tau + length / 2;
-      let k = at.k;
-      while (k + 1 < m && source.startOf(k + 1) <= half) k++;
-      this.push(this.h2, this.a2x, this.a2y, source.alongAt(k, half), half);
+      this.pushPair(m);
     } else {
       while (chain.count > 0) chain.pop(at, out);
       for (let k = at.k; k < m; k++) this.copy(k);
     }
     this.startPlanned(m);
+  }
+
+  private pushPair(m: number): void {
+    const { at, source, notes, out, h1, a1x, a1y, h2, a2x, a2y } = this;
+    const { tau } = at;
+    const end = source.startOf(m);
+    notes.middle[out.count] = this.leftAfter(h1 / 2, a1x, a1y, (3 * tau + end) / 4);
+    this.push(h1, a1x, a1y, at.k, tau);
+    // τ goes to where the plan is nearest.
+    at.tau = (tau + end) / 2;
+    this.leftAfter(0, 0, 0, at.tau);
+    at.tau = Math.min(Math.max(at.tau + source.aheadS, tau), end);
+    while (at.k + 1 < m && source.startOf(at.k + 1) <= at.tau) at.k++;
+    notes.knot[out.count] = this.leftAfter(0, 0, 0, at.tau);
+    notes.middle[out.count] = this.leftAfter(h2 / 2, a2x, a2y, (at.tau + end) / 2);
+    this.push(h2, a2x, a2y, at.k, at.tau);
+  }
+
+  /** How far to the left of the plan's line at an instant the pen is `t` seconds after `at`, under (ax, ay). */
+  private leftAfter(t: number, ax: number, ay: number, tau: number): number {
+    const { at, source } = this;
+    const x = at.x + t * (at.vx + (t * ax) / 2);
+    const y = at.y + t * (at.vy + (t * ay) / 2);
+    return source.leftOf(x, y, at.k, tau);
   }
 
   /** Whether so many pieces for blocks [k, m) are fewer; or as many, where that leaves fewer short ones. */
@@ -361,8 +364,12 @@ export class AccelerationFitter {
   }
 
   private copy(k: number): void {
-    this.notes.tau[this.out.count] = this.source.startOf(k);
-    this.source.copy(k, this.out);
+    const { notes, out, source } = this;
+    const i = out.count;
+    notes.tau[i] = source.startOf(k);
+    notes.block[i] = k;
+    notes.knot[i] = notes.middle[i] = 0;
+    source.copy(k, out);
   }
 
   private startPlanned(k: number): void {
@@ -370,6 +377,7 @@ export class AccelerationFitter {
     const { blocks } = source;
     this.chain.count = 0;
     this.isPlanned = true;
+    this.notes.knot[this.out.count] = 0;
     at.k = k;
     at.tau = source.startOf(k);
     at.x = source.xOf(k);
@@ -379,10 +387,11 @@ export class AccelerationFitter {
   }
 
   /** Writes one piece and goes to its end. */
-  private push(h: number, ax: number, ay: number, along: number, tau: number): void {
-    const { at } = this;
-    this.notes.tau[this.out.count] = tau;
-    this.out.push(h, at.x, at.y, at.vx, at.vy, ax, ay, along);
+  private push(h: number, ax: number, ay: number, k: number, tau: number): void {
+    const { at, notes, out } = this;
+    notes.tau[out.count] = tau;
+    notes.block[out.count] = k;
+    out.push(h, at.x, at.y, at.vx, at.vy, ax, ay, 0);
     at.x += h * (at.vx + (h * ax) / 2);
     at.y += h * (at.vy + (h * ay) / 2);
     at.vx += h * ax;
@@ -399,44 +408,43 @@ export class AccelerationFitter {
   }
 
   /**
-   * Compares the pieces with the plan: twice in every block that they replace, and about LOOKS times at least.
+   * Compares the pieces with the plan: where each block that they replace begins, and within those that are not short.
    *
    * @param length how much of the plan's time the pair stands for; Infinity: one steady piece of h1 seconds
    */
   private isNear(length: number): boolean {
-    const { at, source } = this;
-    const { blocks } = source;
+    const { at, source, h1, a1x, a1y, bend } = this;
+    const { count, startS, durationS, x, y, vx, vy, ax, ay } = source.blocks;
+    const { tau, x: x0, y: y0, vx: vx0, vy: vy0 } = at;
     const isPair = length < Infinity;
-    const end = at.tau + (isPair ? length : this.h1);
-    const stretch = isPair ? (this.h1 + this.h2) / length : 1;
+    const end = tau + (isPair ? length : h1);
+    const stretch = isPair ? (h1 + this.h2) / length : 1;
+    const changeX = isPair ? this.a2x - a1x : 0;
+    const changeY = isPair ? this.a2y - a1y : 0;
     const most = BETWEEN * this.settings.toleranceMm;
-    const often = LOOKS / (end - at.tau);
-    for (let i = at.k; i < blocks.count; i++) {
-      const start = blocks.startS[i]!;
+    const often = LOOKS / (end - tau);
+    // At a vertex of a `junction` plan the way between two looks may bend.
+    const least = this.mode === "junction" ? 2 : 1;
+    for (let i = at.k; i < count; i++) {
+      const start = startS[i]!;
       if (start >= end) break;
-      const d = blocks.durationS[i]!;
-      const looks = d * often > 2.5 ? Math.round(d * often) : 2;
+      const d = durationS[i]!;
+      const looks = d * often > least + 0.5 ? Math.round(d * often) : least;
       for (let look = 0; look < looks; look++) {
         const u = (d * look) / looks;
-        const t = start + u - at.tau;
-        if (t <= 0) continue;
+        if (start + u <= tau) continue;
         if (start + u >= end) break;
-        const vx = blocks.vx[i]! + u * blocks.ax[i]!;
-        const vy = blocks.vy[i]! + u * blocks.ay[i]!;
-        const x = blocks.x[i]! + (u * (blocks.vx[i]! + vx)) / 2;
-        const y = blocks.y[i]! + (u * (blocks.vy[i]! + vy)) / 2;
-        if (!this.isNearTo(t * stretch, x, y, vx, vy, most)) return false;
+        const t = (start + u - tau) * stretch;
+        const later = t > h1 ? t - h1 : 0;
+        const wx = vx[i]! + u * ax[i]!;
+        const wy = vy[i]! + u * ay[i]!;
+        const px = x[i]! + (u * (vx[i]! + wx)) / 2;
+        const py = y[i]! + (u * (vy[i]! + wy)) / 2;
+        const dx = x0 + t * vx0 + (a1x * t * t + changeX * later * later) / 2 - px;
+        const dy = y0 + t * vy0 + (a1y * t * t + changeY * later * later) / 2 - py;
+        if (!isBeside(dx, dy, wx, wy, most, bend)) return false;
       }
     }
     return true;
-  }
-
-  /** Whether the pieces `t` seconds after their start are near enough to (x, y), which moves at (vx, vy). */
-  private isNearTo(t: number, x: number, y: number, vx: number, vy: number, most: number): boolean {
-    const { at } = this;
-    const u = t > this.h1 ? t - this.h1 : 0;
-    const dx = at.x + t * at.vx + (this.a1x * t * t + (this.a2x - this.a1x) * u * u) / 2 - x;
-    const dy = at.y + t * at.vy + (this.a1y * t * t + (this.a2y - this.a1y) * u * u) / 2 - y;
-    return isBeside(dx, dy, vx, vy, most, this.bend);
   }
 }

@@ -3,8 +3,16 @@ import type { BlockColumns } from "./block-columns.js";
 import type { RunEnd } from "./run-path.js";
 import { blockLength } from "./trajectory.js";
 
+/** Longer blocks are kept as they are. */
+const KEPT_S = 0.2;
+
+/** So are blocks that turn the velocity by more than this, by its cosine. */
+const SHARP = 0.755;
+
 export class FitSource {
   blocks!: BlockColumns;
+  /** How much later, s, the plan is where it is nearest to the place that `leftOf` was asked for. */
+  aheadS = 0;
   private end!: RunEnd;
 
   /** Reads all of `blocks`, which start their clock at 0, from now on. */
@@ -34,6 +42,35 @@ export class FitSource {
     const whole = blockLength(blocks, k, blocks.durationS[k]!);
     const share = whole > 0 ? Math.min(1, blockLength(blocks, k, t) / whole) : 0;
     return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * share;
+  }
+
+  /** The first block from k on to be kept whatever happens: a long one or a sharp corner. */
+  nextKept(k: number): number {
+    const { durationS, vx, vy, ax, ay, count } = this.blocks;
+    for (; k < count; k++) {
+      const d = durationS[k]!;
+      if (d >= KEPT_S) break;
+      const wx = vx[k]! + d * ax[k]!;
+      const wy = vy[k]! + d * ay[k]!;
+      const along = vx[k]! * wx + vy[k]! * wy;
+      const both2 = (vx[k]! * vx[k]! + vy[k]! * vy[k]!) * (wx * wx + wy * wy);
+      if (along < 0 || along * along < SHARP * SHARP * both2) break;
+    }
+    return k;
+  }
+
+  /** How far to the left of the line (x, y) is, seen from the instant τ in block k or later. */
+  leftOf(x: number, y: number, k: number, tau: number): number {
+    const { startS, count, x: px, y: py, vx, vy, ax, ay } = this.blocks;
+    while (k + 1 < count && startS[k + 1]! <= tau) k++;
+    const d = tau - startS[k]!;
+    const wx = vx[k]! + d * ax[k]!;
+    const wy = vy[k]! + d * ay[k]!;
+    const dx = x - px[k]! - (d * (vx[k]! + wx)) / 2;
+    const dy = y - py[k]! - (d * (vy[k]! + wy)) / 2;
+    const w2 = wx * wx + wy * wy;
+    this.aheadS = w2 > 0 ? (wx * dx + wy * dy) / w2 : 0;
+    return w2 > 0 ? (wx * dy - wy * dx) / Math.sqrt(w2) : 0;
   }
 
   /** Appends block k as it is. */
@@ -72,8 +109,9 @@ export function isBeside(
   accel: number,
 ): boolean {
   const d2 = dx * dx + dy * dy;
-  if (d2 <= most * most) return true;
   const v2 = vx * vx + vy * vy;
   const across = dx * vy - dy * vx;
-  return d2 * accel <= AHEAD * most * v2 && across * across <= most * most * v2;
+  // In this order each answer is the same nearly always.
+  if (across * across > most * most * v2) return false;
+  return d2 * accel <= AHEAD * most * v2 || d2 <= most * most;
 }

@@ -80,7 +80,6 @@ export class PieceMerger {
     this.pieces = pieces;
     this.limits = limits;
     this.putEnd(count);
-    this.walk.k = 0;
     let kept = 0;
     for (let i = 0; i < count; i++) {
       this.take(i, kept++);
@@ -97,36 +96,35 @@ export class PieceMerger {
     pieces.y[count] = source.yOf(end);
     pieces.vx[count] = pieces.vy[count] = 0;
     notes.tau[count] = source.startOf(end);
-    notes.knot[0] = notes.knot[count] = 0;
+    notes.knot[count] = 0;
+    notes.block[count] = end - 1;
   }
 
   /** Puts piece i at `to`, and the state in which it ends after it. */
   private take(i: number, to: number): void {
-    const { walk, notes, pieces } = this;
-    const { durationS, x, y, vx, vy, ax, ay, alongMm } = pieces;
-    walk.goTo(notes.tau[i]!);
-    notes.block[to] = walk.k;
-    const follows = walk.follow(x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, durationS[i]!, 1, Infinity);
-    if (follows) notes.tau[i + 1] = walk.tau;
-    durationS[to] = durationS[i]!;
-    ax[to] = ax[i]!;
-    ay[to] = ay[i]!;
-    alongMm[to] = alongMm[i]!;
-    this.putState(i, to);
-    this.putState(i + 1, to + 1);
-    notes.middle[to] = follows ? walk.middle : NaN;
-    notes.knot[to + 1] = follows ? walk.end : NaN;
+    const { notes, pieces } = this;
+    const { durationS, ax, ay } = pieces;
+    if (i > to) {
+      durationS[to] = durationS[i]!;
+      ax[to] = ax[i]!;
+      ay[to] = ay[i]!;
+      notes.middle[to] = notes.middle[i]!;
+      this.putState(i, to);
+      this.putState(i + 1, to + 1);
+    }
     notes.note(to, pieces);
   }
 
   private putState(from: number, to: number): void {
     const { x, y, vx, vy } = this.pieces;
-    const { tau } = this.notes;
+    const { tau, block, knot } = this.notes;
     x[to] = x[from]!;
     y[to] = y[from]!;
     vx[to] = vx[from]!;
     vy[to] = vy[from]!;
     tau[to] = tau[from]!;
+    block[to] = block[from]!;
+    knot[to] = knot[from]!;
   }
 
   private mergesThree(i: number): boolean {
@@ -225,9 +223,9 @@ export class PieceMerger {
   /** Puts the fewer pieces in the place of those from i on, if they are within `near` of the line all the way. */
   private replaces(i: number, near: number): boolean {
     if (!this.holds(i, near)) return false;
-    const { fewer, pieces, notes, source } = this;
+    const { fewer, pieces, notes } = this;
     const { count, h, vx: wx, vy: wy } = fewer;
-    const { durationS, x, y, vx, vy, ax, ay, alongMm } = pieces;
+    const { durationS, x, y, vx, vy, ax, ay } = pieces;
     for (let j = 0; j < count; j++) {
       const p = i + j;
       const d = h[j]!;
@@ -244,13 +242,11 @@ export class PieceMerger {
         notes.tau[p] = this.tau[j]!;
         notes.block[p] = this.block[j]!;
         notes.knot[p] = this.knot[j]!;
-        alongMm[p] = source.alongAt(this.block[j]!, this.tau[j]!);
       }
       notes.note(p, pieces);
     }
     const end = i + count;
     this.putState(end + 1, end);
-    notes.knot[end] = notes.knot[end + 1]!;
     return true;
   }
 

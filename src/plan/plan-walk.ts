@@ -17,14 +17,6 @@ export class PlanWalk {
 
   constructor(private readonly source: FitSource) {}
 
-  /** Goes to the instant τ, from one that is not far. */
-  goTo(tau: number): void {
-    const { startS, count } = this.source.blocks;
-    while (this.k > 0 && startS[this.k]! > tau) this.k--;
-    while (this.k + 1 < count && startS[this.k + 1]! <= tau) this.k++;
-    this.tau = tau;
-  }
-
   /**
    * Follows a piece of `h` seconds from (x, y) at (vx, vy) under (ax, ay), with 2 `half` looks at it, from where the walk is.
    * False where that is not the way of the plan, or farther than `most` mm from it.

@@ -5,7 +5,7 @@
  *   from place X, velocity W:   q(u) = X + W u + a₁ φ₁(u) + a₂ φ₂(u)       0 ≤ u ≤ 2 h
  *   φ₁ = u²/2, after h: h u − h²/2          φ₂ = 0, after h: (u − h)²/2
  *
- *   minimise  Σ ‖q(uᵢ) − p(τ + uᵢ)‖²  over eight instants of the plan p, where being beside the line counts fully
+ *   minimise  Σ ‖q(uᵢ) − p(τ + uᵢ)‖²  over six instants of the plan p, where being beside the line counts fully
  *   and being early or late on it by ALONG² of that:   ‖d‖² = (d·n)² + ALONG² (d·t)²
  *
  * With N = n nᵀ + ALONG² t tᵀ that is a symmetric system of 2 × 2 blocks
@@ -15,8 +15,8 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 
-/** Instants looked at, in each of the two pieces. */
-const LOOKS = 4;
+/** Instants looked at, in each of the two pieces: a third, two thirds and all of the way. */
+const LOOKS = 3;
 
 /** How much being early or late on the line weighs against being beside it. */
 const ALONG = 0.06;
@@ -24,6 +24,12 @@ const ALONG = 0.06;
 const U = Float64Array.from({ length: 2 * LOOKS }, (_, i) => (i + 1) / LOOKS);
 const PHI1 = U.map((u) => (u <= 1 ? (u * u) / 2 : u - 0.5));
 const PHI2 = U.map((u) => (u <= 1 ? 0 : ((u - 1) * (u - 1)) / 2));
+const SUM11 = PHI1.reduce((sum, f) => sum + f * f, 0);
+const SUM12 = PHI1.reduce((sum, f, s) => sum + f * PHI2[s]!, 0);
+const SUM22 = PHI2.reduce((sum, g) => sum + g * g, 0);
+
+/** (mm/s)²: of no account beside any speed². */
+const AT_REST = 1e-30;
 
 /** Where a piece begins: τ in block `k` of the plan, and the place and velocity there, which may be beside the plan's. */
 export interface PieceStart {
@@ -42,9 +48,8 @@ export class SteadyPiece {
   /** Largest distance beside the line over both pieces, mm. */
   beside = 0;
   private readonly along2: number;
-  private readonly rx = new Float64Array(2 * LOOKS);
-  private readonly ry = new Float64Array(2 * LOOKS);
-  /** Unit normals of the line. */
+  /** Unit normals of the line, and how far to the left of start and velocity it is. */
+  private readonly nr = new Float64Array(2 * LOOKS);
   private readonly nx = new Float64Array(2 * LOOKS);
   private readonly ny = new Float64Array(2 * LOOKS);
 
@@ -55,51 +60,51 @@ export class SteadyPiece {
 
   /** Finds the piece of `h` seconds from `start`; the plan must go on for 2 h at least. */
   solve(from: BlockColumns, start: PieceStart, h: number): void {
-    const { along2, rx, ry, nx, ny } = this;
+    const { along2, nr, nx, ny } = this;
     const { startS, x, y, vx, vy, ax, ay } = from;
+    const { tau, x: x0, y: y0, vx: vx0, vy: vy0 } = start;
     const last = from.count - 1;
+    const beside2 = 1 - along2;
     let i = start.k;
+    // N = ALONG² I + (1 − ALONG²) n nᵀ: sums of the second part only, and n₂² = 1 − n₁².
     let p1 = 0;
     let p2 = 0;
-    let p3 = 0;
     let q1 = 0;
     let q2 = 0;
-    let q3 = 0;
     let r1 = 0;
     let r2 = 0;
-    let r3 = 0;
     let bx = 0;
     let by = 0;
     let cx = 0;
     let cy = 0;
     for (let s = 0; s < 2 * LOOKS; s++) {
       const u = U[s]! * h;
-      const t = start.tau + u;
+      const t = tau + u;
       while (i < last && startS[i + 1]! <= t) i++;
       const d = t - startS[i]!;
-      const wx = vx[i]! + d * ax[i]!;
-      const wy = vy[i]! + d * ay[i]!;
-      const dx = x[i]! + (d * (vx[i]! + wx)) / 2 - start.x - u * start.vx;
-      const dy = y[i]! + (d * (vy[i]! + wy)) / 2 - start.y - u * start.vy;
-      const w = Math.sqrt(wx * wx + wy * wy);
-      // At rest the line has no direction: then only the place counts, both ways alike.
-      const ux = w > 0 ? -wy / w : 0;
-      const uy = w > 0 ? wx / w : 0;
-      rx[s] = dx;
-      ry[s] = dy;
+      const wx0 = vx[i]!;
+      const wy0 = vy[i]!;
+      const wx = wx0 + d * ax[i]!;
+      const wy = wy0 + d * ay[i]!;
+      const dx = x[i]! + (d * (wx0 + wx)) / 2 - x0 - u * vx0;
+      const dy = y[i]! + (d * (wy0 + wy)) / 2 - y0 - u * vy0;
+      // At rest the line has no direction; any will do.
+      const per = 1 / Math.sqrt(wx * wx + wy * wy + AT_REST);
+      const ux = -wy * per;
+      const uy = wx * per;
+      const off = ux * dx + uy * dy;
+      nr[s] = off;
       nx[s] = ux;
       ny[s] = uy;
-      const across = (1 - along2) * (ux * dx + uy * dy);
+      const across = beside2 * off;
       const ex = along2 * dx + across * ux;
       const ey = along2 * dy + across * uy;
-      const n1 = along2 + (1 - along2) * ux * ux;
-      const n2 = (1 - along2) * ux * uy;
-      const n3 = along2 + (1 - along2) * uy * uy;
+      const n1 = ux * ux;
+      const n2 = ux * uy;
       const f = PHI1[s]!;
       const ff = f * f;
       p1 += ff * n1;
       p2 += ff * n2;
-      p3 += ff * n3;
       bx += f * ex;
       by += f * ey;
       if (s < LOOKS) continue;
@@ -108,13 +113,21 @@ export class SteadyPiece {
       const gg = g * g;
       q1 += fg * n1;
       q2 += fg * n2;
-      q3 += fg * n3;
       r1 += gg * n1;
       r2 += gg * n2;
-      r3 += gg * n3;
       cx += g * ex;
       cy += g * ey;
     }
+    const both = 1 + along2;
+    p1 = along2 * SUM11 + beside2 * p1;
+    p2 *= beside2;
+    const p3 = both * SUM11 - p1;
+    q1 = along2 * SUM12 + beside2 * q1;
+    q2 *= beside2;
+    const q3 = both * SUM12 - q1;
+    r1 = along2 * SUM22 + beside2 * r1;
+    r2 *= beside2;
+    const r3 = both * SUM22 - r1;
     // a₂ eliminated: (P − Q R⁻¹ Q) a₁ = b − Q R⁻¹ c, with G = Q R⁻¹.
     const det = 1 / (r1 * r3 - r2 * r2);
     const g11 = (q1 * r3 - q2 * r2) * det;
@@ -137,11 +150,25 @@ export class SteadyPiece {
     for (let s = 0; s < 2 * LOOKS; s++) {
       const f = PHI1[s]!;
       const g = PHI2[s]!;
-      const off = Math.abs(nx[s]! * (rx[s]! - a1x * f - a2x * g) + ny[s]! * (ry[s]! - a1y * f - a2y * g));
+      const off = Math.abs(nr[s]! - nx[s]! * (a1x * f + a2x * g) - ny[s]! * (a1y * f + a2y * g));
       if (!(off <= beside)) beside = off;
     }
     this.ax = a1x / (h * h);
     this.ay = a1y / (h * h);
     this.beside = beside;
+  }
+
+  /** How far to the left of the line the pen is in the middle of the piece that was solved last, about, if (ax, ay) is its acceleration. */
+  leftHalfway(h: number, ax: number, ay: number): number {
+    return (this.left(0, h, ax, ay) + this.left(1, h, ax, ay)) / 2;
+  }
+
+  /** And at its end. */
+  leftAtEnd(h: number, ax: number, ay: number): number {
+    return this.left(LOOKS - 1, h, ax, ay);
+  }
+
+  private left(look: number, h: number, ax: number, ay: number): number {
+    return h * h * PHI1[look]! * (this.nx[look]! * ax + this.ny[look]! * ay) - this.nr[look]!;
   }
 }
