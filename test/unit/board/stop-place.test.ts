@@ -1,0 +1,57 @@
+import { describe, expect, it } from "vitest";
+import { commandLine, compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
+import { placeOfStop } from "../../../src/board/stop-place.js";
+import { firmwareFeatures } from "../../../src/ebb/firmware.js";
+import { waitingCount } from "../../../src/ebb/replies.js";
+import { strokeSetOf, type Point } from "../../support/arbitraries.js";
+import { seeded } from "../../support/live-plot.js";
+
+const machine = machineById("axidraw-v3");
+/** The same line again and again: its steps are passed ten times, once in every 0.45 s. */
+const AGAIN = strokeSetOf([Array.from({ length: 11 }, (_, i): Point => [20 + 15 * (i % 2), 30])]);
+/** How far the host's picture of the board's time may be off. */
+const OFF_S = 0.2;
+
+describe("the place of an emergency stop", () => {
+  it.each(["2.5.3", "3.0.3"])(
+    "is told by what waited, however late the host believes it to be, on %s",
+    (firmware) => {
+      const features = firmwareFeatures(firmware);
+      const trajectory = plan(AGAIN, { ...DEFAULT_MOTION, mode: "junction" }, DEFAULT_PEN);
+      const stream = compile(trajectory, { machine, firmware, pen: DEFAULT_PEN });
+      const all = Array.from({ length: stream.count }, (_, index) => ({
+        ...{ number: index, stream, index, startS: stream.boardS[index]!, endS: stream.boardS[index + 1]! },
+      }));
+      const random = seeded(5);
+      for (let i = 1; i < stream.count; i++) {
+        if (!/^(LM|LT)/.test(commandLine(stream, i))) continue;
+        // Over just now: then its counters are known.
+        const waiting = Math.min(3, stream.count - 1 - i);
+        const found = placeOfStop(
+          {
+            commands: all.slice(Math.max(0, i - 20), i + 1 + waiting),
+            waitingCount: waiting,
+            stepsLeft: features.stopReplyValues === 1 ? null : [0, 0],
+            boardS: stream.boardS[i + 1]! + OFF_S * (2 * random() - 1),
+          },
+          features,
+          stream.steps1[i]!,
+          stream.steps2[i]!,
+        );
+        expect(found!.commandIndex).toBeGreaterThanOrEqual(i);
+        expect(found!.commandIndex).toBeLessThanOrEqual(i + 1);
+      }
+    },
+  );
+
+  it.each([
+    ["QU,6", "6,12", 12],
+    ["QU,6", "12", 12],
+    ["QG", "2F", 1],
+    ["QG", "2E", 0],
+    ["QM", "1,1,0,1", 1],
+    ["QM", "1,1,0", null],
+  ])("hears from %s, answered by %s, how many commands wait", (line, reply, count) => {
+    expect(waitingCount(line, reply)).toBe(count);
+  });
+});
