@@ -1,9 +1,16 @@
 /**
  * Planning against a floor: a bare two-pass loop that writes the same blocks into arrays that exist
  * already. The floor gets for nothing what planning must find out (lengths, directions, corner limits),
- * so a ratio says what all the rest costs: corners, counting, growing, runs. Times are processor time, the best of
- * several taken in turns, so that what else the machine does matters less.
+ * so a ratio says what all the rest costs: corners, counting, growing, runs.
+ *
+ * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so the floor is run before
+ * and after each plan, and a plan's ratio is its time over their mean; the median over the rounds is what counts. What a plan
+ * leaves behind is collected before the next one starts, and counts for neither; what it throws away while it runs counts. With
+ * that, V8 throws away the compiled code whose objects are gone: a smaller plan has it made again.
  */
+import { setTimeout as delay } from "node:timers/promises";
+import { setFlagsFromString } from "node:v8";
+import { runInNewContext } from "node:vm";
 import {
   DEFAULT_FIT,
   DEFAULT_MOTION,
@@ -17,38 +24,45 @@ import {
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 
+const ROUNDS = 7;
 const REPEATS = 5;
 
 export default async function planBench(report: Report): Promise<void> {
   const drawing = scribble(1_000_000, 1_000);
+  const smaller = scribble(100_000, 100);
   const floor = prepareFloor(drawing);
   const motions: readonly (readonly [string, MotionSettings])[] = [
     ...MOTION_MODES.map((mode) => [mode, { ...DEFAULT_MOTION, mode, fit: null }] as const),
     ["blend, fitted", { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }],
   ];
   const planned = new Map<string, Pick<Trajectory, "blockCount"> & { readonly bytes: number }>();
-  const [floorMs, ...times] = best([
+  const { floorMs, measured } = await inTurns(
     () => bareLoop(floor),
-    ...motions.map(([what, motion]) => () => {
-      const trajectory = plan(drawing, motion, DEFAULT_PEN);
-      planned.set(what, { blockCount: trajectory.blockCount, bytes: bytesOf(trajectory) });
-    }),
-  ]);
+    motions.map(([what, motion]) => ({
+      warmUp: () => plan(smaller, motion, DEFAULT_PEN),
+      run: () => {
+        const trajectory = plan(drawing, motion, DEFAULT_PEN);
+        planned.set(what, { blockCount: trajectory.blockCount, bytes: bytesOf(trajectory) });
+      },
+    })),
+  );
   report("Planning one million segments (1 000 strokes), one thread", [
     {
       what: "bare two-pass loop",
-      "processor ms": Math.round(floorMs!),
+      "processor ms": Math.round(floorMs),
       ratio: 1,
+      "least to greatest": "",
       blocks: floor.count,
       "bytes/block": "",
     },
     ...motions.map(([what], i) => {
       const { blockCount, bytes } = planned.get(what)!;
-      const ms = times[i]!;
+      const { ms, ratios } = measured[i]!;
       return {
         what,
-        "processor ms": Math.round(ms),
-        ratio: Number((ms / floorMs!).toFixed(2)),
+        "processor ms": Math.round(median(ms)),
+        ratio: Number(median(ratios).toFixed(2)),
+        "least to greatest": `${Math.min(...ratios).toFixed(1)} to ${Math.max(...ratios).toFixed(1)}`,
         blocks: blockCount,
         "bytes/block": Math.round(bytes / blockCount),
       };
@@ -84,16 +98,55 @@ function bytesOf(t: Trajectory): number {
   return columns.reduce((sum, column) => sum + (column ? column.byteLength : 0), 0);
 }
 
+interface Measured {
+  /** Of each round: processor ms, and how many times as long as the floor just then. */
+  readonly ms: number[];
+  readonly ratios: number[];
+}
+
+/** Runs the floor, the first plan, the floor, the second one … in every round; the first round is not counted. */
+async function inTurns(
+  floor: () => void,
+  plans: readonly { readonly warmUp: () => void; readonly run: () => void }[],
+): Promise<{ floorMs: number; measured: readonly Measured[] }> {
+  setFlagsFromString("--expose-gc");
+  const collect = runInNewContext("gc") as () => void;
+  const measured = plans.map((): Measured => ({ ms: [], ratios: [] }));
+  const floors: number[] = [];
+  for (let round = 0; round <= ROUNDS; round++) {
+    for (const [i, { warmUp, run }] of plans.entries()) {
+      collect();
+      warmUp();
+      // Other threads compile, and give memory back, a little later.
+      await delay(50);
+      const before = processorMs(floor);
+      const ms = processorMs(run);
+      const after = processorMs(floor);
+      if (round === 0) continue;
+      measured[i]!.ms.push(ms);
+      measured[i]!.ratios.push((2 * ms) / (before + after));
+      floors.push(before, after);
+    }
+  }
+  return { floorMs: median(floors), measured };
+}
+
+function processorMs(run: () => unknown): number {
+  const start = process.cpuUsage();
+  run();
+  const { user, system } = process.cpuUsage(start);
+  return (user + system) / 1000;
+}
+
+function median(values: readonly number[]): number {
+  return [...values].sort((a, b) => a - b)[values.length >> 1]!;
+}
+
 /** Processor ms of each, the least of REPEATS; all of them in turns. */
 function best(runs: readonly (() => unknown)[]): number[] {
   const ms = runs.map(() => Infinity);
   for (let round = 0; round < REPEATS; round++) {
-    runs.forEach((run, i) => {
-      const start = process.cpuUsage();
-      run();
-      const { user, system } = process.cpuUsage(start);
-      ms[i] = Math.min(ms[i]!, (user + system) / 1000);
-    });
+    runs.forEach((run, i) => (ms[i] = Math.min(ms[i]!, processorMs(run))));
   }
   return ms;
 }
