@@ -7,29 +7,10 @@
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./declared.js";
 import type { Look } from "./drawing-builder.js";
+import { OUTLINE_ATTRIBUTES } from "./outline-attributes.js";
 import type { Paint } from "./style.js";
 import type { Context } from "./svg-context.js";
-import { attribute, type SvgTree } from "./svg-tree.js";
-
-/** What may differ: where a shape is, and what it is called. */
-const OUTLINE = new Set([
-  "id",
-  "d",
-  "points",
-  "x",
-  "y",
-  "width",
-  "height",
-  "cx",
-  "cy",
-  "r",
-  "rx",
-  "ry",
-  "x1",
-  "y1",
-  "x2",
-  "y2",
-]);
+import { attribute, OWN_STRING, type SvgTree } from "./svg-tree.js";
 
 /** How a shape was drawn. */
 export interface Drawn {
@@ -57,7 +38,7 @@ export class AlikeShapes {
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
   ) {
-    this.isOutline = Uint8Array.from(tree.names, (name) => (OUTLINE.has(name) ? 1 : 0));
+    this.isOutline = Uint8Array.from(tree.names, (name) => (OUTLINE_ATTRIBUTES.has(name) ? 1 : 0));
   }
 
   /** Makes it the model, if others that say the same are drawn in the same way, and without a warning. */
@@ -86,20 +67,42 @@ export class AlikeShapes {
 
   /** The model, if `element` is like it; else null. */
   modelOf(element: number, outer: Context): Model | null {
-    const { model, tree, isOutline } = this;
-    if (model === null || model.outer !== outer) return null;
+    const { model } = this;
+    return model !== null && model.outer === outer && this.isLike(element, model.element) ? model : null;
+  }
+
+  /**
+   * How many paths from `element` on, which is like the model, one right after the other, are like it too, and drawn without
+   * clip. Where their data stands in the text is written into `places`. No more than `most` are looked at.
+   */
+  pathsLike(model: Model, element: number, places: Uint32Array, most: number): number {
+    const { tree } = this;
+    if (model.pathAt < 0 || model.context.clip !== null) return 0;
+    const { attributeOffsets, nextSiblings, values } = tree;
+    let count = 0;
+    for (let e = element; count < most && (e === element || this.isLike(e, model.element)); e++) {
+      const place = values.places[attributeOffsets[e] + model.pathAt];
+      if (place >= OWN_STRING) break;
+      places[count++] = place;
+      if (nextSiblings[e] !== e + 1) break;
+    }
+    return count;
+  }
+
+  private isLike(element: number, other: number): boolean {
+    const { tree, isOutline } = this;
     const { attributeOffsets, attributeNames, values } = tree;
-    const other = model.element;
-    if (tree.tags[element] !== tree.tags[other] || tree.parents[element] !== tree.parents[other]) return null;
+    if (tree.tags[element] !== tree.tags[other] || tree.parents[element] !== tree.parents[other])
+      return false;
     const end = attributeOffsets[element + 1];
     const ahead = attributeOffsets[element] - attributeOffsets[other];
-    if (end - ahead !== attributeOffsets[other + 1]) return null;
+    if (end - ahead !== attributeOffsets[other + 1]) return false;
     for (let i = attributeOffsets[element]; i < end; i++) {
       const name = attributeNames[i];
-      if (name !== attributeNames[i - ahead]) return null;
-      if (isOutline[name] === 0 && values.places[i] !== values.places[i - ahead]) return null;
+      if (name !== attributeNames[i - ahead]) return false;
+      if (isOutline[name] === 0 && values.places[i] !== values.places[i - ahead]) return false;
     }
-    return model;
+    return true;
   }
 }
 

@@ -2,6 +2,8 @@
 import {
   RULE_EVENODD,
   RULE_NONZERO,
+  VERB_LINE,
+  VERB_MOVE,
   type ClipRegion,
   type DashPattern,
   type Drawing,
@@ -93,7 +95,7 @@ export class DrawingBuilder {
     for (let i = 0; i < count; i++) verbs.data[verbs.length + i] = shape.verbs.data[i];
     verbs.length += count;
     if (look !== this.look) this.takeLook(look);
-    shapes.reserve();
+    shapes.reserve(1);
     const i = shapes.count++;
     shapes.verbOffsets[i + 1] = verbs.length;
     shapes.coordOffsets[i + 1] = coords.length;
@@ -105,6 +107,60 @@ export class DrawingBuilder {
     shapes.dash[i] = this.lookDash;
     shapes.clip[i] = clip === null ? -1 : clipIndexFor(clip, this.boxOfShapes(i, i + 1), this.clips);
     return true;
+  }
+
+  /**
+   * Adds polylines as shapes of one look, mapped to page mm: the numbers of the i-th one end at ends[i] in `from`. Answers
+   * how many: up to one that is out of range.
+   */
+  addPolylines(
+    from: Float64Array,
+    ends: Uint32Array,
+    count: number,
+    map: Affine,
+    look: Look,
+    group: number,
+  ): number {
+    if (count === 0) return 0;
+    const { coords, verbs, shapes } = this;
+    coords.reserve(ends[count - 1]);
+    shapes.reserve(count);
+    if (look !== this.look) this.takeLook(look);
+    const { data } = coords;
+    const { verbOffsets, coordOffsets } = shapes;
+    const { a, b, c, d, e, f } = map;
+    const first = shapes.count;
+    const shift = coords.length;
+    const verbShift = verbs.length - shift / 2;
+    let added = 0;
+    for (let k = 0; added < count; added++) {
+      const end = ends[added];
+      for (; k < end; k += 2) {
+        const x = a * from[k] + c * from[k + 1] + e;
+        const y = b * from[k] + d * from[k + 1] + f;
+        data[shift + k] = x;
+        data[shift + k + 1] = y;
+        // Written so that NaN is out of range.
+        if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) break;
+      }
+      if (k < end) break;
+      coordOffsets[first + added + 1] = coords.length = shift + end;
+      verbOffsets[first + added + 1] = verbShift + coords.length / 2;
+    }
+    const verbCount = (coords.length - shift) / 2;
+    verbs.reserve(verbCount);
+    verbs.data.fill(VERB_LINE, verbs.length, verbs.length + verbCount);
+    for (let i = first; i < first + added; i++) verbs.data[verbOffsets[i]] = VERB_MOVE;
+    verbs.length += verbCount;
+    shapes.count += added;
+    shapes.group.fill(group, first, shapes.count);
+    shapes.stroke.fill(this.lookStroke, first, shapes.count);
+    shapes.fill.fill(this.lookFill, first, shapes.count);
+    shapes.fillRule.fill(look.evenOdd ? RULE_EVENODD : RULE_NONZERO, first, shapes.count);
+    shapes.strokeWidth.fill(look.strokeWidth, first, shapes.count);
+    shapes.dash.fill(this.lookDash, first, shapes.count);
+    shapes.clip.fill(-1, first, shapes.count);
+    return added;
   }
 
   /** The box of shapes [from, to). */

@@ -6,7 +6,7 @@
  * division by a power of ten gives the correctly rounded double (Clinger 1990); the rest goes
  * through Number().
  */
-import { VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
+import type { PointBuffer } from "../geometry/growable.js";
 import { drawSvgArc } from "./arc.js";
 import { ShapeBuffer } from "./shape-buffer.js";
 
@@ -133,68 +133,76 @@ for (const [letter, count] of Object.entries(ARGUMENTS)) {
 }
 
 /**
- * As `drawPathData` into an empty `shape`, for the path data of which large files are full: one polyline, its numbers
- * without exponents. It is read where it stands in the file's `text`, from `at` up to a quote like the one before it, in
- * one loop: in a first import, before anything is compiled, it is calls that cost.
+ * Reads path data of which large files are full: one polyline, its numbers without exponents. Many are read where they
+ * stand in the file's `text`, each from one of the first `count` of `places` up to a quote like the one before it, in one
+ * loop: in a first import, before anything is compiled, it is calls that cost.
  *
- * False where the data is anything else; what is in `shape` then means nothing.
+ * Writes the numbers into `coords` from its beginning on, and into `ends` where those of each polyline end. Answers how
+ * many it has read: up to data that is anything else, or until there are `most` numbers or more.
  */
-export function drawPlainPolyline(shape: ShapeBuffer, text: string, at: number): boolean {
-  const quote = text.charCodeAt(at - 1);
-  const { verbs, coords } = shape;
+export function readPolylines(
+  coords: PointBuffer,
+  ends: Uint32Array,
+  text: string,
+  places: Uint32Array,
+  count: number,
+  most: number,
+): number {
   let { data } = coords;
   let n = 0;
-  let c = text.charCodeAt(at);
-  if ((c | 32) !== 109) return false;
-  let relative = c === 109;
-  c = text.charCodeAt(++at);
-  for (;;) {
-    while (c === 32) c = text.charCodeAt(++at);
-    const negative = c === 45;
-    if (negative || c === 43) c = text.charCodeAt(++at);
-    let mantissa = 0;
-    let first = at;
-    while (c >= 48 && c <= 57) {
-      mantissa = mantissa * 10 + (c - 48);
-      c = text.charCodeAt(++at);
-    }
-    let digits = at - first;
-    let decimals = 0;
-    if (c === 46) {
-      first = at + 1;
-      c = text.charCodeAt(++at);
+  for (let i = 0; i < count; i++) {
+    if (n >= most) return i;
+    const start = n;
+    let at = places[i];
+    const quote = text.charCodeAt(at - 1);
+    let c = text.charCodeAt(at);
+    if ((c | 32) !== 109) return i;
+    let relative = c === 109;
+    c = text.charCodeAt(++at);
+    for (;;) {
+      while (c === 32) c = text.charCodeAt(++at);
+      const negative = c === 45;
+      if (negative || c === 43) c = text.charCodeAt(++at);
+      let mantissa = 0;
+      let first = at;
       while (c >= 48 && c <= 57) {
         mantissa = mantissa * 10 + (c - 48);
         c = text.charCodeAt(++at);
       }
-      decimals = at - first;
-      digits += decimals;
+      let digits = at - first;
+      let decimals = 0;
+      if (c === 46) {
+        first = at + 1;
+        c = text.charCodeAt(++at);
+        while (c >= 48 && c <= 57) {
+          mantissa = mantissa * 10 + (c - 48);
+          c = text.charCodeAt(++at);
+        }
+        decimals = at - first;
+        digits += decimals;
+      }
+      if (digits === 0 || mantissa >= MAX_EXACT || decimals > 22 || (c | 32) === 101) return i;
+      if (n === data.length) {
+        coords.length = n;
+        coords.reserve(n);
+        data = coords.data;
+      }
+      const value = (negative ? -mantissa : mantissa) / POWERS[decimals];
+      data[n] = value + (relative && n - start >= 2 ? data[n - 2] : 0);
+      n++;
+      while (c === 32) c = text.charCodeAt(++at);
+      if (c === 44) c = text.charCodeAt(++at);
+      else if ((n & 1) === 0) {
+        if (c === quote) break;
+        if ((c | 32) !== 108) continue;
+        relative = c === 108;
+        c = text.charCodeAt(++at);
+      }
     }
-    if (digits === 0 || mantissa >= MAX_EXACT || decimals > 22 || (c | 32) === 101) return false;
-    if (n === data.length) {
-      coords.length = n;
-      coords.reserve(n);
-      data = coords.data;
-    }
-    const value = (negative ? -mantissa : mantissa) / POWERS[decimals];
-    data[n] = value + (relative && n >= 2 ? data[n - 2] : 0);
-    n++;
-    while (c === 32) c = text.charCodeAt(++at);
-    if (c === 44) c = text.charCodeAt(++at);
-    else if ((n & 1) === 0) {
-      if (c === quote) break;
-      if ((c | 32) !== 108) continue;
-      relative = c === 108;
-      c = text.charCodeAt(++at);
-    }
+    if (n - start < 4) return i;
+    ends[i] = n;
   }
-  if (n < 4) return false;
-  coords.length = n;
-  verbs.reserve(n / 2);
-  verbs.data.fill(VERB_LINE, 0, n / 2);
-  verbs.data[0] = VERB_MOVE;
-  verbs.length = n / 2;
-  return true;
+  return count;
 }
 
 class PathDataReader {

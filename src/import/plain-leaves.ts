@@ -7,9 +7,13 @@
  *                                      value  end gap
  *
  * What stands around the values is compared with that of the leaf before; only where it differs the tag is taken apart.
+ * Where leaves follow that differ from one another in the same values only, each of these and what stands between it and
+ * the next one is one search for a pattern (`readRun`).
  * Whatever is not plain (entities, line ends in values, other characters than ASCII's, content, faults) is left to the
  * parser, with every judgement about it.
  */
+import { grown } from "../geometry/growable.js";
+import { OUTLINE_ATTRIBUTES } from "./outline-attributes.js";
 
 /** How a leaf is written, apart from what its attributes say. */
 export interface LeafForm {
@@ -28,18 +32,37 @@ const NAME = /<([A-Za-z][\w.-]*)/y;
 const ATTRIBUTE = /[ \n\t]+([A-Za-z_][\w.:-]*)=(["'])/y;
 const END = /[ \n\t]*\/>/y;
 const BLANKS = /[ \n\t]*/y;
+/** What a value may hold that is read as it stands, by the quote around it. */
+const PLAIN_VALUE: Readonly<Record<string, string>> = { '"': "[ !#-%'-;=-~]*", "'": "[ -%(-;=-~]*" };
+const SPECIAL = /[\\^$.*+?()[\]{}|/]/g;
 /** Characters looked through at a time. */
 const LOOK_AHEAD = 1 << 16;
 /** Longer values are hardly written twice. */
 const LONGEST_REPEATED = 64;
+/** Runs longer than this are worth the search for them; after others nobody looks for the next so many leaves at most. */
+const LONG_RUN = 8;
+const LONGEST_WAIT = 500;
 
 export class PlainLeaves {
   /** Of the leaf read last. */
   form: LeafForm | null = null;
   /** Where its values stand; one that the leaf before had too stands where it stood there. */
   readonly places: number[] = [];
-  /** Line ends in what was read last. */
+  /** Line ends in what was read last; of a run in each leaf. */
   lines = 0;
+  /** Which values of the leaf read last were others than those of the leaf before, the first ones of `differing`. */
+  private readonly differing: number[] = [];
+  private differingCount = 0;
+  /** Whether that was of the same form. */
+  private isAgain = false;
+  /** After `readRun`: which values are others in each leaf, and where these stand, leaf by leaf. */
+  changed: readonly number[] = [];
+  runPlaces = new Uint32Array(256);
+  /** Where the run ends. */
+  runEnd = 0;
+  /** So many leaves are to be read before a run is looked for, and were the last time. */
+  private wait = 0;
+  private lastWait = 0;
   /** The values read last, with the quotes after them; "" for what is too long to be kept. */
   private readonly values: string[] = [];
   private gap = "";
@@ -67,6 +90,7 @@ export class PlainLeaves {
     if (next < 0 || !this.isPlain(at, next)) return -1;
     let { form } = this;
     let end = form === null ? -1 : this.readAs(form, at, next);
+    this.isAgain = end >= 0;
     if (form === null || end < 0) {
       form = formAt(this.text, at);
       if (form === null) return -1;
@@ -81,6 +105,62 @@ export class PlainLeaves {
     return next;
   }
 
+  /**
+   * Reads as many leaves as follow at `at` that are like the one just read, from `from` to there, in all but the values in
+   * which that differs from the one before it, about up to `limit`. Answers how many.
+   */
+  readRun(from: number, at: number, limit: number): number {
+    if (this.wait-- > 0 || !this.mayRun()) return 0;
+    const changed = (this.changed = this.differing.slice(0, this.differingCount));
+    const { text, places } = this;
+    const many = changed.length;
+    const head = text.slice(from, places[changed[0]]);
+    if (!text.startsWith(head, at)) return 0;
+    const patterns = this.runPatterns(at, head);
+    let { runPlaces } = this;
+    let count = 0;
+    let n = 0;
+    for (let end = at + head.length; at < limit; count++) {
+      if (n + many > runPlaces.length) runPlaces = this.runPlaces = grown(runPlaces);
+      let k = 0;
+      for (; k < many; k++) {
+        const pattern = patterns[k];
+        runPlaces[n + k] = end;
+        pattern.lastIndex = end;
+        if (!pattern.test(text)) break;
+        end = pattern.lastIndex;
+      }
+      if (k < many) break;
+      n += many;
+      at = end - head.length;
+    }
+    this.runEnd = at;
+    this.wait = this.lastWait = count > LONG_RUN ? 0 : Math.min(2 * this.lastWait + 1, LONGEST_WAIT);
+    return count;
+  }
+
+  /** Whether others like the leaf read last may differ from it as it does from the one before. */
+  private mayRun(): boolean {
+    const { differing, differingCount, form } = this;
+    if (!this.isAgain || form === null || differingCount === 0) return false;
+    for (let k = 0; k < differingCount; k++) {
+      if (!OUTLINE_ATTRIBUTES.has(form.names[differing[k]])) return false;
+    }
+    return true;
+  }
+
+  /** Each value of `changed` and what stands behind it up to the next of them, in the leaf that ends at `at`. */
+  private runPatterns(at: number, head: string): RegExp[] {
+    const { text, changed, places } = this;
+    return changed.map((value, k) => {
+      const quote = text[places[value] - 1];
+      const end = text.indexOf(quote, places[value]);
+      const rest =
+        k + 1 < changed.length ? text.slice(end, places[changed[k + 1]]) : text.slice(end, at) + head;
+      return new RegExp(PLAIN_VALUE[quote] + rest.replace(SPECIAL, "\\$&"), "y");
+    });
+  }
+
   private isPlain(from: number, to: number): boolean {
     if (to > this.plainEnd && !(this.isOddThere && from <= this.plainEnd)) {
       const part = this.text.slice(from, Math.max(to, from + LOOK_AHEAD));
@@ -93,8 +173,9 @@ export class PlainLeaves {
 
   /** Where the tag ends; −1 where it is of another form or goes on beyond `next`. */
   private readAs({ heads }: LeafForm, at: number, next: number): number {
-    const { text, places, values } = this;
+    const { text, places, values, differing } = this;
     const count = heads.length - 1;
+    this.differingCount = 0;
     for (let i = 0; i < count; i++) {
       const head = heads[i];
       if (!text.startsWith(head, at)) return -1;
@@ -107,6 +188,7 @@ export class PlainLeaves {
       const end = text.indexOf(head[head.length - 1], at);
       if (end < 0 || end > next || this.hasBreak(at, end)) return -1;
       places[i] = at;
+      differing[this.differingCount++] = i;
       values[i] = end - at < LONGEST_REPEATED ? text.slice(at, end + 1) : "";
       at = end;
     }

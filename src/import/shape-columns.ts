@@ -14,9 +14,12 @@ export class ShapeColumns {
   dash = new Int32Array(256);
   clip = new Int32Array(256);
 
-  /** Makes room for one more shape: its numbers go to `count`, and its ends, among the offsets, behind that. */
-  reserve(): void {
-    if (this.count + 1 < this.group.length) return;
+  /** Makes room for so many more shapes: their numbers go to `count`, and their ends, among the offsets, behind that. */
+  reserve(shapes: number): void {
+    while (this.count + shapes >= this.group.length) this.grow();
+  }
+
+  private grow(): void {
     this.verbOffsets = grown(this.verbOffsets);
     this.coordOffsets = grown(this.coordOffsets);
     this.group = grown(this.group);

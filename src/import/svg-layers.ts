@@ -89,7 +89,10 @@ function wrapperIn(tree: SvgTree, parent: number): number {
 function groupsIn(tree: SvgTree, parent: number): number[] {
   const groups: number[] = [];
   const group = tree.names.indexOf("g");
-  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
+  const first = tree.firstChildren[parent];
+  // Mostly there is none among thousands.
+  const isAny = first >= 0 && tree.tags.subarray(first, tree.count).includes(group);
+  for (let child = isAny ? first : -1; child >= 0; child = tree.nextSiblings[child]) {
     if (tree.tags[child] === group) groups.push(child);
   }
   return groups;

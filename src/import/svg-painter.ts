@@ -8,7 +8,7 @@ import type { Cascade } from "./cascade.js";
 import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "./drawing-builder.js";
 import { lengthPx } from "./length.js";
-import { drawPathData, drawPlainPolyline } from "./path-data.js";
+import { drawPathData, readPolylines } from "./path-data.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
@@ -17,7 +17,7 @@ import { placeText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "./text-font.js";
-import { attribute, OWN_STRING, type SvgTree } from "./svg-tree.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "./warnings.js";
 
@@ -26,6 +26,7 @@ export class SvgPainter {
   private element = 0;
   private readonly where = (): string => this.geometry.whereOf(this.element);
   private readonly textPaths: SvgTextPaths;
+  private polylineEnds = new Uint32Array(0);
 
   constructor(
     private readonly tree: SvgTree,
@@ -64,17 +65,16 @@ export class SvgPainter {
     return look;
   }
 
-  /** A path like `model`, if it is a plain polyline; else false, and nothing is drawn. */
-  drawPlainPath(element: number, { pathAt, context, look }: Model): boolean {
-    if (pathAt < 0) return false;
-    const { attributeOffsets, values } = this.tree;
-    const place = values.places[attributeOffsets[element] + pathAt];
-    const { shape } = this.geometry;
-    shape.clear();
-    if (place >= OWN_STRING || !drawPlainPolyline(shape, values.text, place)) return false;
-    this.element = element;
-    this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
-    return true;
+  /**
+   * Paths like `model`, the data of which stands at the first `count` of `places`. Answers how many it has drawn: up to one
+   * that is no plain polyline or out of range, or until there are `most` numbers or more.
+   */
+  drawPolylines({ context, look }: Model, places: Uint32Array, count: number, most: number): number {
+    const { coords } = this.geometry.shape;
+    if (this.polylineEnds.length < count) this.polylineEnds = new Uint32Array(count);
+    const ends = this.polylineEnds;
+    const read = readPolylines(coords, ends, this.tree.values.text, places, count, most);
+    return this.builder.addPolylines(coords.data, ends, read, context.map, look, context.group);
   }
 
   /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */

@@ -206,7 +206,10 @@ class TreeBuilder {
       if (next < 0) break;
       this.addLeaf(line);
       line += leaves.lines;
-      end = next;
+      const alike = this.leafTag < 0 ? 0 : leaves.readRun(end, next, limit);
+      if (alike > 0) this.addLeavesLike(alike);
+      line += alike * leaves.lines;
+      end = alike > 0 ? leaves.runEnd : next;
       count++;
     }
     if (count === 0) {
@@ -313,6 +316,26 @@ class TreeBuilder {
       if (names[i] < 0) continue;
       attributes.add(names[i], places[i]);
       if (form.names[i] === "id") this.addId(attributeAt(this.text, places[i]), element);
+    }
+  }
+
+  /** As many leaves as that, like the last one but for the places of some values: `leaves` has read them. */
+  private addLeavesLike(count: number): void {
+    const { elements, attributes, leaves, lastChildren, leafNames } = this;
+    const last = elements.count - 1;
+    const each = attributes.count - elements.attributeOffsets[last];
+    // By value: which of the kept ones it is.
+    let kept = 0;
+    const numbers = leafNames.map((name) => (name < 0 ? -1 : kept++));
+    const changed = leaves.changed.map((value) => numbers[value]);
+    elements.addLike(last, count, each, attributes.count, leaves.lines);
+    attributes.addLike(count, each, changed, leaves.runPlaces);
+    lastChildren[lastChildren.length - 1] = elements.count - 1;
+    const id = (leaves.form as LeafForm).names.indexOf("id");
+    if (id < 0 || !leaves.changed.includes(id)) return;
+    for (let element = last + 1; element < elements.count; element++) {
+      const at = attributes.places[attributes.count - (elements.count - element) * each + numbers[id]];
+      this.addId(attributeAt(this.text, at), element);
     }
   }
 

@@ -7,7 +7,7 @@
  */
 import { PlotwrightError } from "../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../geometry/affine.js";
-import { AlikeShapes } from "./alike-shapes.js";
+import { AlikeShapes, type Model } from "./alike-shapes.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -32,6 +32,8 @@ const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
 const ELEMENTS_PER_YIELD = 1000;
 const COORDS_PER_YIELD = 100_000;
+/** As many as stay in the processor's cache. */
+const COORDS_AT_ONCE = 8_000;
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
 const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
@@ -71,6 +73,7 @@ export class SvgWalk {
   private readonly markers: SvgMarkers;
   private readonly alike: AlikeShapes;
   private subtreeEnds: Uint32Array | null = null;
+  private atOnce = 1;
 
   constructor(
     private readonly tree: SvgTree,
@@ -91,6 +94,7 @@ export class SvgWalk {
   *run(rootContext: Context): Generator<void, void> {
     const { tree, stack } = this;
     this.push(rootContext, tree.firstChildren[0], false, null);
+    const places = new Uint32Array(ELEMENTS_PER_YIELD);
     let visited = 0;
     let coordsAtYield = 0;
     while (stack.length > 0) {
@@ -101,15 +105,27 @@ export class SvgWalk {
         this.leave(frame);
         continue;
       }
-      frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
-      this.visit(element, frame.context);
-      visited++;
-      if (visited % ELEMENTS_PER_YIELD === 0 || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+      const model = this.alike.modelOf(element, frame.context);
+      const drawn = model === null || frame.isSingle ? 0 : this.drawPolylines(element, model, places);
+      frame.next = frame.isSingle ? -1 : tree.nextSiblings[Math.max(element, element + drawn - 1)];
+      if (drawn === 0) this.visit(element, frame.context, model);
+      visited += Math.max(drawn, 1);
+      if (visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+        visited = 0;
         coordsAtYield = this.builder.coordCount;
         this.builder.progress = element / tree.count;
         yield;
       }
     }
+  }
+
+  /** As many paths like the model from `element` on, which is, as are plain polylines: answers how many. */
+  private drawPolylines(element: number, model: Model, places: Uint32Array): number {
+    const count = this.alike.pathsLike(model, element, places, Math.min(this.atOnce, places.length));
+    const drawn = count === 0 ? 0 : this.painter.drawPolylines(model, places, count, COORDS_AT_ONCE);
+    // Where such paths are few, not many are looked at in vain.
+    this.atOnce = Math.max(1, drawn < count ? drawn : 2 * count);
+    return drawn;
   }
 
   private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
@@ -123,14 +139,10 @@ export class SvgWalk {
     this.warnings.add(frame.warning, builder.boxOfShapes(frame.firstShape, builder.shapeCount));
   }
 
-  private visit(element: number, outer: Context): void {
-    const model = this.alike.modelOf(element, outer);
-    if (model !== null) {
-      if (this.painter.drawPlainPath(element, model)) return;
-      // `declared` still is the model's.
-      this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
-      return;
-    }
+  private visit(element: number, outer: Context, model: Model | null): void {
+    // `declared` still is the model's.
+    if (model)
+      return void this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
     this.alike.model = null;
     const tag = tagOf(this.tree, element);
     if (tag === TEXT_NODE) return;

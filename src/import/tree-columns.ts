@@ -27,6 +27,33 @@ export class ElementColumns {
     return element;
   }
 
+  /** Adds `count` younger siblings of element `before`, which has none, like it in all, each so many lines further down. */
+  addLike(
+    before: number,
+    count: number,
+    attributesEach: number,
+    attributesFrom: number,
+    linesEach: number,
+  ): void {
+    const first = this.count;
+    const end = first + count;
+    while (end >= this.tags.length) this.grow();
+    this.tags.fill(this.tags[before], first, end);
+    this.parents.fill(this.parents[before], first, end);
+    this.firstChildren.fill(-1, first, end);
+    const { nextSiblings, attributeOffsets, lines } = this;
+    let line = lines[before];
+    for (let k = 0; k < count; k++) {
+      const element = first + k;
+      nextSiblings[element] = element + 1;
+      attributeOffsets[element] = attributesFrom + k * attributesEach;
+      lines[element] = line += linesEach;
+    }
+    nextSiblings[before] = first;
+    nextSiblings[end - 1] = -1;
+    this.count = end;
+  }
+
   private grow(): void {
     this.tags = grown(this.tags);
     this.parents = grown(this.parents);
@@ -50,5 +77,32 @@ export class AttributeColumns {
     }
     this.names[i] = name;
     this.places[i] = place;
+  }
+
+  /**
+   * Adds `count` times the last `each` attributes. Of these, number `changed[k]` stands elsewhere each time: at the k-th of
+   * the next places, of which there are as many as in `changed` (negative ones among them are passed over).
+   */
+  addLike(count: number, each: number, changed: readonly number[], changedPlaces: Uint32Array): void {
+    const from = this.count;
+    this.count += count * each;
+    while (this.count > this.names.length) {
+      this.names = grown(this.names);
+      this.places = grown(this.places);
+    }
+    const { names, places } = this;
+    for (let i = from; i < this.count; i++) {
+      names[i] = names[i - each];
+      places[i] = places[i - each];
+    }
+    const many = changed.length;
+    for (let k = 0; k < many; k++) {
+      if (changed[k] < 0) continue;
+      let i = from + changed[k];
+      for (let n = k; n < count * many; n += many) {
+        places[i] = changedPlaces[n];
+        i += each;
+      }
+    }
   }
 }

@@ -3,7 +3,8 @@ import { describe, expect, it } from "vitest";
 import fc from "fast-check";
 import svgpath from "svgpath";
 import { PAIRS_OF_VERB, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../../src/drawing/drawing.js";
-import { drawPathData, drawPlainPolyline } from "../../../src/import/path-data.js";
+import { PointBuffer } from "../../../src/geometry/growable.js";
+import { drawPathData, readPolylines } from "../../../src/import/path-data.js";
 import { ShapeBuffer } from "../../../src/import/shape-buffer.js";
 
 const number = fc.double({ min: -500, max: 500, noNaN: true }).map((v) => Math.round(v * 1000) / 1000);
@@ -119,12 +120,19 @@ describe("path data", () => {
         fc.boolean(),
         (m, x, y, rest, isSpaced) => {
           const d = `${m}${x} ${y}${rest.join(isSpaced ? " " : "")}`;
-          const quick = new ShapeBuffer();
-          if (!drawPlainPolyline(quick, `'${d}'`, 1)) return;
+          const coords = new PointBuffer(1);
+          const ends = new Uint32Array(3);
+          const text = `'${d}' "m1,1-2-2" "${d}"`;
+          const places = Uint32Array.of(1, d.length + 4, d.length + 15);
+          const count = readPolylines(coords, ends, text, places, 3, Infinity);
+          expect(readPolylines(new PointBuffer(), ends, text, places, 3, 4)).toBe(Math.min(count, 1));
+          if (count === 0) return;
           plain++;
-          const shape = read(d);
-          expect([...quick.verbs.toArray()], d).toEqual([...shape.verbs.toArray()]);
-          expect([...quick.coords.toArray()], d).toEqual([...shape.coords.toArray()]);
+          const { verbs, coords: expected } = read(d);
+          expect(count, d).toBe(3);
+          expect([...verbs.toArray()], d).toEqual([VERB_MOVE, ...Array(ends[0]! / 2 - 1).fill(VERB_LINE)]);
+          const numbers = [...expected.toArray()];
+          expect([...coords.data.subarray(0, ends[2])], d).toEqual([...numbers, 1, 1, -1, -1, ...numbers]);
         },
       ),
       { numRuns: 3000 },
