@@ -20,8 +20,8 @@ describe("the place of an emergency stop", () => {
       const trajectory = plan(AGAIN, { ...DEFAULT_MOTION, mode: "junction" }, DEFAULT_PEN);
       const stream = compile(trajectory, { machine, firmware, pen: DEFAULT_PEN });
       const all = Array.from({ length: stream.count }, (_, index) => ({
-        writtenS: 0,
-        ...{ number: index, stream, index, startS: stream.boardS[index]!, endS: stream.boardS[index + 1]! },
+        ...{ number: index, stream, index, writtenS: 0 },
+        ...{ startS: stream.boardS[index]!, endS: stream.boardS[index + 1]! },
       }));
       const random = seeded(5);
       for (let i = 1; i < stream.count; i++) {
