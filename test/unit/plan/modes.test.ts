@@ -11,6 +11,7 @@ import {
   type PenSettings,
   type Trajectory,
 } from "../../../src/index.js";
+import { blockLength } from "../../../src/plan/trajectory.js";
 import { AXIDRAW_LIKE } from "../../support/machine.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { worstOf } from "../../support/trajectory-checks.js";
@@ -124,6 +125,31 @@ describe("corners", () => {
     const time = (mode: MotionMode) =>
       plan(strokeSetOf([corner]), { mode, draw, travel: draw }, DEFAULT_PEN).totalS;
     expect(time("scurve") / time("blend")).toBeCloseTo(1, 3);
+  });
+});
+
+describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, mode %s", (mode) => {
+  it("goes on without a gap or a jump of its place along the drawing from beginning to end", () => {
+    const points = Array.from({ length: 9_000 }, (_, i): Point => {
+      const u = i / 50;
+      return [30 + u, 20 + (i % 7 === 0 ? 0.3 : 0) + 3 * Math.sin(u)];
+    });
+    const strokes = strokeSetOf([points]);
+    const t = plan(strokes, { ...DEFAULT_MOTION, mode, fit: null }, DEFAULT_PEN);
+    const worst = worstOf(t, strokes, DEFAULT_MOTION.draw, DEFAULT_MOTION.travel, 0.025);
+    expect(worst.finite).toBe(true);
+    expect(worst.gap).toBeLessThan(1e-9);
+    expect(worst.velocityJump).toBeLessThan(1e-6);
+    expect(worst.distance).toBeLessThan(0.0251);
+    expect(worst.clock).toBeLessThan(1e-9);
+    const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
+    // A block stands for about as much of the drawing as it is long.
+    let most = 0;
+    for (let k = first; k + 1 < end; k++) {
+      const stands = t.alongMm[k + 1]! - t.alongMm[k]!;
+      most = Math.max(most, Math.abs(stands - blockLength(t, k, t.durationS[k]!)));
+    }
+    expect(most).toBeLessThan(0.1);
   });
 });
 
