@@ -77,11 +77,13 @@ export class FewerPieces {
     this.count = old - 1;
     this.places = 0;
     const { knot, middle, knotUx, knotUy, middleX, middleY, middleUx, middleUy } = notes;
+    const x0 = x[i]!;
+    const y0 = y[i]!;
     let t = 0;
     for (let p = i; p < end; p++) {
-      if (p > i) this.see(t, x[p]! - x[i]!, y[p]! - y[i]!, knotUx[p]!, knotUy[p]!, knot[p]!);
+      if (p > i) this.see(t, x[p]! - x0, y[p]! - y0, knotUx[p]!, knotUy[p]!, knot[p]!);
       const d = durationS[p]!;
-      this.see(t + d / 2, middleX[p]! - x[i]!, middleY[p]! - y[i]!, middleUx[p]!, middleUy[p]!, middle[p]!);
+      this.see(t + d / 2, middleX[p]! - x0, middleY[p]! - y0, middleUx[p]!, middleUy[p]!, middle[p]!);
       t += d;
     }
     this.oldS = t;
@@ -115,17 +117,19 @@ export class FewerPieces {
     if (!isWithin(wx - vx[0]!, wy - vy[0]!, accel * h1)) return Infinity;
     if (!isWithin(vx[2]! - wx, vy[2]! - wy, accel * h2)) return Infinity;
     const later = T / this.oldS;
+    const per1 = 1 / (2 * h1);
+    const per2 = 1 / (2 * h2);
     let far = 0;
     for (let s = 0; s < places; s++) {
       const u = t[s]! * later;
       const turn = ux[s]! * wy - uy[s]! * wx;
       let left: number;
       if (u <= h1) {
-        const g = (u * u) / (2 * h1);
+        const g = u * u * per1;
         left = off0[s]! + (u - g) * turn0[s]! + g * turn;
       } else {
         const d = T - u;
-        const g = (d * d) / (2 * h2);
+        const g = d * d * per2;
         left = off1[s]! - (d - g) * turn1[s]! - g * turn;
       }
       const off = Math.abs(left);
@@ -150,6 +154,9 @@ export class FewerPieces {
     const qy = (2 * this.dy - h1 * vy[0]! - h3 * vy[3]!) / (h2 + h3);
     const T = h1 + h2 + h3;
     const later = T / this.oldS;
+    const per1 = 1 / (2 * h1);
+    const per2 = 1 / (2 * h2);
+    const per3 = 1 / (2 * h3);
     let n1 = 0;
     let n2 = 0;
     let n3 = 0;
@@ -163,16 +170,16 @@ export class FewerPieces {
       let g: number;
       let b: number;
       if (u <= h1) {
-        g = (u * u) / (2 * h1);
+        g = u * u * per1;
         b = off0[s]! + (u - g) * turn0[s]!;
       } else if (u <= h1 + h2) {
         const d = u - h1;
-        const f = (d * d) / (2 * h2);
+        const f = d * d * per2;
         g = h1 / 2 + d - f * (1 + r);
         b = off0[s]! + (h1 / 2) * turn0[s]! + f * (ex * qy - ey * qx);
       } else {
         const d = T - u;
-        const f = (d * d) / (2 * h3);
+        const f = d * d * per3;
         g = r * f;
         b = off1[s]! - (d - f) * turn1[s]! - f * (ex * qy - ey * qx);
       }

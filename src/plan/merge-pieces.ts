@@ -6,13 +6,14 @@
  *   become   |------|-------|-------|--- …      or      |------|------|-------|--- …
  *
  * fewer-pieces.ts finds the velocities at the knots between the new pieces and foresees how far those are from the plan's line;
- * where the knots should be is tried out here. What promises to hold is followed along the plan (plan-walk.ts) before it is
- * taken. New pieces take less time than the old ones where that is possible, and never more than those or LATER of the
+ * where the knots should be is guessed (knot-guess.ts), and tried out around that here. What promises to hold is followed along
+ * the plan (plan-walk.ts) before it is taken. New pieces take less time than the old ones where that is possible, and never more than those or LATER of the
  * plan's time.
  */
 import type { BlockColumns } from "./block-columns.js";
 import { FewerPieces } from "./fewer-pieces.js";
 import type { FitSource } from "./fit-source.js";
+import { KnotGuess } from "./knot-guess.js";
 import type { RunLimits } from "./limits.js";
 import type { PieceNotes } from "./piece-notes.js";
 import { PlanWalk } from "./plan-walk.js";
@@ -20,7 +21,7 @@ import type { FitSettings } from "./settings.js";
 import { SLACK } from "./three-jerks.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
-const BETWEEN = 0.97;
+const BETWEEN = 0.96;
 
 /** More of the plan than this is not made anew at once, s. */
 const LONGEST_S = 1.5;
@@ -29,20 +30,19 @@ const LONGEST_S = 1.5;
 const LATER = 1.01;
 const SOONER = [0.97, 0.98, 0.99, 1];
 
-/** Shares of the time at which the knot between two pieces may be. */
-const SHARES = [0.5, 0.4, 0.6, 0.31, 0.69];
+/** Nothing is tried where jumps of acceleration across the line, times the square of the time, are so many times ε. */
+const WILD_THREE = 600;
+const WILD_FOUR = 2000;
 
-/** The knots between three pieces: looked for first so far into the second and third of the old four, and with this step around. */
-const FIRST = 0.4;
-const SECOND = 0.6;
-const STEP = 0.3;
+/** The knot between two pieces: where it is looked for beside the places that are guessed, as a share of their time. */
+const ASIDE = 0.1;
+
+/** The knots between three pieces: steps of the search around those guessed, as shares of an old piece. */
+const STEP = 0.15;
 
 /** Rounds of that search: it goes on while the distance is below so many times ε, until it is within the share GOOD of it. */
-const HOPES = [2.5, 1.7, 1.3];
+const HOPES = [1.7];
 const GOOD = 0.75;
-
-/** Only four pieces that take so long are worth that search, s: it bounds what planning takes for each second drawn. */
-const SEARCHED_S = 0.2;
 
 /** Half of the looks at a new piece, at least; and the seconds between two looks, at most. */
 const HALF_LOOKS = 3;
@@ -57,6 +57,7 @@ const AT_LIMIT = 1.001;
 export class PieceMerger {
   private readonly walk: PlanWalk;
   private readonly fewer = new FewerPieces();
+  private readonly guess = new KnotGuess();
   private pieces!: BlockColumns;
   private limits!: RunLimits;
   /** The notes of new pieces, while it is not known whether they hold. */
@@ -128,14 +129,18 @@ export class PieceMerger {
   }
 
   private mergesThree(i: number): boolean {
+    const near = BETWEEN * this.settings.toleranceMm;
+    const { jump } = this.notes;
+    if (!this.isTame(i, 3, Math.abs(jump[i + 1]!) + Math.abs(jump[i + 2]!), WILD_THREE * near)) return false;
     const most = this.open(i, 3);
     if (most === 0) return false;
-    const { fewer } = this;
-    const near = BETWEEN * this.settings.toleranceMm;
+    const { fewer, guess } = this;
     const floor = this.settings.floorMs / 1000;
+    guess.forTwo(this.pieces, this.notes, i);
     let best = near;
     let share = 0;
-    for (const s of SHARES) {
+    for (let way = 0; way < 4 && best > GOOD * near; way++) {
+      const s = way === 1 ? guess.both : guess.across + (way === 2 ? -ASIDE : way === 3 ? ASIDE : 0);
       if (Math.min(s, 1 - s) * most < floor) continue;
       const far = fewer.solveTwo(s, most, best);
       if (!(far < best)) continue;
@@ -151,14 +156,16 @@ export class PieceMerger {
   }
 
   private mergesFour(i: number): boolean {
-    const { tau } = this.notes;
-    if (tau[i + 4]! - tau[i]! < SEARCHED_S) return false;
+    const near = BETWEEN * this.settings.toleranceMm;
+    const { jump } = this.notes;
+    const jumps = Math.abs(jump[i + 1]!) + Math.abs(jump[i + 2]!) + Math.abs(jump[i + 3]!);
+    if (!this.isTame(i, 4, jumps, WILD_FOUR * near)) return false;
     const most = this.open(i, 4);
     if (most === 0) return false;
-    const near = BETWEEN * this.settings.toleranceMm;
+    const { guess } = this;
     const later = most / this.fewer.oldS;
-    let first = FIRST;
-    let second = SECOND;
+    guess.forThree(this.pieces, this.notes, i);
+    let { first, second } = guess;
     let best = this.solveThree(i, first, second, later, HOPES[0]! * near);
     let step = STEP;
     for (const hope of HOPES) {
@@ -184,6 +191,14 @@ export class PieceMerger {
         return true;
     }
     return false;
+  }
+
+  /** Whether fewer pieces than [i, i + old) can do at all, with these jumps between them; not where the pen is at rest there. */
+  private isTame(i: number, old: number, jumps: number, most: number): boolean {
+    const { durationS } = this.pieces;
+    let T = 0;
+    for (let p = i; p < i + old; p++) T += durationS[p]!;
+    return jumps * T * T < most;
   }
 
   /** Opens pieces [i, i + old) to become fewer; returns the seconds these may take, 0 where nothing may be changed. */

@@ -1,7 +1,17 @@
 /** What merging wants to know of every piece again and again: where it is beside the plan, and which way it goes. */
 import type { BlockColumns } from "./block-columns.js";
 
-const NAMES = ["knot", "middle", "knotUx", "knotUy", "middleX", "middleY", "middleUx", "middleUy"] as const;
+const NAMES = [
+  "knot",
+  "middle",
+  "knotUx",
+  "knotUy",
+  "middleX",
+  "middleY",
+  "middleUx",
+  "middleUy",
+  "jump",
+] as const;
 
 export class PieceNotes {
   /** The plan's instant where the piece begins, s; written before, one more than pieces. */
@@ -18,6 +28,8 @@ export class PieceNotes {
   middleY = new Float64Array(0);
   middleUx = new Float64Array(0);
   middleUy = new Float64Array(0);
+  /** By how much the acceleration to the left changes where the piece begins, mm/s². */
+  jump = new Float64Array(0);
 
   /** Makes room for so many pieces. What was there is lost, but for τ. */
   reserve(count: number): void {
@@ -41,6 +53,7 @@ export class PieceNotes {
     const w = 1 / Math.sqrt(wx * wx + wy * wy);
     this.knotUx[i] = v * ux;
     this.knotUy[i] = v * uy;
+    this.jump[i] = i > 0 ? v * (ux * (ay[i]! - ay[i - 1]!) - uy * (ax[i]! - ax[i - 1]!)) : 0;
     this.middleX[i] = x[i]! + (half * (ux + wx)) / 2;
     this.middleY[i] = y[i]! + (half * (uy + wy)) / 2;
     this.middleUx[i] = w * wx;

@@ -66,7 +66,7 @@ export class PlanWalk {
         if (step < FOUND_S && step > -FOUND_S) break;
       }
       if (!(tau >= before && tau - before <= FARTHEST * dt)) return false;
-      if (!(d2 <= most2) && !(d2 <= 4 * most2 && left * left <= most2 * v2)) return false;
+      if (!(d2 <= most2) && !(d2 <= 1.2 * most2 && left * left <= most2 * v2)) return false;
       if (look === half) this.middle = v2 > 0 ? left / Math.sqrt(v2) : 0;
       else if (look === 2 * half) this.end = v2 > 0 ? left / Math.sqrt(v2) : 0;
     }
