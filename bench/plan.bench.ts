@@ -4,13 +4,8 @@
  * so a ratio says what all the rest costs: corners, counting, growing, runs.
  *
  * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so the floor is run before
- * and after each plan, and a plan's ratio is its time over their mean; the median over the rounds is what counts. What a plan
- * leaves behind is collected before the next one starts, and counts for neither; what it throws away while it runs counts. With
- * that, V8 throws away the compiled code whose objects are gone: a smaller plan has it made again.
+ * and after each plan, and a plan's ratio is its time over their mean; the median over the rounds is what counts.
  */
-import { setTimeout as delay } from "node:timers/promises";
-import { setFlagsFromString } from "node:v8";
-import { runInNewContext } from "node:vm";
 import {
   DEFAULT_FIT,
   DEFAULT_MOTION,
@@ -27,24 +22,20 @@ type Report = (section: string, rows: readonly Record<string, string | number>[]
 const ROUNDS = 7;
 const REPEATS = 5;
 
-export default async function planBench(report: Report): Promise<void> {
+export default function planBench(report: Report): void {
   const drawing = scribble(1_000_000, 1_000);
-  const smaller = scribble(100_000, 100);
   const floor = prepareFloor(drawing);
   const motions: readonly (readonly [string, MotionSettings])[] = [
     ...MOTION_MODES.map((mode) => [mode, { ...DEFAULT_MOTION, mode, fit: null }] as const),
     ["blend, fitted", { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }],
   ];
   const planned = new Map<string, Pick<Trajectory, "blockCount"> & { readonly bytes: number }>();
-  const { floorMs, measured } = await inTurns(
+  const { floorMs, measured } = inTurns(
     () => bareLoop(floor),
-    motions.map(([what, motion]) => ({
-      warmUp: () => plan(smaller, motion, DEFAULT_PEN),
-      run: () => {
-        const trajectory = plan(drawing, motion, DEFAULT_PEN);
-        planned.set(what, { blockCount: trajectory.blockCount, bytes: bytesOf(trajectory) });
-      },
-    })),
+    motions.map(([what, motion]) => () => {
+      const trajectory = plan(drawing, motion, DEFAULT_PEN);
+      planned.set(what, { blockCount: trajectory.blockCount, bytes: bytesOf(trajectory) });
+    }),
   );
   report("Planning one million segments (1 000 strokes), one thread", [
     {
@@ -105,28 +96,22 @@ interface Measured {
 }
 
 /** Runs the floor, the first plan, the floor, the second one … in every round; the first round is not counted. */
-async function inTurns(
+function inTurns(
   floor: () => void,
-  plans: readonly { readonly warmUp: () => void; readonly run: () => void }[],
-): Promise<{ floorMs: number; measured: readonly Measured[] }> {
-  setFlagsFromString("--expose-gc");
-  const collect = runInNewContext("gc") as () => void;
+  plans: readonly (() => void)[],
+): { floorMs: number; measured: readonly Measured[] } {
   const measured = plans.map((): Measured => ({ ms: [], ratios: [] }));
   const floors: number[] = [];
   for (let round = 0; round <= ROUNDS; round++) {
-    for (const [i, { warmUp, run }] of plans.entries()) {
-      collect();
-      warmUp();
-      // Other threads compile, and give memory back, a little later.
-      await delay(50);
+    plans.forEach((run, i) => {
       const before = processorMs(floor);
       const ms = processorMs(run);
       const after = processorMs(floor);
-      if (round === 0) continue;
+      if (round === 0) return;
       measured[i]!.ms.push(ms);
       measured[i]!.ratios.push((2 * ms) / (before + after));
       floors.push(before, after);
-    }
+    });
   }
   return { floorMs: median(floors), measured };
 }
@@ -254,33 +239,35 @@ function bareLoop(floor: Floor): void {
   let k = 0;
   let clock = 0;
   let along = 0;
-  const put = (i: number, from: number, w0: number, w1: number, d: number): void => {
-    const t = (2 * d) / (w0 + w1);
-    const a = (w1 - w0) / t;
-    durationS[k] = t;
-    bx[k] = x[i]! + ux[i]! * from;
-    by[k] = y[i]! + uy[i]! * from;
-    vx[k] = ux[i]! * w0;
-    vy[k] = uy[i]! * w0;
-    ax[k] = ux[i]! * a;
-    ay[k] = uy[i]! * a;
-    startS[k] = clock;
-    alongMm[k] = along + from;
-    clock += t;
-    k++;
-  };
   for (let i = 0; i < n; i++) {
     const l = length[i]!;
-    const w0 = Math.sqrt(v2[i]!);
-    const w1 = Math.sqrt(v2[i + 1]!);
+    const v0 = Math.sqrt(v2[i]!);
+    const v1 = Math.sqrt(v2[i + 1]!);
     const peak2 = Math.min(max2, (v2[i]! + v2[i + 1]!) / 2 + accel * l);
     const peak = Math.sqrt(peak2);
     const rise = (peak2 - v2[i]!) / (2 * accel);
     const fall = (peak2 - v2[i + 1]!) / (2 * accel);
     const cruise = l - rise - fall;
-    if (rise > 1e-9) put(i, 0, w0, peak, rise);
-    if (cruise > 1e-9) put(i, rise, peak, peak, cruise);
-    if (fall > 1e-9) put(i, l - fall, peak, w1, fall);
+    for (let phase = 0; phase < 3; phase++) {
+      const d = phase === 0 ? rise : phase === 1 ? cruise : fall;
+      if (d <= 1e-9) continue;
+      const from = phase === 0 ? 0 : phase === 1 ? rise : l - fall;
+      const w0 = phase === 0 ? v0 : peak;
+      const w1 = phase === 2 ? v1 : peak;
+      const t = (2 * d) / (w0 + w1);
+      const a = (w1 - w0) / t;
+      durationS[k] = t;
+      bx[k] = x[i]! + ux[i]! * from;
+      by[k] = y[i]! + uy[i]! * from;
+      vx[k] = ux[i]! * w0;
+      vy[k] = uy[i]! * w0;
+      ax[k] = ux[i]! * a;
+      ay[k] = uy[i]! * a;
+      startS[k] = clock;
+      alongMm[k] = along + from;
+      clock += t;
+      k++;
+    }
     along += l;
   }
   floor.count = k;
