@@ -109,16 +109,24 @@ export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: num
   return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
 }
 
+/** A pen's place, mm, and velocity, mm/s. */
+interface Moving {
+  readonly x: number;
+  readonly y: number;
+  readonly vx: number;
+  readonly vy: number;
+}
+
 /**
  * The place on the same stroke that is nearest to a point, found by following the stroke as long as it comes nearer, not
  * further than `withinMm`: where the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not
- * quite the same. The other side of a narrow tip may be nearer still, and is another place.
+ * quite the same. The other side of a narrow tip may be nearer still, and is another place; one that the stroke passes the
+ * other way than `vx`, `vy` is not where the pen is, and the given place stays.
  */
 export function snappedPlace(
   { xy, offsets }: StrokeSet,
   place: Place,
-  x: number,
-  y: number,
+  { x, y, vx, vy }: Moving,
   withinMm: number,
 ): Place {
   const { stroke, alongMm } = place;
@@ -138,6 +146,7 @@ export function snappedPlace(
     const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));
     const isThere = next === 0 || next === -way || i + next < first || i + next >= end;
     if (isThere || Math.abs(nearestMm - alongMm) >= withinMm) {
+      if (dx * vx + dy * vy < 0) return place;
       const byMm = Math.min(withinMm, Math.max(-withinMm, nearestMm - alongMm));
       return { stroke, alongMm: alongMm + byMm };
     }

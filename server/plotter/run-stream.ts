@@ -224,11 +224,11 @@ export class RunStream {
 
   /** What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. */
   private placeIn({ trajectory, next }: Part, planS: number, x: number, y: number): Place | null {
-    const { stroke, alongMm } = stateAt(trajectory, planS);
+    const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
     return alongMm === 0
       ? { stroke, alongMm }
-      : snappedPlace(this.strokes, { stroke, alongMm }, x, y, SNAP_MM);
+      : snappedPlace(this.strokes, { stroke, alongMm }, { x, y, vx, vy }, SNAP_MM);
   }
 
   /** New heights on the way; where the pen is down at another height than it should be, it moves there. */

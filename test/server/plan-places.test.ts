@@ -1,0 +1,21 @@
+import { describe, expect, it } from "vitest";
+import { snappedPlace } from "../../server/plotter/plan-places.js";
+import { strokesOf } from "../support/local-planner.js";
+
+/** Out to a tip and back, a hundredth of a millimetre beside. */
+const TIP = strokesOf([0, 0, 10, 0, 0, 0.01]);
+const snapped = (alongMm: number, x: number, vx: number) =>
+  snappedPlace(TIP, { stroke: 0, alongMm }, { x, y: 0.005, vx, vy: 0 }, 0.5).alongMm;
+
+describe("the place on the drawing that a pen's is", () => {
+  it("is the point beside it", () => {
+    expect(snapped(4.03, 4, 20)).toBeCloseTo(4, 6);
+    expect(snapped(15.97, 4, -20)).toBeCloseTo(16, 2);
+  });
+
+  it("stays as the plan says where the stroke goes the other way than the pen, about a tip", () => {
+    expect(snapped(10.01, 9.94, 6)).toBe(10.01);
+    expect(snapped(9.99, 9.94, -6)).toBe(9.99);
+    expect(snapped(10.01, 9.94, -6)).toBeCloseTo(10.06, 3);
+  });
+});
