@@ -4,7 +4,7 @@ import type { RunEnd } from "./run-path.js";
 import { blockLength } from "./trajectory.js";
 
 /** Longer blocks are kept as they are. */
-const KEPT_S = 0.2;
+export const KEPT_S = 0.2;
 
 /** So are blocks that turn the velocity by more than this, by its cosine. */
 const SHARP = 0.755;

@@ -3,6 +3,7 @@ import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
 import { AccelerationFitter } from "./fit-accelerations.js";
 import { JerkFitter } from "./fit-jerks.js";
+import { ShortRunFitter } from "./fit-short-runs.js";
 import { writeJunctionRun } from "./junction.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
@@ -13,6 +14,7 @@ export class RunWriter {
   private readonly blend = new BlendPlanner();
   private readonly sCurve = new SCurvePlanner();
   private readonly fitter: AccelerationFitter | JerkFitter | null;
+  private readonly shortFitter: ShortRunFitter | null;
   /** The run before fitting. */
   private readonly unfitted: BlockColumns;
 
@@ -21,6 +23,7 @@ export class RunWriter {
     fit: FitSettings | null,
   ) {
     this.fitter = fit && (mode === "scurve" ? new JerkFitter(fit) : new AccelerationFitter(fit, mode));
+    this.shortFitter = fit && mode === "blend" ? new ShortRunFitter(fit) : null;
     this.unfitted = new BlockColumns(0, mode === "scurve");
   }
 
@@ -28,6 +31,11 @@ export class RunWriter {
     // A single straight has no piece too many.
     if (this.fitter === null || path.segmentCount < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
+    if (this.shortFitter?.takes(path, limits)) {
+      this.writeMode(path, limits, this.unfitted);
+      this.shortFitter.write(this.unfitted, path.end(), limits, out);
+      return;
+    }
     this.writeMode(path, isDense(path, limits.speed) ? this.withMargin(limits) : limits, this.unfitted);
     this.fitter.write(this.unfitted, path.end(), limits, out);
   }
