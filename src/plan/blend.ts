@@ -29,6 +29,7 @@
  * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
+import { lesser } from "./branchless.js";
 import { CornerSpeeds } from "./corner-speeds.js";
 import { capSegments, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
@@ -44,6 +45,9 @@ const SHARP = 0.35;
 
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
+
+/** The shorter of segments not as long as this, mm, may be rounded in the other one's last place. */
+const LONG = 1e5;
 
 /** Segments written at a time, for which there is room then; and how many blocks each of them makes at most. */
 const SLICE = 4096;
@@ -92,23 +96,27 @@ export class BlendPlanner {
   private roundCorners(path: RunPath, accel: number): void {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
     const { tangent, sine, most } = this.corners;
-    const { room } = this.line;
+    const { line } = this;
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
     most[0] = most[n] = 0;
     for (let i = 1; i < n; i++) {
-      const dx = ux[i]! - ux[i - 1]!;
-      const dy = uy[i]! - uy[i - 1]!;
-      const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      let v2 = Math.min(cap2[i - 1]!, cap2[i]!);
-      let reach = 0;
+      const bx = ux[i]! - ux[i - 1]!;
+      const by = uy[i]! - uy[i - 1]!;
+      const s = Math.sqrt(bx * bx + by * by) / 2;
+      const cap = lesser(cap2[i - 1]!, cap2[i]!);
       if (s > STRAIGHT) {
-        reach = Math.min((2 * room[i]!) / s, Math.min(length[i - 1]!, length[i]!) / 2);
-        v2 = Math.min(v2, (accel * reach) / s);
+        const before = length[i - 1]!;
+        const after = length[i]!;
+        const half = (before + after < LONG ? lesser(before, after) : Math.min(before, after)) / 2;
+        const reach = line.reach(i, bx, by, s, half);
+        tangent[i] = reach;
+        sine[i] = s;
+        most[i] = Math.sqrt(lesser(cap, (accel * reach) / s));
+      } else {
+        tangent[i] = sine[i] = 0;
+        most[i] = Math.sqrt(cap);
       }
-      tangent[i] = reach;
-      sine[i] = s > STRAIGHT ? s : 0;
-      most[i] = Math.sqrt(v2);
     }
   }
 
@@ -116,21 +124,32 @@ export class BlendPlanner {
   private lookAhead(path: RunPath, accel: number): void {
     const { segmentCount: n, length } = path;
     const { corners } = this;
-    const { ahead, behind, vIn, vOut, change } = corners;
+    const { sine, most, vIn, vOut, change } = corners;
     const twoA = 2 * accel;
     vIn[0] = vOut[0] = change[0] = 0;
     vIn[n] = vOut[n] = change[n] = 0;
     let left = 0;
     for (let i = n - 1; i > 0; i--) {
-      ahead[i] = Infinity;
-      behind[i] = left + twoA * length[i]!;
-      corners.solve(i, accel);
-      left = vIn[i]! * (vIn[i]! - change[i]!);
+      // What `solve` does where nothing ahead is known yet, and nothing behind holds back.
+      const v = most[i]!;
+      const q = 2 * sine[i]! * v;
+      const behind = left + twoA * length[i]!;
+      if (v * (v + q) <= behind) {
+        vIn[i] = vOut[i] = v;
+        change[i] = q;
+        left = v * (v - q);
+      } else {
+        corners.solve(i, Infinity, behind, accel);
+        left = vIn[i]! * (vIn[i]! - change[i]!);
+      }
     }
     left = 0;
     for (let i = 1; i < n; i++) {
-      ahead[i] = left + twoA * length[i - 1]!;
-      if (vIn[i]! * (vIn[i]! + change[i]!) > ahead[i]!) corners.solve(i, accel);
+      const ahead = left + twoA * length[i - 1]!;
+      if (vIn[i]! * (vIn[i]! + change[i]!) > ahead) {
+        const behind = vIn[i + 1]! * (vIn[i + 1]! - change[i + 1]!) + twoA * length[i]!;
+        corners.solve(i, ahead, behind, accel);
+      }
       left = vOut[i]! * (vOut[i]! - change[i]!);
     }
   }

@@ -23,10 +23,7 @@ export class CornerSpeeds {
   /** L of each corner, mm; 0 at the ends and where the way goes straight on. */
   tangent = new Float64Array(0);
   most = new Float64Array(0);
-  /** F and B. */
-  ahead = new Float64Array(0);
-  behind = new Float64Array(0);
-  /** v0, v1 and q: what `search` finds. */
+  /** v0, v1 and q: what `solve` finds. */
   vIn = new Float64Array(0);
   vOut = new Float64Array(0);
   change = new Float64Array(0);
@@ -37,19 +34,15 @@ export class CornerSpeeds {
     this.sine = new Float64Array(size);
     this.tangent = new Float64Array(size);
     this.most = new Float64Array(size);
-    this.ahead = new Float64Array(size);
-    this.behind = new Float64Array(size);
     this.vIn = new Float64Array(size);
     this.vOut = new Float64Array(size);
     this.change = new Float64Array(size);
   }
 
   /** Sets v0, v1 and q of corner i. F and B are above 0. */
-  solve(i: number, accel: number): void {
+  solve(i: number, F: number, B: number, accel: number): void {
     const most = this.most[i]!;
     const s = this.sine[i]!;
-    const F = this.ahead[i]!;
-    const B = this.behind[i]!;
     const change = 2 * s * most;
     const through = most * (most + change);
     if (through <= F && through <= B) {
@@ -58,24 +51,22 @@ export class CornerSpeeds {
     } else if (s === 0) {
       this.vIn[i] = this.vOut[i] = Math.min(most, Math.sqrt(Math.min(F, B)));
       this.change[i] = 0;
-    } else this.search(i, accel);
+    } else this.search(i, F, B, accel);
   }
 
   /**
-   * Newton's steps from where the tangents begin to matter, kept between a q too small and one large enough; halvings
-   * where another limit takes over and they would go to and fro.
+   * Newton's steps from a guess, kept between a q too small and one large enough; halvings where another limit takes
+   * over and they would go to and fro.
    */
-  private search(corner: number, accel: number): void {
+  private search(corner: number, F: number, B: number, accel: number): void {
     const s = this.sine[corner]!;
     const most = this.most[corner]!;
-    const F = this.ahead[corner]!;
-    const B = this.behind[corner]!;
     const reach = 2 * accel * this.tangent[corner]!;
     const c = 1 - 2 * s * s;
     let low = 0;
     let high = 2 * most;
-    let q = reach / most;
-    if (!(q < high)) q = 2 * s * most;
+    let q = guess(Math.min(F, B), most, reach, c);
+    if (!(q > low && q < high)) q = 2 * s * most;
     let before = Infinity;
     let v0 = most;
     let v1 = most;
@@ -117,3 +108,41 @@ export class CornerSpeeds {
 
 /** Share of a speed that is rounding. */
 const SAME = 2e-15;
+
+/**
+ * The q of a corner that is slowed down on one side only, to the root v of v² + v q = E; on the other side it is as fast as its
+ * tangent allows, w = R/q with R = 2 A L, or else as fast as it may be, w = m. With cos φ = c the turn is q² = v² + w² − 2 c v w.
+ * Both equations give v = (E + w² − q²)/(q + 2 c w), and that put into the first one a cubic: of z = q²/R with b = E/R, or of
+ * y = q/m with b = E/m².
+ */
+function guess(E: number, m: number, R: number, c: number): number {
+  let b = E / R;
+  const least = R / (m * m);
+  let p1 = 2 * (b - 2 * b * c * c + c);
+  let p2 = 2 * b * c + 1 - b * b;
+  let p3 = 2 * (b + c);
+  if (1 + least * (p1 - least * (p2 + least * p3)) > 0) {
+    return Math.sqrt(R * rootOf(1, p1, p2, p3, 1 / (b + 1)));
+  }
+  b = E / (m * m);
+  const p0 = (1 + b) * (1 + b) - 4 * b * c * c;
+  p1 = 2 * c * (1 - b);
+  p2 = 1 + 2 * b;
+  p3 = 2 * c;
+  return m * rootOf(p0, p1, p2, p3, Math.sqrt(p0));
+}
+
+/**
+ * The least positive root of p0 + p1 z − p2 z² − p3 z³, which is somewhere near z: first as if z³ were z² times that, then by two of
+ * Halley's steps.
+ */
+function rootOf(p0: number, p1: number, p2: number, p3: number, z: number): number {
+  z = (2 * p0) / (Math.sqrt(Math.max(0, p1 * p1 + 4 * p0 * (p2 + p3 * z))) - p1);
+  for (let i = 0; i < 2; i++) {
+    const value = p0 + z * (p1 - z * (p2 + z * p3));
+    const slope = p1 - z * (2 * p2 + 3 * p3 * z);
+    const bend = p2 + 3 * p3 * z;
+    z -= (value * slope) / (slope * slope + value * bend);
+  }
+  return z;
+}

@@ -12,6 +12,7 @@
  * bounds, a symmetric system of five diagonals with the same factors each time, and the bounds. A few rounds come near
  * enough, since within bounds distant points hardly matter to each other. Linear, and the same backwards as forwards.
  */
+import { greater, lesser } from "./branchless.js";
 
 const ROUNDS = 4;
 /** Weight of the bounds, as a share of the diagonal. */
@@ -77,8 +78,8 @@ export class LeastBending {
     for (let i = 1; i < n; i++) {
       const after = length[i]!;
       const c = 1 / after;
-      const greater = (a + c + Math.abs(a - c)) / 2;
-      weight[i] = ((before + after) / 2) * greater * greater;
+      const most = greater(a, c);
+      weight[i] = ((before + after) / 2) * most * most;
       perLength[i] = c;
       const y2 = low[i + 1] === high[i + 1] ? low[i + 1]! : 0;
       turn[i]! += (y2 - y1) * c - (y1 - y0) * a;
@@ -192,7 +193,10 @@ export class LeastBending {
       x2 = x1;
       x1 = x;
       const free = RELAXATION * x + rows[r + CARRY]!;
-      y[i] = Math.max(rows[r + LOW]!, Math.min(rows[r + HIGH]!, free));
+      const low = rows[r + LOW]!;
+      const high = rows[r + HIGH]!;
+      const within = greater(low, lesser(high, free));
+      y[i] = within > high ? high : within;
     }
   }
 }

@@ -26,6 +26,7 @@
  * Where a point has first been moved along the line by τ, segments leave the drawing by at most τ (s + half of the next
  * point's s); that much is taken from δ at the point and at its neighbours.
  */
+import { greater, lesser } from "./branchless.js";
 import { capSegments, type RunLimits } from "./limits.js";
 import { LeastBending } from "./least-bending.js";
 import { RunPath } from "./run-path.js";
@@ -42,8 +43,6 @@ const LEFT = 0.75;
 const SHEAR = 0.5;
 /** Below this s it is not yet said to which side the line will bend. */
 const HARDLY = 0.015;
-/** Below this s a line is straight. */
-const STRAIGHT = 1e-12;
 /** Added to an s by which is divided: of no account where lengths are. */
 const STRAIGHT_ON = 1e-6;
 
@@ -56,8 +55,6 @@ const CORNERS = 1;
 const BENDS = 2;
 
 export class SoftLine {
-  /** mm: how far each corner's curve may pass from its point. */
-  room = new Float64Array(0);
   /** mm: how much of the drawing each segment stands for. */
   along = new Float64Array(0);
   private readonly even = new RunPath();
@@ -94,12 +91,32 @@ export class SoftLine {
     if (!this.move(n)) return this.same(path, limits);
     const { soft } = this;
     capSegments(soft, limits);
-    this.measureRoom(n);
     return soft;
   }
 
+  /**
+   * mm that the curve of the returned line's corner i may take of its segments, `half` at most: no more than passes within `room`.
+   * (bx, by) is u1 − u0, 2 s long.
+   */
+  reach(i: number, bx: number, by: number, s: number, half: number): number {
+    const dx = this.shiftX[i]!;
+    const dy = this.shiftY[i]!;
+    const left = this.left[i]!;
+    const along = dx * bx + dy * by;
+    const rest = left * left - dx * dx - dy * dy;
+    const deep = (half * s) / 2;
+    // room ≥ deep, in squares: mostly so.
+    if (rest >= deep * deep + (half * along) / 2) return half;
+    const inwards = along / (2 * s);
+    const room = Math.sqrt(Math.max(0, rest + inwards * inwards)) - inwards;
+    return Math.min((2 * room) / s, half);
+  }
+
   private same(path: RunPath, limits: RunLimits): RunPath {
-    this.room.fill(limits.corner, 0, path.segmentCount + 1);
+    const points = path.segmentCount + 1;
+    this.shiftX.fill(0, 0, points);
+    this.shiftY.fill(0, 0, points);
+    this.left.fill(limits.corner, 0, points);
     this.along.set(path.length.subarray(0, path.segmentCount));
     return path;
   }
@@ -321,25 +338,9 @@ export class SoftLine {
     return count;
   }
 
-  private measureRoom(n: number): void {
-    const { room, left, shiftX, shiftY } = this;
-    const { ux, uy } = this.soft;
-    for (let i = 1; i < n; i++) {
-      const bx = ux[i]! - ux[i - 1]!;
-      const by = uy[i]! - uy[i - 1]!;
-      const b = Math.sqrt(bx * bx + by * by);
-      const dx = shiftX[i]!;
-      const dy = shiftY[i]!;
-      const inwards = b > 2 * STRAIGHT ? (dx * bx + dy * by) / b : 0;
-      const rest = left[i]! * left[i]! - dx * dx - dy * dy + inwards * inwards;
-      room[i] = Math.sqrt(Math.max(0, rest)) - inwards;
-    }
-  }
-
   private reserve(points: number): void {
-    if (this.room.length > points) return;
-    const size = Math.max(points + 1, 2 * this.room.length);
-    this.room = new Float64Array(size);
+    if (this.along.length > points) return;
+    const size = Math.max(points + 1, 2 * this.along.length);
     this.along = new Float64Array(size);
     this.sine = new Float64Array(size);
     this.kind = new Float64Array(size);
@@ -356,11 +357,5 @@ function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
 
-/*
- * Which of two is the greater changes from point to point, so that a processor guesses wrong half of the time: without a branch
- * it takes half as long.
- */
-const lesser = (a: number, b: number): number => (a + b - Math.abs(a - b)) / 2;
-const greater = (a: number, b: number): number => (a + b + Math.abs(a - b)) / 2;
 const between = (a: number, low: number, high: number): number =>
   (Math.abs(a - low) - Math.abs(a - high) + low + high) / 2;
