@@ -39,9 +39,10 @@ export class PointBuffer {
   }
 }
 
-/** A copy of twice the length. */
-export function grown<T extends Column>(column: T): T {
-  const longer = new (column.constructor as new (length: number) => T)(2 * column.length);
+/** A copy of twice the length, or of `needed` if that is more. */
+export function grown<T extends Column>(column: T, needed = 0): T {
+  const length = Math.max(2 * column.length, needed);
+  const longer = new (column.constructor as new (length: number) => T)(length);
   longer.set(column);
   return longer;
 }

@@ -159,18 +159,19 @@ export class PointStrips {
       for (let k = first; ; k = after[k]) {
         const dy = ys[k] - qy;
         const gap = dy - slackY;
-        if (gap > 0 ? gap * gap >= best2 : best2 === 0) break;
+        if (gap > 0 && gap * gap >= best2) break;
         const dx = xs[k] - qx;
         const d2 = dx * dx + dy * dy;
         if (d2 >= best2) continue;
         best = k;
         best2 = d2;
+        if (d2 === 0) break;
       }
       for (let k = before[first]; ; k = before[k]) {
         const dy = qy - ys[k];
         // Of the place before the strip it is infinite.
-        const gap = (dy < 0 ? -dy : dy) - slackY;
-        if (gap > 0 ? gap * gap >= best2 : best2 === 0) break;
+        const gap = Math.abs(dy) - slackY;
+        if (best2 === 0 || (gap > 0 && gap * gap >= best2)) break;
         const dx = xs[k] - qx;
         const d2 = dx * dx + dy * dy;
         if (d2 >= best2) continue;

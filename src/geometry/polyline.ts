@@ -24,7 +24,7 @@ export const lineCount = (lines: Lines): number => lines.tag.length;
 /** Collects lines point by point, leaving out points that repeat the one before. */
 export class LineBuilder {
   private xy = new Float64Array(1024);
-  /** Never shorter than the tags and one. */
+  /** Longer than the tags by one at least. */
   private offsets = new Uint32Array(512);
   private tags = new Uint32Array(256);
   private points = 0;
@@ -68,7 +68,7 @@ export class LineBuilder {
       this.xy[2 * this.points - 1] = this.skippedY;
     }
     this.skipped = false;
-    if (this.lines + 1 > this.tags.length) this.growLines();
+    this.reserveLines(1);
     this.tags[this.lines] = tag;
     this.offsets[++this.lines] = this.first = this.points;
   }
@@ -124,7 +124,7 @@ export class LineBuilder {
   private copyWholes({ xy, offsets, tag }: Lines, from: number, to: number): number {
     if (this.points > this.first) return from;
     this.reserve(offsets[to] - offsets[from]);
-    while (this.lines + to - from + 1 > this.tags.length) this.growLines();
+    this.reserveLines(to - from);
     const { xy: out, offsets: outOffsets, tags } = this;
     let { points, lines } = this;
     let i = from;
@@ -159,7 +159,7 @@ export class LineBuilder {
   addMapped(coords: Float64Array, offsets: Uint32Array, from: number, to: number, map: Affine): number {
     if (this.points > this.first) return from;
     this.reserve((offsets[to] - offsets[from]) / 2);
-    while (this.lines + to - from + 1 > this.tags.length) this.growLines();
+    this.reserveLines(to - from);
     const { a, b, c, d, e, f } = map;
     const { xy: out, offsets: outOffsets, tags } = this;
     let { points, lines } = this;
@@ -190,12 +190,15 @@ export class LineBuilder {
   }
 
   private reserve(points: number): void {
-    while (2 * (this.points + points) > this.xy.length) this.xy = grown(this.xy);
+    const needed = 2 * (this.points + points);
+    if (needed > this.xy.length) this.xy = grown(this.xy, needed);
   }
 
-  private growLines(): void {
-    this.offsets = grown(this.offsets);
-    this.tags = grown(this.tags);
+  private reserveLines(lines: number): void {
+    const needed = this.lines + lines;
+    if (needed <= this.tags.length) return;
+    this.offsets = grown(this.offsets, needed + 1);
+    this.tags = grown(this.tags, needed);
   }
 
   finish(): Lines {

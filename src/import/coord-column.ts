@@ -12,6 +12,10 @@ const TELLING_SHARE = 0.01;
 /** The rest of the file may be denser than what has been seen. */
 const MARGIN = 1.25;
 
+/** How long a column is likely to become that is of this length after a share of the file; 0 while that tells nothing. */
+export const expectedLength = (length: number, share: number): number =>
+  share >= TELLING_SHARE ? Math.ceil((MARGIN * length) / share) : 0;
+
 export class CoordColumn {
   /** Replaced when it grows. */
   data = new Float64Array(FIRST_LENGTH);
@@ -24,8 +28,8 @@ export class CoordColumn {
   reserve(count: number): void {
     const needed = this.length + count;
     if (needed <= this.data.length) return;
-    const expected = this.share >= TELLING_SHARE ? (MARGIN * this.length) / this.share : 0;
-    const grown = new Float64Array(Math.max(needed, 2 * this.data.length, Math.ceil(expected)));
+    const expected = expectedLength(this.length, this.share);
+    const grown = new Float64Array(Math.max(needed, 2 * this.data.length, expected));
     grown.set(this.data.subarray(0, this.length));
     this.data = grown;
   }

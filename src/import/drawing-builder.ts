@@ -60,7 +60,7 @@ export class DrawingBuilder {
 
   /** How much of the file has been drawn, 0 … 1: lets the columns be made as long as they will be. */
   set progress(share: number) {
-    this.coords.share = share;
+    this.coords.share = this.shapes.share = share;
   }
 
   /** Adds a group; ids already taken get a number, so that they stay distinct. */

@@ -1,8 +1,11 @@
 /** The columns of `DrawingPaths` that hold one number for each shape: of one length, they grow together. */
 import { grown } from "../geometry/growable.js";
+import { expectedLength } from "./coord-column.js";
 
 export class ShapeColumns {
   count = 0;
+  /** Share of the file that has been drawn, 0 … 1. */
+  share = 0;
   /** One more than shapes. */
   verbOffsets = new Uint32Array(256);
   coordOffsets = new Uint32Array(256);
@@ -16,18 +19,17 @@ export class ShapeColumns {
 
   /** Makes room for so many more shapes: their numbers go to `count`, and their ends, among the offsets, behind that. */
   reserve(shapes: number): void {
-    while (this.count + shapes >= this.group.length) this.grow();
-  }
-
-  private grow(): void {
-    this.verbOffsets = grown(this.verbOffsets);
-    this.coordOffsets = grown(this.coordOffsets);
-    this.group = grown(this.group);
-    this.stroke = grown(this.stroke);
-    this.fill = grown(this.fill);
-    this.fillRule = grown(this.fillRule);
-    this.strokeWidth = grown(this.strokeWidth);
-    this.dash = grown(this.dash);
-    this.clip = grown(this.clip);
+    const needed = this.count + shapes + 1;
+    if (needed <= this.group.length) return;
+    const expected = Math.max(needed, expectedLength(this.count, this.share));
+    this.verbOffsets = grown(this.verbOffsets, expected);
+    this.coordOffsets = grown(this.coordOffsets, expected);
+    this.group = grown(this.group, expected);
+    this.stroke = grown(this.stroke, expected);
+    this.fill = grown(this.fill, expected);
+    this.fillRule = grown(this.fillRule, expected);
+    this.strokeWidth = grown(this.strokeWidth, expected);
+    this.dash = grown(this.dash, expected);
+    this.clip = grown(this.clip, expected);
   }
 }

@@ -15,7 +15,7 @@ export class ElementColumns {
   add(tag: number, parent: number, before: number, attributesFrom: number, line: number): number {
     const element = this.count++;
     // One place stays free, for the end of the last one's attributes.
-    if (element + 1 === this.tags.length) this.grow();
+    if (element + 1 === this.tags.length) this.grow(0);
     this.tags[element] = tag;
     this.parents[element] = parent;
     this.firstChildren[element] = -1;
@@ -37,7 +37,7 @@ export class ElementColumns {
   ): void {
     const first = this.count;
     const end = first + count;
-    while (end >= this.tags.length) this.grow();
+    if (end >= this.tags.length) this.grow(end + 1);
     this.tags.fill(this.tags[before], first, end);
     this.parents.fill(this.parents[before], first, end);
     this.firstChildren.fill(-1, first, end);
@@ -54,13 +54,13 @@ export class ElementColumns {
     this.count = end;
   }
 
-  private grow(): void {
-    this.tags = grown(this.tags);
-    this.parents = grown(this.parents);
-    this.firstChildren = grown(this.firstChildren);
-    this.nextSiblings = grown(this.nextSiblings);
-    this.attributeOffsets = grown(this.attributeOffsets);
-    this.lines = grown(this.lines);
+  private grow(needed: number): void {
+    this.tags = grown(this.tags, needed);
+    this.parents = grown(this.parents, needed);
+    this.firstChildren = grown(this.firstChildren, needed);
+    this.nextSiblings = grown(this.nextSiblings, needed);
+    this.attributeOffsets = grown(this.attributeOffsets, needed);
+    this.lines = grown(this.lines, needed);
   }
 }
 
@@ -86,9 +86,9 @@ export class AttributeColumns {
   addLike(count: number, each: number, changed: readonly number[], changedPlaces: Uint32Array): void {
     const from = this.count;
     this.count += count * each;
-    while (this.count > this.names.length) {
-      this.names = grown(this.names);
-      this.places = grown(this.places);
+    if (this.count > this.names.length) {
+      this.names = grown(this.names, this.count);
+      this.places = grown(this.places, this.count);
     }
     const { names, places } = this;
     for (let i = from; i < this.count; i++) {

@@ -20,7 +20,7 @@
  * Kept, as there: within ε of the planned line wherever it is looked at, |a| ≤ A and |v| ≤ V within 0.1 %.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { FitSource, isBeside, KEPT_S } from "./fit-source.js";
+import { isBeside, KEPT_S } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { RunEnd, RunPath } from "./run-path.js";
 import type { FitSettings } from "./settings.js";
@@ -59,14 +59,13 @@ const HARDLY = 1.0004;
 const BETWEEN = 0.97;
 const LOOKS = 12;
 
-/** The knot may be so much earlier or later than the plan, as a share of the pair's time: round a tip, where the plan stands nearly still. */
-const ASIDE = 0.03;
-
 /** A pair: h1, h2, a1x, a1y, a2x, a2y. */
 const FIELDS = 6;
 
 export class ShortRunFitter {
-  private readonly source = new FitSource();
+  /** The planned run, and where it ends at rest. */
+  private blocks!: BlockColumns;
+  private end!: RunEnd;
   private limits!: RunLimits;
   private readonly floorS: number;
   private readonly near: number;
@@ -100,8 +99,9 @@ export class ShortRunFitter {
 
   /** Appends the run in `from`, all of its blocks up to `end`, to `out` in fewer pieces. */
   write(from: BlockColumns, end: RunEnd, limits: RunLimits, out: BlockColumns): void {
-    const { source, before, next } = this;
-    source.open(from, end);
+    const { before, next } = this;
+    this.blocks = from;
+    this.end = end;
     this.limits = limits;
     this.findWay();
     out.reserve(from.count, end.segmentCount);
@@ -113,8 +113,8 @@ export class ShortRunFitter {
   }
 
   private findWay(): void {
-    const { source, cost, before, pair, pairs, floorS } = this;
-    const { count, durationS } = source.blocks;
+    const { cost, before, pair, pairs, floorS } = this;
+    const { count, durationS } = this.blocks;
     // No pair stands for blocks before this.
     let first = 0;
     for (let m = 1; m <= count; m++) {
@@ -135,21 +135,22 @@ export class ShortRunFitter {
 
   /** Finds a pair from the beginning of block k to that of block m, and leaves it in `pair`; false where there is none. */
   private findPair(k: number, m: number): boolean {
-    const { source, floorS, pair } = this;
-    const { startS, x, y, vx, vy, count } = source.blocks;
+    const { floorS, pair, end } = this;
+    const { startS, x, y, vx, vy, count, clockS } = this.blocks;
     const { accel, speed } = this.limits;
     const most = accel * SLACK;
     const fastest2 = (speed * HARDLY) ** 2;
-    const length = source.startOf(m) - startS[k]!;
+    const isEnd = m === count;
+    const length = (isEnd ? clockS : startS[m]!) - startS[k]!;
     const latest = LATER * length + LATER_FLOORS * floorS;
     let T = length < 2 * floorS ? 2 * floorS : length;
     if (length > LONGEST_S || T > latest) return false;
-    const dx = 2 * (source.xOf(m) - x[k]!);
-    const dy = 2 * (source.yOf(m) - y[k]!);
+    const dx = 2 * ((isEnd ? end.x : x[m]!) - x[k]!);
+    const dy = 2 * ((isEnd ? end.y : y[m]!) - y[k]!);
     const vx0 = vx[k]!;
     const vy0 = vy[k]!;
-    const vx1 = m < count ? vx[m]! : 0;
-    const vy1 = m < count ? vy[m]! : 0;
+    const vx1 = isEnd ? 0 : vx[m]!;
+    const vy1 = isEnd ? 0 : vy[m]!;
     let share = 0.5;
     let isLast = false;
     for (let round = 0; round < ROUNDS; round++) {
@@ -191,7 +192,7 @@ export class ShortRunFitter {
   private isNear(k: number, m: number, length: number): boolean {
     const { near, pair } = this;
     const { accel } = this.limits;
-    const { startS, durationS, x, y, vx, vy, ax, ay } = this.source.blocks;
+    const { startS, durationS, x, y, vx, vy, ax, ay } = this.blocks;
     const h1 = pair[0]!;
     const a1x = pair[2]!;
     const a1y = pair[3]!;
@@ -220,8 +221,8 @@ export class ShortRunFitter {
   }
 
   private writePair(k: number, m: number, out: BlockColumns): void {
-    const { source, pairs } = this;
-    const { startS, x, y, vx, vy, alongMm } = source.blocks;
+    const { pairs } = this;
+    const { count, clockS, startS, x, y, vx, vy, alongMm } = this.blocks;
     const at = FIELDS * m;
     const h1 = pairs[at]!;
     const h2 = pairs[at + 1]!;
@@ -232,15 +233,37 @@ export class ShortRunFitter {
     const px = x[k]! + (h1 * (vx[k]! + wx)) / 2;
     const py = y[k]! + (h1 * (vy[k]! + wy)) / 2;
     out.push(h1, x[k]!, y[k]!, vx[k]!, vy[k]!, ax, ay, alongMm[k]!);
-    // The knot stands for the place of the plan that is nearest.
-    const start = startS[k]!;
-    const end = source.startOf(m);
-    let tau = start + ((end - start) * h1) / (h1 + h2);
-    source.leftOf(px, py, k, tau);
-    const most = ASIDE * (end - start);
-    tau += Math.min(Math.max(source.aheadS, -most), most);
-    let block = k;
-    while (block + 1 < m && startS[block + 1]! <= tau) block++;
-    out.push(h2, px, py, wx, wy, pairs[at + 4]!, pairs[at + 5]!, source.alongAt(block, tau));
+    const end = m < count ? startS[m]! : clockS;
+    const tau = startS[k]! + ((end - startS[k]!) * h1) / (h1 + h2);
+    let i = k;
+    while (i + 1 < m && startS[i + 1]! <= tau) i++;
+    out.push(
+      h2,
+      px,
+      py,
+      wx,
+      wy,
+      pairs[at + 4]!,
+      pairs[at + 5]!,
+      this.alongBeside(i, tau - startS[i]!, px, py),
+    );
+  }
+
+  /** mm of the drawing at the place of the plan that is nearest to (px, py), which is beside block i `u` seconds from its beginning. */
+  private alongBeside(i: number, u: number, px: number, py: number): number {
+    const { count, durationS, x, y, vx, vy, ax, ay, alongMm } = this.blocks;
+    const d = durationS[i]!;
+    const wx = vx[i]! + u * ax[i]!;
+    const wy = vy[i]! + u * ay[i]!;
+    const ex = vx[i]! + d * ax[i]!;
+    const ey = vy[i]! + d * ay[i]!;
+    const v = Math.sqrt(vx[i]! * vx[i]! + vy[i]! * vy[i]!);
+    const w = Math.sqrt(wx * wx + wy * wy);
+    const e = Math.sqrt(ex * ex + ey * ey);
+    const next = i + 1 < count ? alongMm[i + 1]! : this.end.alongMm;
+    const behind = (next - alongMm[i]!) * ((u * (v + w)) / (d * (v + e)));
+    const dx = px - x[i]! - (u * (vx[i]! + wx)) / 2;
+    const dy = py - y[i]! - (u * (vy[i]! + wy)) / 2;
+    return alongMm[i]! + behind + (w > 0 ? (dx * wx + dy * wy) / w : 0);
   }
 }

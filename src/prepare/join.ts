@@ -96,13 +96,18 @@ function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint3
     const y = xy[2 * ends[k] + 1];
     // A little more than the radius, for rounding.
     const reach = 1.01 * radius + 1e-15 * (Math.abs(x) + Math.abs(y));
-    const column0 = Math.floor((x - reach) * perMm);
-    const column1 = Math.floor((x + reach) * perMm);
-    const row1 = Math.floor((y + reach) * perMm);
+    const side = reach * perMm;
+    const column = Math.floor(x * perMm);
+    const row = Math.floor(y * perMm);
+    const u = x * perMm - column;
+    const v = y * perMm - row;
+    const column0 = u < side ? column - 1 : column;
+    const column1 = u > 1 - side ? column + 1 : column;
+    const row1 = v > 1 - side ? row + 1 : row;
     let isNear = false;
-    for (let row = Math.floor((y - reach) * perMm); row <= row1 && !isNear; row++) {
-      for (let column = column0; column <= column1 && !isNear; column++) {
-        for (let j = heads[cellHash(column, row) & mask]; j >= 0 && !isNear; j = next[j]) {
+    for (let r = v < side ? row - 1 : row; r <= row1 && !isNear; r++) {
+      for (let c = column0; c <= column1 && !isNear; c++) {
+        for (let j = heads[cellHash(c, r) & mask]; j >= 0 && !isNear; j = next[j]) {
           const dx = xy[2 * ends[j]] - x;
           const dy = xy[2 * ends[j] + 1] - y;
           isNear = dx * dx + dy * dy <= reach * reach && j !== k;

@@ -41,10 +41,11 @@ export function nearestOrder(
     const high = entries.firstOf[line - first + 1];
     for (let e = low; e < high; e++) points.remove(e);
     tour.order[k] = line;
-    const closed = isClosedLine(lines, line);
-    tour.start[line] = closed ? entry - low : 0;
-    tour.reversed[line] = !closed && entry > low ? 1 : 0;
-    exit = closed ? entry : low + high - 1 - entry;
+    // Without branches: a rare one is not known to V8 when it compiles this, so it would have to do that twice.
+    const closed = Number(isClosedLine(lines, line));
+    tour.start[line] = closed * (entry - low);
+    tour.reversed[line] = (1 - closed) * Number(entry > low);
+    exit = closed * entry + (1 - closed) * (low + high - 1 - entry);
     travelMm += distance(x, y, xy[2 * entry], xy[2 * entry + 1]);
     x = xy[2 * exit];
     y = xy[2 * exit + 1];

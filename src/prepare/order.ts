@@ -7,11 +7,15 @@ import { distance, type Lines } from "../geometry/polyline.js";
 import { improveTour } from "./best-order.js";
 import { nearestOrder, type PenPlace } from "./nearest.js";
 import type { PrepareSettings } from "./settings.js";
-import { fileTour, tagRanges, travelAsDrawn, travelOf, type Tour } from "./tour.js";
+import { fileTour, tagRanges, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 
-/** Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order. */
-export function orderLines(lines: Lines, settings: OrderSettings, work: Work): Tour {
+/**
+ * Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order.
+ *
+ * @param asDrawnMm the travel of the lines as they stand
+ */
+export function orderLines(lines: Lines, asDrawnMm: number, settings: OrderSettings, work: Work): Tour {
   if (settings.order === "none") return fileTour(lines);
   const tour = fileTour(lines);
   let travelMm = nearestTour(lines, tour, !settings.reloop, work);
@@ -19,7 +23,7 @@ export function orderLines(lines: Lines, settings: OrderSettings, work: Work): T
     improveTour(lines, tour, !settings.reloop, settings.orderS, work);
     travelMm = travelOf(lines, tour);
   }
-  return travelMm <= travelAsDrawn(lines) ? tour : fileTour(lines);
+  return travelMm <= asDrawnMm ? tour : fileTour(lines);
 }
 
 type OrderSettings = Pick<PrepareSettings, "order" | "orderS" | "reloop">;

@@ -31,8 +31,10 @@ export interface Placement {
   readonly inside: Box;
   /** What is drawn, on the paper, before the turn of a placed box; empty for an empty drawing. */
   readonly frame: Box;
-  /** Box of each shape on the paper, before any clipping, x0, y0, x1, y1; empty for a shape that draws nothing. */
-  readonly shapeBoxes: Float64Array;
+  /** Box of all shapes on the paper, before any clipping; of everything where a shape draws nothing. */
+  readonly whole: Box;
+  /** Box of each shape there, x0, y0, x1, y1; empty for a shape that draws nothing. */
+  readonly shapeBoxes: () => Float64Array;
 }
 
 /** Width and height as the paper lies: the long side along x in landscape, along y otherwise. */
@@ -47,8 +49,8 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
   const paper = paperBox(settings);
   const inside = insideMargins(paper, settings);
   const turn = compose(rotation((settings.rotateDeg * Math.PI) / 180), MIRRORS[settings.mirror]);
-  const turned = shapeBoxes(drawing, turn);
-  const content = contentBox(drawing, turned, turn, settings.cropToPage);
+  const { boxes: turned, whole } = shapeBoxes(drawing, turn);
+  const content = contentBox(drawing, turned, whole, turn, settings.cropToPage);
   const after = settings.place
     ? placed(content, settings.place)
     : settings.fit
@@ -58,11 +60,16 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
   const place = { paper, inside, frame };
   const last = aboutMiddle(frame, settings.place?.turnDeg ?? 0);
   if (last === null) {
-    moveBoxes(turned, after);
-    return { ...place, map: compose(after, turn), shapeBoxes: turned };
+    return {
+      ...place,
+      map: compose(after, turn),
+      whole: movedBox(whole, after),
+      shapeBoxes: () => movedBoxes(turned, after),
+    };
   }
   const map = compose(last, compose(after, turn));
-  return { ...place, map, shapeBoxes: shapeBoxes(drawing, map) };
+  const moved = shapeBoxes(drawing, map);
+  return { ...place, map, whole: moved.whole, shapeBoxes: () => moved.boxes };
 }
 
 /** Null for no turn. */
@@ -101,16 +108,30 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
   );
 }
 
-function shapeBoxes(drawing: Drawing, map: Affine): Float64Array {
+const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity };
+
+/** As `Placement` has them. */
+function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: Float64Array; readonly whole: Box } {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
   const { a, b, c, d, e, f } = map;
   const boxes = new Float64Array(4 * count);
+  let wholeX0 = Infinity;
+  let wholeY0 = Infinity;
+  let wholeX1 = -Infinity;
+  let wholeY1 = -Infinity;
+  let empty = 0;
   for (let i = 0; i < count; i++) {
     const verbEnd = verbOffsets[i + 1];
     let v = verbOffsets[i] + 1;
     while (v < verbEnd && verbs[v] === VERB_LINE) v++;
     if (v < verbEnd || verbEnd - verbOffsets[i] < 2) {
       boundsOfVerbs(verbs, verbOffsets[i], verbEnd, coords, coordOffsets[i], map, boxes, 4 * i);
+      const box = boxAt(boxes, i);
+      if (isEmptyBox(box)) empty++;
+      wholeX0 = Math.min(wholeX0, box.x0);
+      wholeY0 = Math.min(wholeY0, box.y0);
+      wholeX1 = Math.max(wholeX1, box.x1);
+      wholeY1 = Math.max(wholeY1, box.y1);
       continue;
     }
     // Straight pieces only, as in most large drawings: no call for each.
@@ -130,8 +151,13 @@ function shapeBoxes(drawing: Drawing, map: Affine): Float64Array {
     boxes[4 * i + 1] = y0;
     boxes[4 * i + 2] = x1;
     boxes[4 * i + 3] = y1;
+    if (x0 < wholeX0) wholeX0 = x0;
+    if (y0 < wholeY0) wholeY0 = y0;
+    if (x1 > wholeX1) wholeX1 = x1;
+    if (y1 > wholeY1) wholeY1 = y1;
   }
-  return boxes;
+  const whole = empty > 0 ? EVERYTHING : { x0: wholeX0, y0: wholeY0, x1: wholeX1, y1: wholeY1 };
+  return { boxes, whole };
 }
 
 /** One of `shapeBoxes`. */
@@ -143,15 +169,12 @@ export const boxAt = (boxes: Float64Array, i: number): Box => ({
 });
 
 /** Box of all that the file draws, hidden layers included: layers plotted one by one must still meet. */
-function contentBox(drawing: Drawing, boxes: Float64Array, map: Affine, onPage: boolean): Box {
+function contentBox(drawing: Drawing, boxes: Float64Array, whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
   const { count, clip: clipOf } = drawing.paths;
-  if (page === null && clipBoxes.length === 0) {
-    // Far away too where one shape is empty.
-    const whole = boxOfPoints(boxes);
-    if (!isFarAway(whole)) return whole;
-  }
+  // Far away too where one shape is empty.
+  if (page === null && clipBoxes.length === 0 && !isFarAway(whole)) return whole;
   let content = EMPTY_BOX;
   for (let i = 0; i < count; i++) {
     const at = 4 * i;
@@ -221,16 +244,19 @@ export function pageCorners(drawing: Drawing, map: Affine): number[] {
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 
-function moveBoxes(boxes: Float64Array, { a, d, e, f }: Affine): void {
+/** Under maps that scale and move only. */
+function movedBoxes(boxes: Float64Array, { a, d, e, f }: Affine): Float64Array {
+  const moved = new Float64Array(boxes.length);
   for (let i = 0; i < boxes.length; i += 4) {
-    boxes[i] = a * boxes[i] + e;
-    boxes[i + 1] = d * boxes[i + 1] + f;
-    boxes[i + 2] = a * boxes[i + 2] + e;
-    boxes[i + 3] = d * boxes[i + 3] + f;
+    moved[i] = a * boxes[i] + e;
+    moved[i + 1] = d * boxes[i + 1] + f;
+    moved[i + 2] = a * boxes[i + 2] + e;
+    moved[i + 3] = d * boxes[i + 3] + f;
   }
+  return moved;
 }
 
-/** Under maps that scale and move only, as `moveBoxes`. */
+/** Likewise. */
 const movedBox = (box: Box, map: Affine): Box => ({
   x0: map.a * box.x0 + map.e,
   y0: map.d * box.y0 + map.f,

@@ -117,9 +117,11 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
   const passesOf = (layer: number): number => setFor(settings.layerRepeats, table.layers[layer].id) ?? 1;
   const asInFile = repeatLines(lines, passesOf);
   const unordered = travelAsDrawn(asInFile);
-  const tour = orderLines(lines, settings, within(options, 0.55, 0.98));
+  const asDrawnMm = asInFile === lines ? unordered : travelAsDrawn(lines);
+  const tour = orderLines(lines, asDrawnMm, settings, within(options, 0.55, 0.98));
   const spread = spreadLines(linesOfTour(lines, tour), settings.spread);
   lines = repeatLines(spread, passesOf);
+  const isOnceEach = lines === spread;
   let travelMm = travelAsDrawn(lines);
   // A way that is shorter once may end where passes have to begin anew.
   if (settings.spread === "none" && travelMm > unordered) {
@@ -136,10 +138,13 @@ export function prepare(drawing: Drawing, settings: PrepareSettings, options: Wo
     paperHeightMm: place.paper.y1,
     travelMmUnordered: unordered,
     travelMm,
-    drawMm: totalLength(lines),
+    drawMm: isOnceEach ? drawnMm(layers) : totalLength(lines),
     warnings,
   };
 }
+
+const drawnMm = (layers: readonly PreparedLayer[]): number =>
+  layers.reduce((sum, { visible, drawMm }) => (visible ? sum + drawMm : sum), 0);
 
 /** The same work with its progress between two fractions of the whole. */
 const within = (work: Work, from: number, to: number): Work => ({

@@ -36,10 +36,10 @@ export function shapesOnPaper(
   warnings: string[],
 ): Uint8Array {
   const wanted = new Uint8Array(drawing.paths.count);
-  const boxes = place.shapeBoxes;
   const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
   // Never where one shape is empty.
-  if (boxContains(within, boxOfPoints(boxes))) return wanted.fill(1);
+  if (boxContains(within, place.whole)) return wanted.fill(1);
+  const boxes = place.shapeBoxes();
   let outside = 0;
   let far = 0;
   for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {
