@@ -31,11 +31,11 @@
 import type { BlockColumns } from "./block-columns.js";
 import { lesser } from "./branchless.js";
 import { CornerSpeeds } from "./corner-speeds.js";
-import { capSegments, type RunLimits } from "./limits.js";
+import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { keepFloor, type Phases } from "./floor-phases.js";
 import { SoftLine } from "./soft-line.js";
-import { NEGLIGIBLE, writeStraight, type Straight } from "./straight.js";
+import { NEGLIGIBLE } from "./straight.js";
 
 /** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
 const STRAIGHT = 1e-12;
@@ -56,40 +56,20 @@ const MOST_BLOCKS = 4;
 export class BlendPlanner {
   private readonly line = new SoftLine();
   private readonly corners = new CornerSpeeds();
-  private readonly straight: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, alongPerMm: 1, length: 0 };
   /** Filled anew for every straight. */
   private readonly phases: Phases = { peak: 0, rise: 0, fall: 0 };
   /** While blocks are written: mm of the drawing at the last point, and of the next segment that its corner takes. */
   private along = 0;
   private used = 0;
 
-  /** Writes one run from rest to rest. */
+  /** Writes one run from rest to rest; one of a single straight is for `writeSingle`. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const n = path.segmentCount;
-    if (n === 1) return this.writeSingle(path, limits, out);
     this.corners.reserve(n + 1);
     const line = this.line.of(path, limits);
     this.roundCorners(line, limits.accel);
     this.lookAhead(line, limits.accel);
     this.writeBlocks(line, limits, out);
-  }
-
-  /** One straight from rest to rest has no corner: what the steps of `write` would leave of it, without them. */
-  private writeSingle(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    const { x, y, ux, uy, length, cap2, startAlong } = path;
-    capSegments(path, limits);
-    out.reserve(2, 1);
-    const l = length[0]!;
-    if (!(l > NO_PIECE)) return;
-    const { straight } = this;
-    straight.x = x[0]!;
-    straight.y = y[0]!;
-    straight.ux = ux[0]!;
-    straight.uy = uy[0]!;
-    straight.alongMm = startAlong;
-    straight.alongPerMm = 1;
-    straight.length = l;
-    writeStraight(straight, 0, 0, Math.sqrt(cap2[0]!), limits.accel, limits.floorS, out);
   }
 
   /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */

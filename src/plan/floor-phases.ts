@@ -67,6 +67,8 @@ export function keepFloor(
   if (keepsFloor(length, v0, v1, phases, floorS)) return;
   const top = phases.peak;
   let fastest = timeOf(length, v0, v1, phases) + LOSS * floorS;
+  // From rest to rest there are two phases at least.
+  if (v0 === 0 && v1 === 0 && fastest <= 2 * floorS) return;
   addCandidates(length, v0, v1, accel, floorS, phases);
   const next = { peak: 0, rise: 0, fall: 0 };
   for (let k = 0; k < candidateCount; k += 3) {

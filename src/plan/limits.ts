@@ -80,6 +80,10 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
   };
 }
 
+/** Whether the motors can go at V whichever way: in the worst one makes √2 (mixed) or 1 (direct) times the carriage's speed. */
+export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
+  speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
+
 /** Fills `path.cap2` with the speed² that each segment's direction allows: V, and what the motors can step. */
 export function capSegments(path: RunPath, limits: RunLimits): void {
   const { segmentCount: n, cap2, ux, uy } = path;
@@ -89,8 +93,7 @@ export function capSegments(path: RunPath, limits: RunLimits): void {
     cap2.fill(limits.easeSpeed ** 2, 0, Math.min(path.easeUntil, n));
     if (path.easeFrom < n) cap2.fill(limits.easeSpeed ** 2, path.easeFrom, n);
   }
-  // In the worst direction a motor makes √2 (mixed) or 1 (direct) times the carriage's speed.
-  if (limits.speed <= limits.motorSpeed / (limits.mixed ? Math.SQRT2 : 1)) return;
+  if (isWithinMotors(limits)) return;
   for (let i = 0; i < n; i++) {
     const ax = Math.abs(ux[i]!);
     const ay = Math.abs(uy[i]!);

@@ -9,6 +9,7 @@ import { withoutFloor, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { SCurvePlanner } from "./scurve.js";
 import type { FitSettings, MotionMode } from "./settings.js";
+import { writeSingle } from "./straight.js";
 
 export class RunWriter {
   private readonly blend = new BlendPlanner();
@@ -29,6 +30,7 @@ export class RunWriter {
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     // A single straight has no piece too many.
+    if (path.segmentCount === 1 && this.mode === "blend") return writeSingle(path, limits, out);
     if (this.fitter === null || path.segmentCount < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
     if (this.shortFitter?.takes(path, limits)) {

@@ -6,6 +6,8 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { keepFloor, type Phases } from "./floor-phases.js";
+import { capSegments, isWithinMotors, type RunLimits } from "./limits.js";
+import type { RunPath } from "./run-path.js";
 
 /** A change of speed² below this share of it, or a cruise below this share of the piece or of its way from rest, is rounding. */
 export const NEGLIGIBLE = 1e-11;
@@ -21,6 +23,62 @@ export interface Straight {
   alongPerMm: number;
   length: number;
 }
+
+/** Writes a run of one straight from rest to rest. Most are too short for V: up to half of the way, and down from there. */
+export function writeSingle(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+  const { accel, speed, easeSpeed, floorS } = limits;
+  const isCapped = easeSpeed < speed || !isWithinMotors(limits);
+  if (isCapped) capSegments(path, limits);
+  const most2 = isCapped ? path.cap2[0]! : speed * speed;
+  const l = path.length[0]!;
+  const x = path.x[0]!;
+  const y = path.y[0]!;
+  const ux = path.ux[0]!;
+  const uy = path.uy[0]!;
+  out.reserve(3, 1);
+  const peak2 = accel * l;
+  const peak = Math.sqrt(peak2);
+  if (!(peak2 <= most2 && l >= floorS * peak)) {
+    single.x = x;
+    single.y = y;
+    single.ux = ux;
+    single.uy = uy;
+    single.alongMm = path.startAlong;
+    single.length = l;
+    writeStraight(single, 0, 0, Math.sqrt(most2), accel, floorS, out);
+    return;
+  }
+  const half = l / 2;
+  const t = l / peak;
+  const v = ux * peak;
+  const w = uy * peak;
+  const a = ux * accel;
+  const b = uy * accel;
+  const { durationS, x: bx, y: by, vx, vy, ax, ay, startS, alongMm } = out;
+  const k = out.count;
+  const clock = out.clockS;
+  durationS[k] = durationS[k + 1] = t;
+  bx[k] = x;
+  by[k] = y;
+  bx[k + 1] = x + ux * half;
+  by[k + 1] = y + uy * half;
+  vx[k] = vy[k] = 0;
+  vx[k + 1] = v;
+  vy[k + 1] = w;
+  ax[k] = a;
+  ay[k] = b;
+  ax[k + 1] = -a;
+  ay[k + 1] = -b;
+  startS[k] = clock;
+  startS[k + 1] = clock + t;
+  alongMm[k] = path.startAlong;
+  alongMm[k + 1] = path.startAlong + half;
+  out.count = k + 2;
+  out.clockS = clock + t + t;
+}
+
+/** Filled anew for every run. */
+const single: Straight = { x: 0, y: 0, ux: 0, uy: 0, alongMm: 0, alongPerMm: 1, length: 0 };
 
 /**
  * Appends the blocks that take `piece` from speed `v0` to speed `v1` under `maxSpeed` and `accel`, none of them

@@ -41,23 +41,28 @@ function joinRange(lines: Lines, first: number, end: number, radius: number, bui
   const pairing = new Pairing(lines, first, places, near, joinable.length, radius);
   pairing.run(SAME_POINT, true);
   if (radius > SAME_POINT) pairing.run(radius, false);
-  writeChains(lines, first, end, pairing.partner, builder);
+  writeChains(lines, first, end, near, pairing.partner, builder);
 }
 
+/** Each chain where the first of its lines stands; `near` are the ends that may be paired, in their order. */
 function writeChains(
   lines: Lines,
   first: number,
   end: number,
+  near: Uint32Array,
   partner: Int32Array,
   builder: LineBuilder,
 ): void {
   const done = new Uint8Array(end - first);
-  for (let i = 0; i < done.length; i++) {
-    const from = i;
-    while (i < done.length && partner[2 * i] === UNPAIRED && partner[2 * i + 1] === UNPAIRED) i++;
-    if (i > from) builder.copyRange(lines, first + from, first + i);
-    if (i < done.length && done[i] === 0) writeChain(lines, first, partner, i, done, builder);
+  let from = 0;
+  for (const e of near) {
+    const i = e >> 1;
+    if (partner[e] === UNPAIRED || i < from) continue;
+    builder.copyRange(lines, first + from, first + i);
+    if (done[i] === 0) writeChain(lines, first, partner, i, done, builder);
+    from = i + 1;
   }
+  builder.copyRange(lines, first + from, end);
 }
 
 /** The ends of the lines that are neither dots nor closed. Writes where each end is, x, y, x, y …, into `places`. */
