@@ -80,14 +80,20 @@ export class BlendPlanner {
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
     most[0] = most[n] = 0;
+    let x0 = ux[0]!;
+    let y0 = uy[0]!;
+    let before = length[0]!;
+    let cap0 = cap2[0]!;
     for (let i = 1; i < n; i++) {
-      const bx = ux[i]! - ux[i - 1]!;
-      const by = uy[i]! - uy[i - 1]!;
+      const x1 = ux[i]!;
+      const y1 = uy[i]!;
+      const after = length[i]!;
+      const cap1 = cap2[i]!;
+      const bx = x1 - x0;
+      const by = y1 - y0;
       const s = Math.sqrt(bx * bx + by * by) / 2;
-      const cap = lesser(cap2[i - 1]!, cap2[i]!);
+      const cap = lesser(cap0, cap1);
       if (s > STRAIGHT) {
-        const before = length[i - 1]!;
-        const after = length[i]!;
         const half = (before + after < LONG ? lesser(before, after) : Math.min(before, after)) / 2;
         const reach = line.reach(i, bx, by, s, half);
         tangent[i] = reach;
@@ -97,6 +103,10 @@ export class BlendPlanner {
         tangent[i] = sine[i] = 0;
         most[i] = Math.sqrt(cap);
       }
+      x0 = x1;
+      y0 = y1;
+      before = after;
+      cap0 = cap1;
     }
   }
 
@@ -163,45 +173,54 @@ export class BlendPlanner {
     const { along: stands } = this.line;
     const { durationS, x: bx, y: by, vx, vy, ax, ay, startS, alongMm } = out;
     const twoA = 2 * accel;
+    const perTwoA = 1 / twoA;
     let k = out.count;
     let clock = out.clockS;
     let along = this.along;
     let used = this.used;
+    let v0 = vOut[from]!;
     for (let i = from; i < end; i++) {
       const ex = ux[i]!;
       const ey = uy[i]!;
       const whole = length[i]!;
-      const perMm = stands[i]! / whole;
-      const v0 = vOut[i]!;
+      const stand = stands[i]!;
+      const perMm = stand / whole;
       const v1 = vIn[i + 1]!;
       const after = vOut[i + 1]!;
       // Half of the time that the corner's curve takes: q/2A. Where speed is the same all the way from the corner before to
       // the one after it takes no longer if it is long and soft instead; unless it is sharp.
-      let tau = change[i + 1]! / twoA;
+      let tau = change[i + 1]! * perTwoA;
       if (v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1 && sine[i + 1]! < SHARP) {
         tau = tangent[i + 1]! / v1;
       }
       const l = whole - used - v1 * tau;
       if (l > NO_PIECE) {
         const start2 = v0 * v0;
-        const end2 = v1 * v1;
-        const peak2 = Math.min((start2 + end2) / 2 + accel * l, Math.max(cap2[i]!, start2, end2));
-        const least2 = NEGLIGIBLE * peak2;
-        let rise = peak2 - start2 > least2 ? (peak2 - start2) / twoA : 0;
-        let fall = peak2 - end2 > least2 ? (peak2 - end2) / twoA : 0;
+        const cap = cap2[i]!;
+        let rise = 0;
+        let fall = 0;
         let peak = v0;
-        if (rise > 0 || fall > 0) {
-          peak = Math.sqrt(peak2);
-          if (floorS > 0) {
-            phases.peak = peak;
-            phases.rise = rise;
-            phases.fall = fall;
-            keepFloor(l, v0, v1, accel, floorS, phases);
-            ({ peak, rise, fall } = phases);
+        let cruises = true;
+        // As fast as may be from end to end, mostly; else up and down again.
+        if (v0 !== v1 || start2 < cap) {
+          const end2 = v1 * v1;
+          const peak2 = Math.min((start2 + end2) / 2 + accel * l, Math.max(cap, start2, end2));
+          const least2 = NEGLIGIBLE * peak2;
+          if (peak2 - start2 > least2) rise = (peak2 - start2) * perTwoA;
+          if (peak2 - end2 > least2) fall = (peak2 - end2) * perTwoA;
+          if (rise > 0 || fall > 0) {
+            peak = Math.sqrt(peak2);
+            if (floorS > 0) {
+              phases.peak = peak;
+              phases.rise = rise;
+              phases.fall = fall;
+              keepFloor(l, v0, v1, accel, floorS, phases);
+              ({ peak, rise, fall } = phases);
+            }
           }
+          cruises = l - rise - fall > Math.max(NEGLIGIBLE * l, least2 * perTwoA);
         }
         // Each phase begins where the one before ended, and the last one ends where the straight does: rounding opens no gap.
-        const cruises = l - rise - fall > Math.max(NEGLIGIBLE * l, least2 / twoA);
         let isUp = rise > 0 && (fall > 0 || cruises);
         let isSteady = fall > 0 && cruises;
         const px = x[i]! + ex * used;
@@ -240,19 +259,21 @@ export class BlendPlanner {
           w0 = w1;
         }
       }
-      along += stands[i]!;
+      along += stand;
       used = after * tau;
+      v0 = after;
       if (tau === 0) continue;
       const wx = ex * v1;
       const wy = ey * v1;
       const t = 2 * tau;
+      const per = 1 / t;
       durationS[k] = t;
       bx[k] = x[i + 1]! - wx * tau;
       by[k] = y[i + 1]! - wy * tau;
       vx[k] = wx;
       vy[k] = wy;
-      ax[k] = (ux[i + 1]! * after - wx) / t;
-      ay[k] = (uy[i + 1]! * after - wy) / t;
+      ax[k] = (ux[i + 1]! * after - wx) * per;
+      ay[k] = (uy[i + 1]! * after - wy) * per;
       startS[k] = clock;
       alongMm[k] = along - v1 * tau * perMm;
       clock += t;

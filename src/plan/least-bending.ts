@@ -33,14 +33,17 @@ const RIGHT = 5;
 const HELD = 6;
 const LOW = 7;
 const HIGH = 8;
+/** Until it is factored, in the same places: weight, that times the turn, 1 where the point is free and 0 where it is fixed; 1/ℓ. */
+const WEIGHT = HALFWAY;
+const BENDING = INVERSE;
+const FREE = BELOW1;
+const PER_LENGTH = BELOW2;
 
 export class LeastBending {
   y = new Float64Array(0);
   low = new Float64Array(0);
   high = new Float64Array(0);
   turn = new Float64Array(0);
-  private weight = new Float64Array(0);
-  private perLength = new Float64Array(0);
   private rows = new Float64Array(0);
 
   reserve(points: number): void {
@@ -50,15 +53,13 @@ export class LeastBending {
     this.low = new Float64Array(size);
     this.high = new Float64Array(size);
     this.turn = new Float64Array(size);
-    this.weight = new Float64Array(size);
-    this.perLength = new Float64Array(size);
     this.rows = new Float64Array(FIELDS * size);
   }
 
-  /** Sets `y` from `low`, `high` and `turn` of the n + 1 points between n segments; `turn` is used up. */
+  /** Sets `y` from `low`, `high` and `turn` of the n + 1 points between n segments. */
   solve(n: number, length: Float64Array): void {
     this.begin(n, length);
-    this.factor(n);
+    this.factor(n, this.rows);
     for (let round = 1; round < ROUNDS; round++) {
       this.goBack(n);
       this.goForth(n);
@@ -66,58 +67,89 @@ export class LeastBending {
     this.finish(n);
   }
 
-  /** Weights; and what points that are fixed elsewhere than on the line do to the turns. */
+  /** Rows: weights, and turns with what points that are fixed elsewhere than on the line do to them. */
   private begin(n: number, length: Float64Array): void {
-    const { low, high, turn, weight, perLength } = this;
-    weight[0] = weight[n] = perLength[n] = 0;
+    const { low, high, turn, rows } = this;
     let before = length[0]!;
     let a = 1 / before;
+    let free1 = isFree(low[1]!, high[1]!);
     let y0 = low[0]!;
-    let y1 = low[1] === high[1] ? low[1]! : 0;
-    perLength[0] = a;
-    for (let i = 1; i < n; i++) {
+    let y1 = (1 - free1) * low[1]!;
+    rows[WEIGHT] = rows[BENDING] = rows[FREE] = 0;
+    rows[PER_LENGTH] = a;
+    let r = FIELDS;
+    for (let i = 1; i < n; i++, r += FIELDS) {
       const after = length[i]!;
       const c = 1 / after;
       const most = greater(a, c);
-      weight[i] = ((before + after) / 2) * most * most;
-      perLength[i] = c;
-      const y2 = low[i + 1] === high[i + 1] ? low[i + 1]! : 0;
-      turn[i]! += (y2 - y1) * c - (y1 - y0) * a;
+      const weight = ((before + after) / 2) * most * most;
+      const low2 = low[i + 1]!;
+      const high2 = high[i + 1]!;
+      const free2 = isFree(low2, high2);
+      const y2 = (1 - free2) * low2;
+      rows[r + WEIGHT] = weight;
+      rows[r + BENDING] = weight * (turn[i]! + (y2 - y1) * c - (y1 - y0) * a);
+      rows[r + FREE] = free1;
+      rows[r + PER_LENGTH] = c;
+      rows[r + FIELDS + LOW] = low2;
+      rows[r + FIELDS + HIGH] = high2;
       before = after;
       a = c;
+      free1 = free2;
       y0 = y1;
       y1 = y2;
     }
+    rows[FIELDS + LOW] = low[1]!;
+    rows[FIELDS + HIGH] = high[1]!;
+    rows[r + WEIGHT] =
+      rows[r + BENDING] =
+      rows[r + FREE] =
+      rows[r + PER_LENGTH] =
+      rows[r + FIELDS + FREE] =
+        0;
   }
 
-  /** The system's factors; and the first way forth, on which no point has moved yet. */
-  private factor(n: number): void {
-    const { low, high, turn, weight, perLength, rows } = this;
+  /**
+   * The system's factors; and the first way forth, on which no point has moved yet. Whether a point is fixed changes so often
+   * that products take less time than branches. Nothing is looked up before the loop: V8 may compile this while it runs for the
+   * first time, and would throw that away for what it has not seen yet.
+   */
+  private factor(n: number, rows: Float64Array): void {
     // D L's first diagonal in the column before, the second one's in the two before; L's likewise; the solution's first half.
     let first1 = 0;
-    let [second1, second2] = [0, 0];
+    let second1 = 0;
+    let second2 = 0;
     let below1 = 0;
-    let [below2, below2Before] = [0, 0];
-    let [s1, s2] = [0, 0];
-    for (let i = 1, r = FIELDS; i < n; i++, r += FIELDS) {
-      const a = perLength[i - 1]!;
-      const c = perLength[i]!;
-      const e = perLength[i + 1]!;
-      const isFree = low[i] !== high[i];
-      const own = weight[i]! * (a + c);
-      const before = weight[i - 1]! * a;
-      const after = weight[i + 1]! * c;
-      const diagonal = before * a + own * (a + c) + after * c;
-      const held = BOUND * diagonal;
-      const right = own * turn[i]! - before * turn[i - 1]! - after * turn[i + 1]!;
-      let d = diagonal + held - below2Before * second2 - below1 * first1;
-      let first = (low[i + 1] !== high[i + 1] ? -own * c - after * (c + e) : 0) - below1 * second1;
-      let second = low[i + 2] !== high[i + 2] ? after * e : 0;
-      let s = right - below2Before * s2 - below1 * s1;
-      if (!isFree) {
-        d = 1;
-        first = second = s = 0;
-      }
+    let below2 = 0;
+    let below2Before = 0;
+    let s1 = 0;
+    let s2 = 0;
+    // Of the point before, and of the point itself.
+    let weight0 = 0;
+    let weight1 = 0;
+    let bending0 = 0;
+    let bending1 = 0;
+    let free1 = 0;
+    let a = 0;
+    for (let r = 0; r < FIELDS * n; r += FIELDS) {
+      const next = r + FIELDS;
+      const c = rows[r + PER_LENGTH]!;
+      const free2 = rows[next + FREE]!;
+      const weight2 = rows[next + WEIGHT]!;
+      const bending2 = rows[next + BENDING]!;
+      const e = rows[next + PER_LENGTH]!;
+      const free3 = rows[next + FIELDS + FREE]!;
+      const around = a + c;
+      const own = weight1 * around;
+      const before = weight0 * a;
+      const after = weight2 * c;
+      const right = free1 * (bending1 * around - bending0 * a - bending2 * c);
+      const diagonal = before * a + own * around + after * c;
+      const held = free1 * BOUND * diagonal;
+      const d = free1 * (diagonal + held - below2Before * second2 - below1 * first1 - 1) + 1;
+      const first = free1 * (free2 * (-own * c - after * (c + e)) - below1 * second1);
+      const second = free1 * free3 * after * e;
+      const s = free1 * (right - below2Before * s2 - below1 * s1);
       const inverse = 1 / d;
       below2Before = below2;
       below1 = first * inverse;
@@ -132,10 +164,14 @@ export class LeastBending {
       rows[r + BELOW1] = below1;
       rows[r + BELOW2] = below2;
       rows[r + CARRY] = 0;
-      rows[r + RIGHT] = isFree ? right : 0;
-      rows[r + HELD] = isFree ? held : 0;
-      rows[r + LOW] = low[i]!;
-      rows[r + HIGH] = high[i]!;
+      rows[r + RIGHT] = right;
+      rows[r + HELD] = held;
+      weight0 = weight1;
+      weight1 = weight2;
+      bending0 = bending1;
+      bending1 = bending2;
+      free1 = free2;
+      a = c;
     }
   }
 
@@ -199,4 +235,8 @@ export class LeastBending {
       y[i] = within > high ? high : within;
     }
   }
+}
+
+function isFree(low: number, high: number): number {
+  return low === high ? 0 : 1;
 }

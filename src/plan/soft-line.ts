@@ -127,12 +127,24 @@ export class SoftLine {
     const { sine, kind } = this;
     let found = NOTHING;
     sine[0] = sine[n] = kind[0] = kind[n] = 0;
+    let x0 = ux[0]!;
+    let y0 = uy[0]!;
+    let before = length[0]!;
+    let cap0 = cap2[0]!;
     for (let i = 1; i < n; i++) {
-      const dx = ux[i]! - ux[i - 1]!;
-      const dy = uy[i]! - uy[i - 1]!;
+      const x1 = ux[i]!;
+      const y1 = uy[i]!;
+      const after = length[i]!;
+      const cap1 = cap2[i]!;
+      const dx = x1 - x0;
+      const dy = y1 - y0;
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      const half = lesser(length[i - 1]!, length[i]!) / 2;
-      const v2 = Math.min(cap2[i - 1]!, cap2[i]!);
+      const half = lesser(before, after) / 2;
+      const v2 = lesser(cap0, cap1);
+      x0 = x1;
+      y0 = y1;
+      before = after;
+      cap0 = cap1;
       sine[i] = s;
       kind[i] = 0;
       if (half * s > 2 * corner) {
