@@ -56,14 +56,16 @@ function manyStrokes(): string {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path fill="none" stroke="#000" d="${lines.join("")}"/></svg>`;
 }
 
-/** From now on the page waits to say that it plans, which may be over when somebody looks from outside. */
+/**
+ * From now on the page waits to say that it plans, which may be over when somebody looks from outside. No function in there has a
+ * name: what runs scripts keeps names by a call that the page does not know.
+ */
 const notePlanning = (page: Page): Promise<void> =>
   plotBar(page).evaluate((bar) => {
     const planning = new Promise<void>((resolve) => {
-      const look = (): void => {
+      new MutationObserver(() => {
         if (bar.textContent?.includes("Planning…")) resolve();
-      };
-      new MutationObserver(look).observe(bar, { subtree: true, childList: true, characterData: true });
+      }).observe(bar, { subtree: true, childList: true, characterData: true });
     });
     (window as unknown as { planning: Promise<void> }).planning = planning;
   });
