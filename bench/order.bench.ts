@@ -86,7 +86,7 @@ function greedyForwards({ xy, offsets }: StrokeSet): number {
   const points = new PointStrips(starts);
   let [x, y, travel] = [0, 0, 0];
   for (let i = points.nearest(x, y); i >= 0; i = points.nearest(x, y)) {
-    points.remove(i);
+    points.removeAll(i, i + 1);
     travel += Math.hypot(starts[2 * i] - x, starts[2 * i + 1] - y);
     const last = offsets[i + 1] - 1;
     [x, y] = [xy[2 * last], xy[2 * last + 1]];

@@ -101,13 +101,15 @@ export class PointStrips {
     this.highs[strip] = high;
   }
 
-  remove(id: number): void {
-    const place = this.placeOf[id];
-    const before = this.before[place];
-    const after = this.after[place];
-    this.gone[place] = 1;
-    this.after[before] = after;
-    this.before[after] = before;
+  /** Takes points [first, end) away. */
+  removeAll(first: number, end: number): void {
+    const { placeOf, before, after, gone } = this;
+    for (let id = first; id < end; id++) {
+      const place = placeOf[id];
+      gone[place] = 1;
+      after[before[place]] = after[place];
+      before[after[place]] = before[place];
+    }
   }
 
   /** The nearest point left, or −1. */

@@ -39,9 +39,12 @@ export class BlockColumns {
 
   /** Makes room for `blocks` more, the outcome of `segments` segments of the drawing. */
   reserve(blocks: number, segments: number): void {
-    const needed = this.count + blocks;
     this.segmentsDone += segments;
-    if (needed <= this.durationS.length) return;
+    if (this.count + blocks > this.durationS.length) this.grow(this.count + blocks);
+  }
+
+  /** A method of its own: what is rare is not compiled into what is often called, which would have to be done anew then. */
+  private grow(needed: number): void {
     const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
     // Between a quarter more and 32-fold: the first strokes may be unlike the rest.
     this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 32 * needed) + 64);

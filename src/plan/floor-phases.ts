@@ -24,7 +24,7 @@ function timeOf(length: number, v0: number, v1: number, { peak, rise, fall }: Ph
 }
 
 /** A profile may take longer than the fastest one by this share of the floor. */
-const LOSS = 0.1;
+export const LOSS = 0.1;
 
 /** Rounding that a phase's time may differ by, s; and a share of the length that no steady phase is made of. */
 const SAME_S = 1e-9;

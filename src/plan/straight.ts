@@ -5,7 +5,7 @@
  * The caller's look-ahead has made sure that |v1² − v0²| ≤ 2 A d.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { keepFloor, type Phases } from "./floor-phases.js";
+import { LOSS, keepFloor, type Phases } from "./floor-phases.js";
 import { capSegments, isWithinMotors, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 
@@ -38,7 +38,9 @@ export function writeSingle(path: RunPath, limits: RunLimits, out: BlockColumns)
   out.reserve(3, 1);
   const peak2 = accel * l;
   const peak = Math.sqrt(peak2);
-  if (!(peak2 <= most2 && l >= floorS * peak)) {
+  const t = l / peak;
+  // A little below the floor there may be a slower way that keeps it (see `keepFloor`).
+  if (!(peak2 <= most2) || (t < floorS && t > (1 - LOSS / 2) * floorS)) {
     single.x = x;
     single.y = y;
     single.ux = ux;
@@ -49,7 +51,6 @@ export function writeSingle(path: RunPath, limits: RunLimits, out: BlockColumns)
     return;
   }
   const half = l / 2;
-  const t = l / peak;
   const v = ux * peak;
   const w = uy * peak;
   const a = ux * accel;

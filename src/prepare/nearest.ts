@@ -39,10 +39,10 @@ export function nearestOrder(
     const line = entries.line[entry];
     const low = entries.firstOf[line - first];
     const high = entries.firstOf[line - first + 1];
-    for (let e = low; e < high; e++) points.remove(e);
+    points.removeAll(low, high);
     tour.order[k] = line;
     // Without branches: a rare one is not known to V8 when it compiles this, so it would have to do that twice.
-    const closed = Number(isClosedLine(lines, line));
+    const closed = entries.isClosed[line - first];
     tour.start[line] = closed * (entry - low);
     tour.reversed[line] = (1 - closed) * Number(entry > low);
     exit = closed * entry + (1 - closed) * (low + high - 1 - entry);
@@ -59,6 +59,8 @@ interface Entries {
   readonly line: Uint32Array;
   /** Line `first + i` has entries [firstOf[i], firstOf[i + 1]). */
   readonly firstOf: Uint32Array;
+  /** 1 for each line that is closed. */
+  readonly isClosed: Uint8Array;
 }
 
 /** Every point at which a line can be begun: both ends, one for a dot, all corners of a closed line. */
@@ -68,11 +70,13 @@ function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean)
   const firstOf = new Uint32Array(end - first + 1);
   const places = new Float64Array(2 * most);
   const line = new Uint32Array(most);
+  const closed = new Uint8Array(end - first);
   let count = 0;
   for (let i = first; i < end; i++) {
     const from = offsets[i];
     const last = offsets[i + 1] - 1;
     const isClosed = last > from + 1 && isClosedLine(lines, i);
+    if (isClosed) closed[i - first] = 1;
     const until = isClosed && freeStart ? last : from + 1;
     for (let p = from; p < until; p++) {
       line[count] = i;
@@ -88,5 +92,5 @@ function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean)
     }
     firstOf[i - first + 1] = count;
   }
-  return { xy: places.subarray(0, 2 * count), line, firstOf };
+  return { xy: places.subarray(0, 2 * count), line, firstOf, isClosed: closed };
 }

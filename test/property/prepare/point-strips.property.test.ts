@@ -31,7 +31,7 @@ describe("PointStrips", () => {
               expect(left.has(found)).toBe(true);
               expect(d2(found)).toBe(Math.min(...[...left].map(d2)));
               if (!remove) continue;
-              strips.remove(found);
+              strips.removeAll(found, found + 1);
               left.delete(found);
             }
           }
