@@ -21,7 +21,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { isBeside, KEPT_S } from "./fit-source.js";
-import type { RunLimits } from "./limits.js";
+import { canStep, type RunLimits } from "./limits.js";
 import type { RunEnd, RunPath } from "./run-path.js";
 import type { FitSettings } from "./settings.js";
 import { SLACK } from "./three-jerks.js";
@@ -169,7 +169,8 @@ export class ShortRunFitter {
         pair[3] = (my - vy0) / h1;
         pair[4] = (vx1 - mx) / h2;
         pair[5] = (vy1 - my) / h2;
-        if (mx * mx + my * my <= fastest2 && this.canStep(mx, my) && this.isNear(k, m, length)) return true;
+        if (mx * mx + my * my <= fastest2 && canStep(this.limits, mx, my) && this.isNear(k, m, length))
+          return true;
         if (isLast) return false;
         // Once more with the knot in its place.
         isLast = true;
@@ -179,13 +180,6 @@ export class ShortRunFitter {
       share = Math.max(floorS / T, Math.min(1 - floorS / T, change1 / (change1 + change2)));
     }
     return false;
-  }
-
-  private canStep(vx: number, vy: number): boolean {
-    const { motorSpeed, mixed } = this.limits;
-    const ax = Math.abs(vx);
-    const ay = Math.abs(vy);
-    return (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK;
   }
 
   /** Compares `pair` with blocks [k, m), which take `length` seconds: where each begins, and within those that are not short. */

@@ -3,6 +3,7 @@ import { TICKS_PER_S } from "../units.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { RunPath } from "./run-path.js";
 import type { LayerMotion, MotionLimits, MotionSettings } from "./settings.js";
+import { SLACK } from "./three-jerks.js";
 
 export interface RunLimits {
   /** mm/s, mm/s², mm/s³. */
@@ -49,22 +50,14 @@ export function runLimits(
 }
 
 /** The same, for phases as short as they come. Written out, so that it is an object of the same kind to V8. */
-export const withoutFloor = ({
-  speed,
-  accel,
-  jerk,
-  corner,
-  motorSpeed,
-  mixed,
-  easeSpeed,
-}: RunLimits): RunLimits => ({
-  speed,
-  accel,
-  jerk,
-  corner,
-  motorSpeed,
-  mixed,
-  easeSpeed,
+export const withoutFloor = (limits: RunLimits): RunLimits => ({
+  speed: limits.speed,
+  accel: limits.accel,
+  jerk: limits.jerk,
+  corner: limits.corner,
+  motorSpeed: limits.motorSpeed,
+  mixed: limits.mixed,
+  easeSpeed: limits.easeSpeed,
   floorS: 0,
 });
 
@@ -83,6 +76,13 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
 /** Whether the motors can go at V whichever way: in the worst one makes √2 (mixed) or 1 (direct) times the carriage's speed. */
 export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
   speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
+
+/** Whether the motors can go at (vx, vy), in a fitted piece. */
+export function canStep({ motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
+  const ax = Math.abs(vx);
+  const ay = Math.abs(vy);
+  return (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK;
+}
 
 /** Fills `path.cap2` with the speed² that each segment's direction allows: V, and what the motors can step. */
 export function capSegments(path: RunPath, limits: RunLimits): void {

@@ -14,11 +14,10 @@ import type { BlockColumns } from "./block-columns.js";
 import { FewerPieces } from "./fewer-pieces.js";
 import type { FitSource } from "./fit-source.js";
 import { KnotGuess } from "./knot-guess.js";
-import type { RunLimits } from "./limits.js";
+import { canStep, type RunLimits } from "./limits.js";
 import type { PieceNotes } from "./piece-notes.js";
 import { PlanWalk } from "./plan-walk.js";
 import type { FitSettings } from "./settings.js";
-import { SLACK } from "./three-jerks.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
 const BETWEEN = 0.96;
@@ -276,7 +275,7 @@ export class PieceMerger {
       const d = h[j]!;
       const wx = vx[j]!;
       const wy = vy[j]!;
-      if (!this.canStep(wx, wy)) return false;
+      if (!canStep(this.limits, wx, wy)) return false;
       this.block[j] = walk.k;
       this.tau[j] = walk.tau;
       this.knot[j] = walk.end;
@@ -289,12 +288,5 @@ export class PieceMerger {
       y += (d * (wy + vy[j + 1]!)) / 2;
     }
     return Math.abs(walk.tau - notes.tau[i + count + 1]!) <= SAME_S;
-  }
-
-  private canStep(vx: number, vy: number): boolean {
-    const { motorSpeed, mixed } = this.limits;
-    const ax = Math.abs(vx);
-    const ay = Math.abs(vy);
-    return (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK;
   }
 }
