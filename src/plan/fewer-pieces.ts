@@ -18,7 +18,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import type { PieceNotes } from "./piece-notes.js";
-import { SLACK } from "./three-jerks.js";
+import { SLACK } from "./limits.js";
 
 /** What knots may use of the slack that limits have. */
 const HARDLY = 1.0004;

@@ -24,14 +24,13 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
-import type { RunLimits } from "./limits.js";
+import { SLACK, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 import type { FitSettings, MotionMode } from "./settings.js";
 import { PieceMerger } from "./merge-pieces.js";
 import { PieceChain } from "./piece-chain.js";
 import { PieceNotes } from "./piece-notes.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
-import { SLACK } from "./three-jerks.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
 const BETWEEN = 0.97;

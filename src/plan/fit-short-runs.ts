@@ -1,9 +1,12 @@
 /**
  * Fewer, longer pieces for runs of a few straights with sharp corners or tiny segments between them: lines that were joined,
- * triangles, ticks. Such a run is a few long blocks, and several short ones at each corner:
+ * triangles, ticks. Such a run is a few long blocks, and a few short ones at each corner:
  *
- *   plan     |--------|-------|--|-|--|-------|--------|       rise, fall, corner, tiny segment, corner, rise, fall
- *   pieces   |--------|----------|------------|--------|       two pieces in place of any three blocks or more
+ *   plan     |--------|----|-------|---|--------|-----|-------|       rise, cruise, fall, corner, rise, cruise, fall
+ *   pieces   |----------|----------|---|----------|-----------|       two pieces in place of any three blocks or more
+ *
+ * Sharp corners stay as planned: where they are cut otherwise, the line has another length, and a place on it lies elsewhere for
+ * who goes on from there.
  *
  * A pair of pieces goes from the plan's own state at the beginning of one block to that at the beginning of another.
  * With h1 and h2 the times they take, T their sum, and m the velocity between them:
@@ -11,7 +14,7 @@
  *   m = (2 Δp − h1 v0 − h2 v1)/T          a1 = (m − v0)/h1          a2 = (v1 − m)/h2
  *
  * The knot is moved to where both need the same acceleration, and T grown to where that is A: a few rounds of both. T may be
- * more than the plan's time by a little, so that pieces at a corner come up to the floor.
+ * more than the plan's time by a little, so that pieces come up to the floor.
  *
  * Which blocks are replaced is chosen over all of the run (shortest way, by dynamic programming): the fewest pieces,
  * and of these those with the fewest below the floor. Curves are for fit-accelerations.ts, which goes beside the plan where
@@ -21,10 +24,9 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 import { isBeside, KEPT_S } from "./fit-source.js";
-import { canStep, type RunLimits } from "./limits.js";
+import { SLACK, canStep, type RunLimits } from "./limits.js";
 import type { RunEnd, RunPath } from "./run-path.js";
 import type { FitSettings } from "./settings.js";
-import { SLACK } from "./three-jerks.js";
 
 /** Longer runs have other fits; and so many blocks has a segment at most, with the corner after it. */
 const MOST_SEGMENTS = 5;
@@ -121,7 +123,7 @@ export class ShortRunFitter {
       const d = durationS[m - 1]!;
       let least = cost[m - 1]! + (d < floorS ? 1 + SHORT : 1);
       let from = m - 1;
-      if (d >= KEPT_S) first = m;
+      if (this.isKept(m - 1)) first = m;
       for (let k = first; k <= m - FEWEST; k++) {
         if (cost[k]! + 2 >= least || !this.findPair(k, m)) continue;
         least = cost[k]! + 2;
@@ -131,6 +133,17 @@ export class ShortRunFitter {
       cost[m] = least;
       before[m] = from;
     }
+  }
+
+  /** A long block or a sharp corner is drawn as it was planned. */
+  private isKept(k: number): boolean {
+    const { durationS, vx, vy, ax, ay } = this.blocks;
+    const d = durationS[k]!;
+    const wx = vx[k]! + d * ax[k]!;
+    const wy = vy[k]! + d * ay[k]!;
+    const along = vx[k]! * wx + vy[k]! * wy;
+    const both2 = (vx[k]! * vx[k]! + vy[k]! * vy[k]!) * (wx * wx + wy * wy);
+    return d >= KEPT_S || along < 0 || along * along < SMOOTH * SMOOTH * both2;
   }
 
   /** Finds a pair from the beginning of block k to that of block m, and leaves it in `pair`; false where there is none. */

@@ -3,7 +3,6 @@ import { TICKS_PER_S } from "../units.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { RunPath } from "./run-path.js";
 import type { LayerMotion, MotionLimits, MotionSettings } from "./settings.js";
-import { SLACK } from "./three-jerks.js";
 
 export interface RunLimits {
   /** mm/s, mm/s², mm/s³. */
@@ -20,6 +19,9 @@ export interface RunLimits {
   /** Straight pieces are given no phase shorter than this, s, where that can be helped; 0: as short as they come. */
   readonly floorS: number;
 }
+
+/** Fitted pieces may pass their limits by this much. */
+export const SLACK = 1.0009;
 
 /** Share of the board's highest step rate that a plan uses: rounding to whole rates must not pass it. */
 const STEP_RATE_SHARE = 0.98;
@@ -48,18 +50,6 @@ export function runLimits(
     floorS: fit ? fit.floorMs / 1000 : 0,
   };
 }
-
-/** The same, for phases as short as they come. Written out, so that it is an object of the same kind to V8. */
-export const withoutFloor = (limits: RunLimits): RunLimits => ({
-  speed: limits.speed,
-  accel: limits.accel,
-  jerk: limits.jerk,
-  corner: limits.corner,
-  motorSpeed: limits.motorSpeed,
-  mixed: limits.mixed,
-  easeSpeed: limits.easeSpeed,
-  floorS: 0,
-});
 
 /** The limits of one layer's strokes. */
 export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLimits {

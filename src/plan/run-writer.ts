@@ -5,7 +5,7 @@ import { AccelerationFitter } from "./fit-accelerations.js";
 import { JerkFitter } from "./fit-jerks.js";
 import { ShortRunFitter } from "./fit-short-runs.js";
 import { writeJunctionRun } from "./junction.js";
-import { withoutFloor, type RunLimits } from "./limits.js";
+import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { SCurvePlanner } from "./scurve.js";
 import type { FitSettings, MotionMode } from "./settings.js";
@@ -34,8 +34,7 @@ export class RunWriter {
     if (this.fitter === null || path.segmentCount < 2) return this.writeMode(path, limits, out);
     this.unfitted.clear();
     if (this.shortFitter?.takes(path, limits)) {
-      // Pairs take the place of phases that are too short.
-      this.writeMode(path, withoutFloor(limits), this.unfitted);
+      this.writeMode(path, limits, this.unfitted);
       this.shortFitter.write(this.unfitted, path.end(), limits, out);
       return;
     }

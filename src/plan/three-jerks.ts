@@ -4,10 +4,7 @@
  *   j1 = C − B    j2 = B − 2 j1    j3 = Sa − j1 − j2, where
  *   Sa = Δa/h     B = (Δv − 3 a0 h)/h² − Sa/2     C = (Δp − 3 v0 h − 9 a0 h²/2)/h³ − Sa/6
  */
-import type { RunLimits } from "./limits.js";
-
-/** Fitted pieces may pass their limits by this much. */
-export const SLACK = 1.0009;
+import { SLACK, type RunLimits } from "./limits.js";
 
 /** The three jerks of one axis that lead from (v0, a0) over `dp` to (v1, a1) in time 3 h. */
 export function solveAxis(

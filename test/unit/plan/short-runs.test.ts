@@ -36,7 +36,7 @@ const joined = (turnDeg: number, gapDeg: number): number[] => {
 };
 
 describe("lines joined by a tiny segment", () => {
-  it("are drawn in fewer pieces than phases and corners, far fewer of them below the floor, and in as little time", () => {
+  it("are drawn in fewer pieces than phases and corners, fewer of them below the floor, and in as little time", () => {
     const [plain, fitted]: [number[], number[]] = [[], []];
     for (let turnDeg = -165; turnDeg <= 165; turnDeg += 30) {
       for (let gapDeg = -160; gapDeg <= 160; gapDeg += 40) {
@@ -44,18 +44,15 @@ describe("lines joined by a tiny segment", () => {
         fitted.push(...pieces(joined(turnDeg, gapDeg), DEFAULT_FIT));
       }
     }
-    expect(fitted.length / plain.length).toBeLessThan(0.8);
-    expect(belowFloor(fitted) / belowFloor(plain)).toBeLessThan(0.2);
-    expect(seconds(fitted) / seconds(plain)).toBeLessThan(1.01);
+    expect(fitted.length / plain.length).toBeLessThan(0.94);
+    expect(belowFloor(fitted) / belowFloor(plain)).toBeLessThanOrEqual(0.8);
+    expect(seconds(fitted) / seconds(plain)).toBeLessThan(1.001);
   });
 });
 
 describe("a triangle", () => {
-  it("is drawn in two pieces fewer, for its corners take part in braking and speeding up", () => {
+  it("keeps its sharp corners as planned, so that its line is as long as before", () => {
     const triangle = [50, 50, 80, 50, 65, 76, 50, 50];
-    const plain = pieces(triangle, null);
-    const fitted = pieces(triangle, DEFAULT_FIT);
-    expect(fitted.length).toBeLessThanOrEqual(plain.length - 2);
-    expect(seconds(fitted) / seconds(plain)).toBeLessThan(1.01);
+    expect(pieces(triangle, DEFAULT_FIT)).toEqual(pieces(triangle, null));
   });
 });
