@@ -49,8 +49,11 @@ const NO_PIECE = 1e-10;
 /** The shorter of segments not as long as this, mm, may be rounded in the other one's last place. */
 const LONG = 1e5;
 
-/** Segments written at a time, for which there is room then; and how many blocks each of them makes at most. */
-const SLICE = 4096;
+/**
+ * Segments written at a time, for which there is room then; and how many blocks each of them makes at most. Few, so that V8 does not
+ * enter compiled code in the middle of a long first call: such code boxes what the loop carries, and is kept.
+ */
+const SLICE = 256;
 const MOST_BLOCKS = 4;
 
 export class BlendPlanner {

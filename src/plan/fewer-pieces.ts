@@ -38,16 +38,23 @@ const DISCS = 5;
 export class FewerPieces {
   /** How many new pieces: one less than there were. */
   count = 0;
+  /** How far they may be from the line, mm; and how far they are, or Infinity where a limit is broken. */
+  most = 0;
+  far = 0;
   /** Durations of the new pieces, and velocities where they begin and end, from v0 to v1. */
   readonly h = new Float64Array(PIECES - 1);
   readonly vx = new Float64Array(PIECES);
   readonly vy = new Float64Array(PIECES);
   /** Seconds that the old ones took. */
-  oldS = 0;
+  private oldS = 0;
   private dx = 0;
   private dy = 0;
   private speed = 0;
   private accel = 0;
+  /** Of three pieces: w2 = q − r w1. */
+  private r = 0;
+  private qx = 0;
+  private qy = 0;
   private places = 0;
   /** Of each place of the old pieces: when; direction; distance if the pen were at the beginning or end; u × v0, u × v1. */
   private readonly t = new Float64Array(PLACES);
@@ -104,18 +111,21 @@ export class FewerPieces {
   }
 
   /**
-   * Two pieces, the first for `share` of `T` seconds. Returns how far they are from the line; or Infinity where that is
-   * more than `most` mm, or a limit is broken.
+   * Two pieces of h₁ and h₂ seconds. Finds w1, and says whether they are nearer to the line than `most`; if not, `far` is how far
+   * they are at least. (They are fields because numbers given and returned are boxed at each call.)
    */
-  solveTwo(share: number, T: number, most: number): number {
-    const { h, vx, vy, speed, accel, t, ux, uy, off0, off1, turn0, turn1, places } = this;
-    const h1 = share * T;
-    const h2 = T - h1;
+  solveTwo(): boolean {
+    const { h, vx, vy, speed, accel, t, ux, uy, off0, off1, turn0, turn1, most } = this;
+    const h1 = h[0]!;
+    const h2 = h[1]!;
+    const T = h1 + h2;
     const wx = (2 * this.dx - h1 * vx[0]! - h2 * vx[2]!) / T;
     const wy = (2 * this.dy - h1 * vy[0]! - h2 * vy[2]!) / T;
-    if (!(wx * wx + wy * wy <= speed * speed)) return Infinity;
-    if (!isWithin(wx - vx[0]!, wy - vy[0]!, accel * h1)) return Infinity;
-    if (!isWithin(vx[2]! - wx, vy[2]! - wy, accel * h2)) return Infinity;
+    this.far = Infinity;
+    if (!(wx * wx + wy * wy <= speed * speed)) return false;
+    if (!isWithin(wx - vx[0]!, wy - vy[0]!, accel * h1)) return false;
+    if (!isWithin(vx[2]! - wx, vy[2]! - wy, accel * h2)) return false;
+    const { places } = this;
     const later = T / this.oldS;
     const per1 = 1 / (2 * h1);
     const per2 = 1 / (2 * h2);
@@ -134,24 +144,30 @@ export class FewerPieces {
       }
       const off = Math.abs(left);
       if (!(off <= far)) far = off;
-      if (!(far < most)) return Infinity;
+      if (!(far < most)) break;
     }
-    h[0] = h1;
-    h[1] = h2;
     vx[1] = wx;
     vy[1] = wy;
-    return far;
+    this.far = far;
+    return far < most;
   }
 
   /**
-   * Three pieces of h1, h2 and h3 seconds; (rx, ry) is about what w1 should be. Returns how far they are from the line;
-   * or Infinity where that is more than `most` mm, or a limit is broken.
+   * Three pieces of h₁, h₂ and h₃ seconds; w1 is about what it should be. Finds it, and says whether they are nearer to the line
+   * than `most`.
    */
-  solveThree(h1: number, h2: number, h3: number, rx: number, ry: number, most: number): number {
+  solveThree(): boolean {
     const { h, vx, vy, t, ux, uy, off0, off1, turn0, turn1, base, slope } = this;
+    const h1 = h[0]!;
+    const h2 = h[1]!;
+    const h3 = h[2]!;
+    this.far = Infinity;
     const r = (h1 + h2) / (h2 + h3);
     const qx = (2 * this.dx - h1 * vx[0]! - h3 * vx[3]!) / (h2 + h3);
     const qy = (2 * this.dy - h1 * vy[0]! - h3 * vy[3]!) / (h2 + h3);
+    // No w1 keeps both itself and w2 below the limit of speed.
+    const reach = (1 + r) * this.speed;
+    if (qx * qx + qy * qy > reach * reach) return false;
     const T = h1 + h2 + h3;
     const later = T / this.oldS;
     const per1 = 1 / (2 * h1);
@@ -196,28 +212,24 @@ export class FewerPieces {
     const steady = STEADY * sum;
     n1 += steady;
     n3 += steady;
-    bx += steady * rx;
-    by += steady * ry;
+    bx += steady * vx[1]!;
+    by += steady * vy[1]!;
     const inverse = 1 / (n1 * n3 - n2 * n2);
     vx[1] = (bx * n3 - by * n2) * inverse;
     vy[1] = (by * n1 - bx * n2) * inverse;
-    let far = this.farthest(most);
-    if (!(far < most)) return Infinity;
-    if (!this.keepsLimits(h1, h2, h3, r, qx, qy)) {
-      if (!this.bringWithin(h1, h2, h3, r, qx, qy)) return Infinity;
-      far = this.farthest(most);
-    }
+    if (!this.isNear()) return false;
+    this.r = r;
+    this.qx = qx;
+    this.qy = qy;
+    if (!this.keepsLimits() && !(this.bringWithin() && this.isNear())) return false;
     vx[2] = qx - r * vx[1];
     vy[2] = qy - r * vy[1];
-    h[0] = h1;
-    h[1] = h2;
-    h[2] = h3;
-    return far;
+    return true;
   }
 
-  /** How far three pieces with this w1 are from the line; Infinity from `most` on. */
-  private farthest(most: number): number {
-    const { ux, uy, base, slope } = this;
+  /** Whether three pieces with this w1 are nearer to the line than `most`. */
+  private isNear(): boolean {
+    const { ux, uy, base, slope, most } = this;
     const wx = this.vx[1]!;
     const wy = this.vy[1]!;
     let far = 0;
@@ -225,36 +237,37 @@ export class FewerPieces {
       const off = Math.abs(base[s]! + slope[s]! * (ux[s]! * wy - uy[s]! * wx));
       if (!(off <= far)) far = off;
     }
-    return far < most ? far : Infinity;
+    this.far = far;
+    return far < most;
   }
 
-  private keepsLimits(h1: number, h2: number, h3: number, r: number, qx: number, qy: number): boolean {
-    const { vx, vy, accel, speed } = this;
+  private keepsLimits(): boolean {
+    const { h, vx, vy, accel, speed, r, qx, qy } = this;
     const wx = vx[1]!;
     const wy = vy[1]!;
     const zx = qx - r * wx;
     const zy = qy - r * wy;
     return (
-      isWithin(wx - vx[0]!, wy - vy[0]!, accel * h1) &&
-      isWithin(zx - wx, zy - wy, accel * h2) &&
-      isWithin(vx[3]! - zx, vy[3]! - zy, accel * h3) &&
+      isWithin(wx - vx[0]!, wy - vy[0]!, accel * h[0]!) &&
+      isWithin(zx - wx, zy - wy, accel * h[1]!) &&
+      isWithin(vx[3]! - zx, vy[3]! - zy, accel * h[2]!) &&
       isWithin(wx, wy, speed) &&
       isWithin(zx, zy, speed)
     );
   }
 
   /** Moves w1 to where all limits are kept; false where that is not found. */
-  private bringWithin(h1: number, h2: number, h3: number, r: number, qx: number, qy: number): boolean {
-    const { vx, vy, accel, speed, discX, discY, discR } = this;
+  private bringWithin(): boolean {
+    const { h, vx, vy, accel, speed, discX, discY, discR, r, qx, qy } = this;
     discX[0] = vx[0]!;
     discY[0] = vy[0]!;
-    discR[0] = accel * h1;
+    discR[0] = accel * h[0]!;
     discX[1] = qx / (1 + r);
     discY[1] = qy / (1 + r);
-    discR[1] = (accel * h2) / (1 + r);
+    discR[1] = (accel * h[1]!) / (1 + r);
     discX[2] = (qx - vx[3]!) / r;
     discY[2] = (qy - vy[3]!) / r;
-    discR[2] = (accel * h3) / r;
+    discR[2] = (accel * h[2]!) / r;
     discX[3] = discY[3] = 0;
     discR[3] = speed;
     discX[4] = qx / r;

@@ -33,7 +33,7 @@ import { PieceNotes } from "./piece-notes.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
-const BETWEEN = 0.97;
+const BETWEEN = 0.93;
 
 /** Share of ε that a steady piece aims at: it is looked at less closely there. */
 const AIM = 0.92;
@@ -54,8 +54,8 @@ const HARDLY = 1.0004;
 const TRIALS = 3;
 const FIRST_S = 0.06;
 
-/** The distance is looked at about so many times at least, for a piece or a pair. */
-const LOOKS = 12;
+/** The distance is looked at where each block begins, and about so many times for a piece or a pair; twice as often in `junction`. */
+const LOOKS = 6;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
@@ -421,9 +421,9 @@ export class AccelerationFitter {
     const changeX = isPair ? this.a2x - a1x : 0;
     const changeY = isPair ? this.a2y - a1y : 0;
     const most = BETWEEN * this.settings.toleranceMm;
-    const often = LOOKS / (end - tau);
     // At a vertex of a `junction` plan the way between two looks may bend.
     const least = this.mode === "junction" ? 2 : 1;
+    const often = (least * LOOKS) / (end - tau);
     for (let i = at.k; i < count; i++) {
       const start = startS[i]!;
       if (start >= end) break;

@@ -1,7 +1,6 @@
 /** A planned run as the fit reads it: its blocks in columns, and where it ends at rest. */
 import type { BlockColumns } from "./block-columns.js";
 import type { RunEnd } from "./run-path.js";
-import { blockLength } from "./trajectory.js";
 
 /** Longer blocks are kept as they are. */
 export const KEPT_S = 0.2;
@@ -34,14 +33,24 @@ export class FitSource {
     return k < this.blocks.count ? this.blocks.y[k]! : this.end.y;
   }
 
-  /** mm along the source polyline at an instant of block k. */
+  /** mm along the source polyline at an instant of block k. Lengths are by Simpson's rule: exact where it is straight. */
   alongAt(k: number, clock: number): number {
-    const { blocks } = this;
-    const next = k + 1 < blocks.count ? blocks.alongMm[k + 1]! : this.end.alongMm;
-    const t = Math.min(blocks.durationS[k]!, Math.max(0, clock - this.startOf(k)));
-    const whole = blockLength(blocks, k, blocks.durationS[k]!);
-    const share = whole > 0 ? Math.min(1, blockLength(blocks, k, t) / whole) : 0;
-    return blocks.alongMm[k]! + (next - blocks.alongMm[k]!) * share;
+    const { alongMm, durationS, count } = this.blocks;
+    const next = k + 1 < count ? alongMm[k + 1]! : this.end.alongMm;
+    const d = durationS[k]!;
+    const t = Math.min(d, Math.max(0, clock - this.startOf(k)));
+    const v0 = this.speedAt(k, 0);
+    const whole = d * (v0 + 4 * this.speedAt(k, d / 2) + this.speedAt(k, d));
+    const done = t * (v0 + 4 * this.speedAt(k, t / 2) + this.speedAt(k, t));
+    return alongMm[k]! + (next - alongMm[k]!) * (done < whole ? done / whole : whole > 0 ? 1 : 0);
+  }
+
+  /** mm/s, `u` seconds after the beginning of block k. */
+  private speedAt(k: number, u: number): number {
+    const { vx, vy, ax, ay, jx, jy } = this.blocks;
+    const wx = vx[k]! + u * (ax[k]! + (u / 2) * (jx ? jx[k]! : 0));
+    const wy = vy[k]! + u * (ay[k]! + (u / 2) * (jy ? jy[k]! : 0));
+    return Math.sqrt(wx * wx + wy * wy);
   }
 
   /** The first block from k on to be kept whatever happens: a long one or a sharp corner. */

@@ -39,8 +39,9 @@ const ASIDE = 0.1;
 /** The knots between three pieces: steps of the search around those guessed, as shares of an old piece. */
 const STEP = 0.15;
 
-/** Rounds of that search: it goes on while the distance is below so many times ε, until it is within the share GOOD of it. */
-const HOPES = [1.7];
+/** They are looked for where the first guess is within so many times ε, until it is within the share GOOD of it. */
+const HOPE_TWO = 2;
+const HOPE_THREE = 1.7;
 const GOOD = 0.75;
 
 /** Half of the looks at a new piece, at least; and the seconds between two looks, at most. */
@@ -57,6 +58,10 @@ export class PieceMerger {
   private readonly walk: PlanWalk;
   private readonly fewer = new FewerPieces();
   private readonly guess = new KnotGuess();
+  /** How near new pieces must be, mm. */
+  private readonly near: number;
+  /** The limit of speed for those that are open. */
+  private speed = 0;
   private pieces!: BlockColumns;
   private limits!: RunLimits;
   /** The notes of new pieces, while it is not known whether they hold. */
@@ -71,7 +76,8 @@ export class PieceMerger {
     private readonly settings: FitSettings,
     private readonly notes: PieceNotes,
   ) {
-    this.walk = new PlanWalk(source);
+    this.near = BETWEEN * settings.toleranceMm;
+    this.walk = new PlanWalk(source, this.near);
   }
 
   /** Merges `pieces`, which cover the source's run. */
@@ -128,86 +134,113 @@ export class PieceMerger {
   }
 
   private mergesThree(i: number): boolean {
-    const near = BETWEEN * this.settings.toleranceMm;
+    const { fewer, guess, near } = this;
     const { jump } = this.notes;
-    if (!this.isTame(i, 3, Math.abs(jump[i + 1]!) + Math.abs(jump[i + 2]!), WILD_THREE * near)) return false;
-    const most = this.open(i, 3);
-    if (most === 0) return false;
-    const { fewer, guess } = this;
-    const floor = this.settings.floorMs / 1000;
+    const T = this.secondsOf(i, 3);
+    // Not where the pen is at rest: jumps are NaN there.
+    if (!((Math.abs(jump[i + 1]!) + Math.abs(jump[i + 2]!)) * T * T < WILD_THREE * near)) return false;
+    const most = this.mostFor(i, 3, T);
+    if (most === 0 || !this.reaches(i, most)) return false;
+    this.open(i, 3);
     guess.forTwo(this.pieces, this.notes, i);
-    let best = near;
+    let best = HOPE_TWO * near;
     let share = 0;
     for (let way = 0; way < 4 && best > GOOD * near; way++) {
       const s = way === 1 ? guess.both : guess.across + (way === 2 ? -ASIDE : way === 3 ? ASIDE : 0);
-      if (Math.min(s, 1 - s) * most < floor) continue;
-      const far = fewer.solveTwo(s, most, best);
-      if (!(far < best)) continue;
-      best = far;
-      share = s;
+      fewer.most = best;
+      if (this.solveTwo(s, most)) {
+        best = fewer.far;
+        share = s;
+      } else if (way === 0 && fewer.far < Infinity) return false;
     }
-    if (share === 0) return false;
+    if (!(best < near)) return false;
+    fewer.most = near;
     for (const sooner of SOONER) {
-      if (Math.min(share, 1 - share) * most * sooner < floor) continue;
-      if (fewer.solveTwo(share, most * sooner, near) < near && this.replaces(i, near)) return true;
+      if (this.solveTwo(share, most * sooner) && this.replaces(i)) return true;
     }
     return false;
+  }
+
+  /** Two pieces of T seconds, the first for this share of them. */
+  private solveTwo(share: number, T: number): boolean {
+    const { fewer } = this;
+    const { h } = fewer;
+    h[0] = share * T;
+    h[1] = T - h[0];
+    fewer.far = Infinity;
+    return Math.min(h[0], h[1]) >= this.settings.floorMs / 1000 && fewer.solveTwo();
   }
 
   private mergesFour(i: number): boolean {
-    const near = BETWEEN * this.settings.toleranceMm;
+    const { fewer, guess, near } = this;
     const { jump } = this.notes;
     const jumps = Math.abs(jump[i + 1]!) + Math.abs(jump[i + 2]!) + Math.abs(jump[i + 3]!);
-    if (!this.isTame(i, 4, jumps, WILD_FOUR * near)) return false;
-    const most = this.open(i, 4);
+    const T = this.secondsOf(i, 4);
+    if (!(jumps * T * T < WILD_FOUR * near)) return false;
+    const most = this.mostFor(i, 4, T);
     if (most === 0) return false;
-    const { guess } = this;
-    const later = most / this.fewer.oldS;
+    this.open(i, 4);
+    const later = most / T;
     guess.forThree(this.pieces, this.notes, i);
+    fewer.most = HOPE_THREE * near;
+    if (!this.solveThree(i, later)) return false;
+    let best = fewer.far;
     let { first, second } = guess;
-    let best = this.solveThree(i, first, second, later, HOPES[0]! * near);
-    let step = STEP;
-    for (const hope of HOPES) {
-      if (best <= GOOD * near || !(best < hope * near)) break;
-      const before = best;
-      for (let way = 0; way < 4; way++) {
-        const f = first + (way === 0 ? step : way === 1 ? -step : 0);
-        const s = second + (way === 2 ? step : way === 3 ? -step : 0);
-        const far = this.solveThree(i, f, s, later, best);
-        if (!(far < best)) continue;
-        best = far;
-        first = f;
-        second = s;
-        // Not back again.
-        if (way === 0) way = 1;
-        else if (way === 2) break;
-      }
-      if (best === before) step /= 2;
+    for (let way = 0; way < 4 && best > GOOD * near; way++) {
+      guess.first = first + (way === 0 ? STEP : way === 1 ? -STEP : 0);
+      guess.second = second + (way === 2 ? STEP : way === 3 ? -STEP : 0);
+      fewer.most = best;
+      if (!this.solveThree(i, later)) continue;
+      best = fewer.far;
+      ({ first, second } = guess);
+      // Not back again.
+      if (way === 0) way = 1;
+      else if (way === 2) break;
     }
     if (!(best < near)) return false;
-    for (const sooner of SOONER) {
-      if (this.solveThree(i, first, second, later * sooner, near) < near && this.replaces(i, near))
-        return true;
-    }
+    guess.first = first;
+    guess.second = second;
+    fewer.most = near;
+    for (const sooner of SOONER) if (this.solveThree(i, later * sooner) && this.replaces(i)) return true;
     return false;
   }
 
-  /** Whether fewer pieces than [i, i + old) can do at all, with these jumps between them; not where the pen is at rest there. */
-  private isTame(i: number, old: number, jumps: number, most: number): boolean {
+  private secondsOf(i: number, old: number): number {
     const { durationS } = this.pieces;
     let T = 0;
     for (let p = i; p < i + old; p++) T += durationS[p]!;
-    return jumps * T * T < most;
+    return T;
   }
 
-  /** Opens pieces [i, i + old) to become fewer; returns the seconds these may take, 0 where nothing may be changed. */
-  private open(i: number, old: number): number {
-    const { fewer, notes } = this;
-    const length = notes.tau[i + old]! - notes.tau[i]!;
-    const speed = this.speedFor(i, old);
-    if (!(length < LONGEST_S) || speed === 0) return 0;
-    fewer.open(this.pieces, notes, i, old, speed, this.limits.accel);
-    return Math.max(fewer.oldS, LATER * length);
+  /**
+   * Seconds that fewer pieces may take in the place of [i, i + old), which take T; 0 where nothing may be changed. Leaves their
+   * limit of speed.
+   */
+  private mostFor(i: number, old: number, T: number): number {
+    const { tau } = this.notes;
+    const length = tau[i + old]! - tau[i]!;
+    this.speed = this.speedFor(i, old);
+    return length < LONGEST_S && this.speed > 0 ? Math.max(T, LATER * length) : 0;
+  }
+
+  /** Whether two pieces can come from i to i + 3 in T seconds: by the least speed that a knot between them can have. */
+  private reaches(i: number, T: number): boolean {
+    const { x, y, vx, vy } = this.pieces;
+    const end = i + 3;
+    // It is (2 Δp − h1 v0 − h2 v1)/T, on the line from c = 2 Δp/T − v1 to c − (v0 − v1).
+    const cx = (2 * (x[end]! - x[i]!)) / T - vx[end]!;
+    const cy = (2 * (y[end]! - y[i]!)) / T - vy[end]!;
+    const dx = vx[i]! - vx[end]!;
+    const dy = vy[i]! - vy[end]!;
+    const share = (cx * dx + cy * dy) / (dx * dx + dy * dy);
+    const s = share > 0 ? Math.min(share, 1) : 0;
+    const wx = cx - s * dx;
+    const wy = cy - s * dy;
+    return wx * wx + wy * wy <= (AT_LIMIT * this.speed) ** 2;
+  }
+
+  private open(i: number, old: number): void {
+    this.fewer.open(this.pieces, this.notes, i, old, this.speed, this.limits.accel);
   }
 
   /** The limit of speed for pieces [i, i + old): a lower one where a stroke begins and ends, if that is asked for; 0 on the verge. */
@@ -221,22 +254,26 @@ export class PieceMerger {
     return slow > old ? easeSpeed : 0;
   }
 
-  /** Three pieces with knots at these shares of the second and the third of pieces [i, i + 4), everything `later` times as long. */
-  private solveThree(i: number, first: number, second: number, later: number, most: number): number {
+  /** Three pieces with knots at the shares guessed of the second and the third of pieces [i, i + 4), everything `later` times as long. */
+  private solveThree(i: number, later: number): boolean {
+    const { fewer, guess } = this;
     const { durationS, vx, vy, ax, ay } = this.pieces;
+    const { h } = fewer;
     const floor = this.settings.floorMs / 1000;
-    const u = first * durationS[i + 1]!;
-    const v = second * durationS[i + 2]!;
-    const h1 = (durationS[i]! + u) * later;
-    const h2 = (durationS[i + 1]! - u + v) * later;
-    const h3 = (durationS[i + 2]! - v + durationS[i + 3]!) * later;
-    if (!(h1 >= floor && h2 >= floor && h3 >= floor)) return Infinity;
-    return this.fewer.solveThree(h1, h2, h3, vx[i + 1]! + u * ax[i + 1]!, vy[i + 1]! + u * ay[i + 1]!, most);
+    const u = guess.first * durationS[i + 1]!;
+    const v = guess.second * durationS[i + 2]!;
+    h[0] = (durationS[i]! + u) * later;
+    h[1] = (durationS[i + 1]! - u + v) * later;
+    h[2] = (durationS[i + 2]! - v + durationS[i + 3]!) * later;
+    if (!(h[0] >= floor && h[1] >= floor && h[2] >= floor)) return false;
+    fewer.vx[1] = vx[i + 1]! + u * ax[i + 1]!;
+    fewer.vy[1] = vy[i + 1]! + u * ay[i + 1]!;
+    return fewer.solveThree();
   }
 
-  /** Puts the fewer pieces in the place of those from i on, if they are within `near` of the line all the way. */
-  private replaces(i: number, near: number): boolean {
-    if (!this.holds(i, near)) return false;
+  /** Puts the fewer pieces in the place of those from i on, if they are near the line all the way. */
+  private replaces(i: number): boolean {
+    if (!this.holds(i)) return false;
     const { fewer, pieces, notes } = this;
     const { count, h, vx: wx, vy: wy } = fewer;
     const { durationS, x, y, vx, vy, ax, ay } = pieces;
@@ -264,28 +301,21 @@ export class PieceMerger {
     return true;
   }
 
-  private holds(i: number, near: number): boolean {
+  private holds(i: number): boolean {
     const { walk, notes } = this;
     const { count, h, vx, vy } = this.fewer;
     walk.k = notes.block[i]!;
     walk.tau = notes.tau[i]!;
-    let x = this.pieces.x[i]!;
-    let y = this.pieces.y[i]!;
+    walk.x = this.pieces.x[i]!;
+    walk.y = this.pieces.y[i]!;
     for (let j = 0; j < count; j++) {
-      const d = h[j]!;
-      const wx = vx[j]!;
-      const wy = vy[j]!;
-      if (!canStep(this.limits, wx, wy)) return false;
+      if (!canStep(this.limits, vx[j]!, vy[j]!)) return false;
       this.block[j] = walk.k;
       this.tau[j] = walk.tau;
       this.knot[j] = walk.end;
-      const ax = (vx[j + 1]! - wx) / d;
-      const ay = (vy[j + 1]! - wy) / d;
-      const half = Math.max(HALF_LOOKS, Math.ceil(d / (2 * LOOK_S)));
-      if (!walk.follow(x, y, wx, wy, ax, ay, d, half, near)) return false;
+      const half = Math.max(HALF_LOOKS, Math.ceil(h[j]! / (2 * LOOK_S)));
+      if (!walk.follow(j, h, vx, vy, half)) return false;
       this.middle[j] = walk.middle;
-      x += (d * (wx + vx[j + 1]!)) / 2;
-      y += (d * (wy + vy[j + 1]!)) / 2;
     }
     return Math.abs(walk.tau - notes.tau[i + count + 1]!) <= SAME_S;
   }

@@ -48,10 +48,11 @@ export class SteadyPiece {
   /** Largest distance beside the line over both pieces, mm. */
   beside = 0;
   private readonly along2: number;
-  /** Unit normals of the line, and how far to the left of start and velocity it is. */
+  /** Normals of the line, as long as its velocity, and how far along them it is from start and velocity; 1/|n|². */
   private readonly nr = new Float64Array(2 * LOOKS);
   private readonly nx = new Float64Array(2 * LOOKS);
   private readonly ny = new Float64Array(2 * LOOKS);
+  private readonly per = new Float64Array(2 * LOOKS);
 
   /** @param mayShift whether pieces may be early or late on the line */
   constructor(mayShift: boolean) {
@@ -60,7 +61,7 @@ export class SteadyPiece {
 
   /** Finds the piece of `h` seconds from `start`; the plan must go on for 2 h at least. */
   solve(from: BlockColumns, start: PieceStart, h: number): void {
-    const { along2, nr, nx, ny } = this;
+    const { along2, nr, nx, ny, per } = this;
     const { startS, x, y, vx, vy, ax, ay } = from;
     const { tau, x: x0, y: y0, vx: vx0, vy: vy0 } = start;
     const last = from.count - 1;
@@ -89,18 +90,17 @@ export class SteadyPiece {
       const dx = x[i]! + (d * (wx0 + wx)) / 2 - x0 - u * vx0;
       const dy = y[i]! + (d * (wy0 + wy)) / 2 - y0 - u * vy0;
       // At rest the line has no direction; any will do.
-      const per = 1 / Math.sqrt(wx * wx + wy * wy + AT_REST);
-      const ux = -wy * per;
-      const uy = wx * per;
-      const off = ux * dx + uy * dy;
+      const per2 = 1 / (wx * wx + wy * wy + AT_REST);
+      const off = wx * dy - wy * dx;
       nr[s] = off;
-      nx[s] = ux;
-      ny[s] = uy;
-      const across = beside2 * off;
-      const ex = along2 * dx + across * ux;
-      const ey = along2 * dy + across * uy;
-      const n1 = ux * ux;
-      const n2 = ux * uy;
+      nx[s] = -wy;
+      ny[s] = wx;
+      per[s] = per2;
+      const across = beside2 * off * per2;
+      const ex = along2 * dx - across * wy;
+      const ey = along2 * dy + across * wx;
+      const n1 = wy * wy * per2;
+      const n2 = -wx * wy * per2;
       const f = PHI1[s]!;
       const ff = f * f;
       p1 += ff * n1;
@@ -146,16 +146,17 @@ export class SteadyPiece {
     const ty = cy - q2 * a1x - q3 * a1y;
     const a2x = (tx * r3 - ty * r2) * det;
     const a2y = (ty * r1 - tx * r2) * det;
-    let beside = 0;
+    let most = 0;
     for (let s = 0; s < 2 * LOOKS; s++) {
       const f = PHI1[s]!;
       const g = PHI2[s]!;
-      const off = Math.abs(nr[s]! - nx[s]! * (a1x * f + a2x * g) - ny[s]! * (a1y * f + a2y * g));
-      if (!(off <= beside)) beside = off;
+      const off = nr[s]! - nx[s]! * (a1x * f + a2x * g) - ny[s]! * (a1y * f + a2y * g);
+      const off2 = off * off * per[s]!;
+      if (!(off2 <= most)) most = off2;
     }
     this.ax = a1x / (h * h);
     this.ay = a1y / (h * h);
-    this.beside = beside;
+    this.beside = Math.sqrt(most);
   }
 
   /** How far to the left of the line the pen is in the middle of the piece that was solved last, about, if (ax, ay) is its acceleration. */
@@ -169,6 +170,7 @@ export class SteadyPiece {
   }
 
   private left(look: number, h: number, ax: number, ay: number): number {
-    return h * h * PHI1[look]! * (this.nx[look]! * ax + this.ny[look]! * ay) - this.nr[look]!;
+    const left = h * h * PHI1[look]! * (this.nx[look]! * ax + this.ny[look]! * ay) - this.nr[look]!;
+    return left * Math.sqrt(this.per[look]!);
   }
 }
