@@ -23,7 +23,7 @@
  * Kept, as there: within ε of the planned line wherever it is looked at, |a| ≤ A and |v| ≤ V within 0.1 %.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { isBeside, KEPT_S } from "./fit-source.js";
+import { FitSource, SHARP, isBeside } from "./fit-source.js";
 import { SLACK, canStep, type RunLimits } from "./limits.js";
 import type { RunEnd, RunPath } from "./run-path.js";
 import type { FitSettings } from "./settings.js";
@@ -32,8 +32,7 @@ import type { FitSettings } from "./settings.js";
 const MOST_SEGMENTS = 5;
 const MOST_BLOCKS = 4 * MOST_SEGMENTS;
 
-/** The cosine of the turn (41°) above which a corner may be one of a curve; and how much shorter than the longest its segments are not. */
-const SMOOTH = 0.755;
+/** Segments of a curve are not so much shorter than its longest one. */
 const EVEN = 1 / 8;
 
 /** What a block below the floor costs, in pieces: less than the one that a pair saves at least. */
@@ -65,6 +64,7 @@ const LOOKS = 12;
 const FIELDS = 6;
 
 export class ShortRunFitter {
+  private readonly source = new FitSource();
   /** The planned run, and where it ends at rest. */
   private blocks!: BlockColumns;
   private end!: RunEnd;
@@ -94,7 +94,7 @@ export class ShortRunFitter {
       const l = length[i]!;
       if (l < shortest) shortest = l;
       if (l > longest) longest = l;
-      if (i > 0 && ux[i]! * ux[i - 1]! + uy[i]! * uy[i - 1]! < SMOOTH) return true;
+      if (i > 0 && ux[i]! * ux[i - 1]! + uy[i]! * uy[i - 1]! < SHARP) return true;
     }
     return shortest < EVEN * longest;
   }
@@ -105,6 +105,7 @@ export class ShortRunFitter {
     this.blocks = from;
     this.end = end;
     this.limits = limits;
+    this.source.open(from, end);
     this.findWay();
     out.reserve(from.count, end.segmentCount);
     for (let m = from.count; m > 0; m = before[m]!) next[before[m]!] = m;
@@ -115,15 +116,19 @@ export class ShortRunFitter {
   }
 
   private findWay(): void {
-    const { cost, before, pair, pairs, floorS } = this;
+    const { source, cost, before, pair, pairs, floorS } = this;
     const { count, durationS } = this.blocks;
-    // No pair stands for blocks before this.
+    // No pair stands for blocks before this, nor for the next one to be kept.
     let first = 0;
+    let kept = source.nextKept(0);
     for (let m = 1; m <= count; m++) {
       const d = durationS[m - 1]!;
       let least = cost[m - 1]! + (d < floorS ? 1 + SHORT : 1);
       let from = m - 1;
-      if (this.isKept(m - 1)) first = m;
+      if (m - 1 === kept) {
+        first = m;
+        kept = source.nextKept(m);
+      }
       for (let k = first; k <= m - FEWEST; k++) {
         if (cost[k]! + 2 >= least || !this.findPair(k, m)) continue;
         least = cost[k]! + 2;
@@ -133,17 +138,6 @@ export class ShortRunFitter {
       cost[m] = least;
       before[m] = from;
     }
-  }
-
-  /** A long block or a sharp corner is drawn as it was planned. */
-  private isKept(k: number): boolean {
-    const { durationS, vx, vy, ax, ay } = this.blocks;
-    const d = durationS[k]!;
-    const wx = vx[k]! + d * ax[k]!;
-    const wy = vy[k]! + d * ay[k]!;
-    const along = vx[k]! * wx + vy[k]! * wy;
-    const both2 = (vx[k]! * vx[k]! + vy[k]! * vy[k]!) * (wx * wx + wy * wy);
-    return d >= KEPT_S || along < 0 || along * along < SMOOTH * SMOOTH * both2;
   }
 
   /** Finds a pair from the beginning of block k to that of block m, and leaves it in `pair`; false where there is none. */

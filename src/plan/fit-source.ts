@@ -3,10 +3,10 @@ import type { BlockColumns } from "./block-columns.js";
 import type { RunEnd } from "./run-path.js";
 
 /** Longer blocks are kept as they are. */
-export const KEPT_S = 0.2;
+const KEPT_S = 0.2;
 
-/** So are blocks that turn the velocity by more than this, by its cosine. */
-const SHARP = 0.755;
+/** So are blocks that turn the velocity by more than this (41°), by its cosine: sharp corners, which no curve has. */
+export const SHARP = 0.755;
 
 export class FitSource {
   blocks!: BlockColumns;
