@@ -3,8 +3,11 @@
  * already. The floor gets for nothing what planning must find out (lengths, directions, corner limits),
  * so a ratio says what all the rest costs: corners, counting, growing, runs.
  *
- * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so the floor is run before
- * and after each plan, and a plan's ratio is its time over their mean; the median over the rounds is what counts.
+ * There are two of it: the loop as it was first written, and a tighter one, which is the same without a function for each block: V8
+ * boxes the numbers that such a function changes.
+ *
+ * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so both floors are run before
+ * and after each plan, and a plan's ratio is its time over the mean of one; the median over the rounds is what counts.
  */
 import {
   DEFAULT_FIT,
@@ -19,6 +22,12 @@ import {
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 
+/** How the loops are called, and what the ratios to them are. */
+const FLOORS = [
+  { what: "bare two-pass loop, as first written", of: "ratio", loop: firstLoop },
+  { what: "the same, tighter", of: "ratio to the tighter", loop: tightLoop },
+] as const;
+
 const ROUNDS = 7;
 const REPEATS = 5;
 
@@ -30,32 +39,28 @@ export default function planBench(report: Report): void {
     ["blend, fitted", { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }],
   ];
   const planned = new Map<string, Pick<Trajectory, "blockCount"> & { readonly bytes: number }>();
-  const { floorMs, measured } = inTurns(
-    () => bareLoop(floor),
+  const { floorsMs, measured } = inTurns(
+    FLOORS.map(
+      ({ loop }) =>
+        () =>
+          loop(floor),
+    ),
     motions.map(([what, motion]) => () => {
       const trajectory = plan(drawing, motion, DEFAULT_PEN);
       planned.set(what, { blockCount: trajectory.blockCount, bytes: bytesOf(trajectory) });
     }),
   );
   report("Planning one million segments (1 000 strokes), one thread", [
-    {
-      what: "bare two-pass loop",
-      "processor ms": Math.round(floorMs),
-      ratio: 1,
-      "least to greatest": "",
-      blocks: floor.count,
-      "bytes/block": "",
-    },
+    ...FLOORS.map(({ what }, i) => ({ what, "processor ms": Math.round(floorsMs[i]!), blocks: floor.count })),
     ...motions.map(([what], i) => {
       const { blockCount, bytes } = planned.get(what)!;
       const { ms, ratios } = measured[i]!;
       return {
         what,
         "processor ms": Math.round(median(ms)),
-        ratio: Number(median(ratios).toFixed(2)),
-        "least to greatest": `${Math.min(...ratios).toFixed(1)} to ${Math.max(...ratios).toFixed(1)}`,
         blocks: blockCount,
         "bytes/block": Math.round(bytes / blockCount),
+        ...Object.fromEntries(FLOORS.map(({ of }, f) => [of, spread(ratios[f]!)])),
       };
     }),
   ]);
@@ -89,31 +94,36 @@ function bytesOf(t: Trajectory): number {
   return columns.reduce((sum, column) => sum + (column ? column.byteLength : 0), 0);
 }
 
+const spread = (values: readonly number[]): string =>
+  `${median(values).toFixed(2)} (${Math.min(...values).toFixed(1)} to ${Math.max(...values).toFixed(1)})`;
+
 interface Measured {
-  /** Of each round: processor ms, and how many times as long as the floor just then. */
+  /** Of each round: processor ms; and of each floor, how many times as long as that just then. */
   readonly ms: number[];
-  readonly ratios: number[];
+  readonly ratios: readonly number[][];
 }
 
-/** Runs the floor, the first plan, the floor, the second one … in every round; the first round is not counted. */
+/** Runs the floors, the first plan, the floors, the second one … in every round; the first round is not counted. */
 function inTurns(
-  floor: () => void,
+  floors: readonly (() => void)[],
   plans: readonly (() => void)[],
-): { floorMs: number; measured: readonly Measured[] } {
-  const measured = plans.map((): Measured => ({ ms: [], ratios: [] }));
-  const floors: number[] = [];
+): { floorsMs: readonly number[]; measured: readonly Measured[] } {
+  const measured = plans.map((): Measured => ({ ms: [], ratios: floors.map(() => []) }));
+  const floorsMs = floors.map((): number[] => []);
   for (let round = 0; round <= ROUNDS; round++) {
     plans.forEach((run, i) => {
-      const before = processorMs(floor);
+      const before = floors.map(processorMs);
       const ms = processorMs(run);
-      const after = processorMs(floor);
+      const after = floors.map(processorMs);
       if (round === 0) return;
       measured[i]!.ms.push(ms);
-      measured[i]!.ratios.push((2 * ms) / (before + after));
-      floors.push(before, after);
+      floors.forEach((_, f) => {
+        measured[i]!.ratios[f]!.push((2 * ms) / (before[f]! + after[f]!));
+        floorsMs[f]!.push(before[f]!, after[f]!);
+      });
     });
   }
-  return { floorMs: median(floors), measured };
+  return { floorsMs: floorsMs.map(median), measured };
 }
 
 function processorMs(run: () => unknown): number {
@@ -175,7 +185,7 @@ interface Floor {
   readonly length: Float64Array;
   readonly limit2: Float64Array;
   readonly v2: Float64Array;
-  readonly columns: readonly Float64Array[];
+  readonly columns: NineColumns;
 }
 
 /** Everything that the bare loop is given: segments, their corner limits, and arrays already paged in. */
@@ -192,7 +202,7 @@ function prepareFloor(drawing: StrokeSet): Floor {
     length: make(segments),
     limit2: make(segments + 1),
     v2: make(segments + 1),
-    columns: Array.from({ length: 9 }, () => make(3 * segments)),
+    columns: Array.from({ length: 9 }, () => make(3 * segments)) as unknown as NineColumns,
   };
   const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
   // The corner limits: the speeds that the plan itself found.
@@ -218,19 +228,64 @@ function prepareFloor(drawing: StrokeSet): Floor {
   return floor;
 }
 
-function bareLoop(floor: Floor): void {
+type NineColumns = readonly [
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+  Float64Array,
+];
+
+function firstLoop(floor: Floor): void {
   const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
-  const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns as [
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-    Float64Array,
-  ];
+  const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns;
+  const { accelMmPerS2: accel, speedMmPerS: speed } = DEFAULT_MOTION.draw;
+  const max2 = speed * speed;
+  v2[n] = 0;
+  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i]!, v2[i + 1]! + 2 * accel * length[i]!);
+  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1]!, v2[i]! + 2 * accel * length[i]!);
+  let k = 0;
+  let clock = 0;
+  let along = 0;
+  const put = (i: number, from: number, w0: number, w1: number, d: number): void => {
+    const t = (2 * d) / (w0 + w1);
+    const a = (w1 - w0) / t;
+    durationS[k] = t;
+    bx[k] = x[i]! + ux[i]! * from;
+    by[k] = y[i]! + uy[i]! * from;
+    vx[k] = ux[i]! * w0;
+    vy[k] = uy[i]! * w0;
+    ax[k] = ux[i]! * a;
+    ay[k] = uy[i]! * a;
+    startS[k] = clock;
+    alongMm[k] = along + from;
+    clock += t;
+    k++;
+  };
+  for (let i = 0; i < n; i++) {
+    const l = length[i]!;
+    const w0 = Math.sqrt(v2[i]!);
+    const w1 = Math.sqrt(v2[i + 1]!);
+    const peak2 = Math.min(max2, (v2[i]! + v2[i + 1]!) / 2 + accel * l);
+    const peak = Math.sqrt(peak2);
+    const rise = (peak2 - v2[i]!) / (2 * accel);
+    const fall = (peak2 - v2[i + 1]!) / (2 * accel);
+    const cruise = l - rise - fall;
+    if (rise > 1e-9) put(i, 0, w0, peak, rise);
+    if (cruise > 1e-9) put(i, rise, peak, peak, cruise);
+    if (fall > 1e-9) put(i, l - fall, peak, w1, fall);
+    along += l;
+  }
+  floor.count = k;
+}
+
+function tightLoop(floor: Floor): void {
+  const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
+  const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns;
   const { accelMmPerS2: accel, speedMmPerS: speed } = DEFAULT_MOTION.draw;
   const max2 = speed * speed;
   v2[n] = 0;
