@@ -32,8 +32,12 @@ import { PieceChain } from "./piece-chain.js";
 import { PieceNotes } from "./piece-notes.js";
 import { SteadyPiece, type PieceStart } from "./steady-piece.js";
 
-/** Share of ε that the places looked at may use: between them the distance can be a little more. */
+/** Looks at the distance for a piece or a pair, about, besides where blocks begin; and the share of ε that it may be there. */
+const LOOKS = 6;
 const BETWEEN = 0.93;
+/** The same for `junction` plans, which bend at their vertices only. */
+const JUNCTION_LOOKS = 12;
+const JUNCTION_BETWEEN = 0.97;
 
 /** Share of ε that a steady piece aims at: it is looked at less closely there. */
 const AIM = 0.92;
@@ -53,9 +57,6 @@ const HARDLY = 1.0004;
 /** Trials for one steady piece's length, and the length of the first piece of a run, s. */
 const TRIALS = 3;
 const FIRST_S = 0.06;
-
-/** The distance is looked at where each block begins, and about so many times for a piece or a pair; twice as often in `junction`. */
-const LOOKS = 6;
 
 /** Blocks' ends that are tried for a pair; and so many pieces are taken back before one below the floor will do. */
 const PAIR_TRIALS = 8;
@@ -420,10 +421,11 @@ export class AccelerationFitter {
     const stretch = isPair ? (h1 + this.h2) / length : 1;
     const changeX = isPair ? this.a2x - a1x : 0;
     const changeY = isPair ? this.a2y - a1y : 0;
-    const most = BETWEEN * this.settings.toleranceMm;
+    const isJunction = this.mode === "junction";
+    const most = (isJunction ? JUNCTION_BETWEEN : BETWEEN) * this.settings.toleranceMm;
     // At a vertex of a `junction` plan the way between two looks may bend.
-    const least = this.mode === "junction" ? 2 : 1;
-    const often = (least * LOOKS) / (end - tau);
+    const least = isJunction ? 2 : 1;
+    const often = (isJunction ? JUNCTION_LOOKS : LOOKS) / (end - tau);
     for (let i = at.k; i < count; i++) {
       const start = startS[i]!;
       if (start >= end) break;
