@@ -23,20 +23,34 @@ for (const deg of [30, 45, 60, 90, 120, 150]) {
 }
 
 const SIDES_MM = [0.5, 1, 2, 5, 20];
-console.log(`\n| corners | ${SIDES_MM.map((side) => `${side} mm`.padStart(6)).join(" | ")} |`);
-console.log(`| ------: |${" -----: |".repeat(SIDES_MM.length)}`);
-for (const corners of [3, 4, 6, 8, 12]) {
-  const row = SIDES_MM.map((side) => {
-    const polygon = regularPolygon(corners, side);
-    const percent = 100 * (drawS("blend", polygon) / drawS("junction", polygon) - 1);
-    return `${percent > 0 ? "+" : ""}${percent.toFixed(1)} %`.padStart(6);
-  });
-  console.log(`| ${String(corners).padStart(7)} | ${row.join(" | ")} |`);
+/** Corners, and how many times round: the second one is a star of five points. */
+const POLYGONS = [
+  [3, 1],
+  [5, 2],
+  [4, 1],
+  [6, 1],
+  [8, 1],
+  [12, 1],
+] as const;
+for (const speed of [10, 50]) {
+  console.log(`\nV = ${speed} mm/s`);
+  console.log(`\n|   polygon | ${SIDES_MM.map((side) => `${side} mm`.padStart(6)).join(" | ")} |`);
+  console.log(`| --------: |${" -----: |".repeat(SIDES_MM.length)}`);
+  for (const [corners, times] of POLYGONS) {
+    const row = SIDES_MM.map((side) => {
+      const polygon = regularPolygon(corners, times, side);
+      const ratio = drawS("blend", polygon, speed) / drawS("junction", polygon, speed);
+      const percent = Math.round(1000 * (ratio - 1)) / 10;
+      return `${percent > 0 ? "+" : ""}${(percent || 0).toFixed(1)} %`.padStart(6);
+    });
+    console.log(`| ${(times > 1 ? "5, a star" : String(corners)).padStart(9)} | ${row.join(" | ")} |`);
+  }
 }
 
-function regularPolygon(corners: number, side: number): StrokeSet {
-  const radius = side / 2 / Math.sin(Math.PI / corners);
-  const angles = Array.from({ length: corners + 1 }, (_, i) => (2 * Math.PI * i) / corners);
+function regularPolygon(corners: number, times: number, side: number): StrokeSet {
+  const turn = (2 * Math.PI * times) / corners;
+  const radius = side / 2 / Math.sin(turn / 2);
+  const angles = Array.from({ length: corners + 1 }, (_, i) => turn * i);
   return {
     xy: Float64Array.from(angles.flatMap((a) => [100 + radius * Math.cos(a), 100 + radius * Math.sin(a)])),
     offsets: Uint32Array.of(0, corners + 1),
@@ -45,8 +59,8 @@ function regularPolygon(corners: number, side: number): StrokeSet {
   };
 }
 
-function drawS(mode: MotionMode, polygon: StrokeSet): number {
-  const draw = { speedMmPerS: 50, accelMmPerS2: LIMITS.accel, cornerMm: LIMITS.deviation, jerkMmPerS3: 1e4 };
+function drawS(mode: MotionMode, polygon: StrokeSet, speedMmPerS: number): number {
+  const draw = { speedMmPerS, accelMmPerS2: LIMITS.accel, cornerMm: LIMITS.deviation, jerkMmPerS3: 1e4 };
   const start = { startX: polygon.xy[0], startY: polygon.xy[1], returnHome: false };
   const pen = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
   return plan(polygon, { mode, draw, travel: draw, fit: null }, pen, start).totalS;

@@ -121,6 +121,30 @@ describe("corners", () => {
     expect(y).toBeCloseTo(0.05 / Math.SQRT2, 9);
   });
 
+  it("of triangles, stars and squares are taken sooner in blend mode than in junction mode, at speeds near √(2 A δ)/s", () => {
+    // Met faster than that, turning takes longer under A than a jump of velocity does: see docs/comparison.md.
+    const slow = { speedMmPerS: 10, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
+    for (const [corners, times] of [
+      [3, 1],
+      [5, 2],
+      [4, 1],
+    ] as const) {
+      for (const radius of [0.5, 2, 10]) {
+        const points = Array.from({ length: corners + 1 }, (_, i): Point => {
+          const angle = (2 * Math.PI * times * i) / corners;
+          return [50 + radius * Math.cos(angle), 50 + radius * Math.sin(angle)];
+        });
+        const drawS = (mode: MotionMode) =>
+          plan(strokeSetOf([points]), { mode, draw: slow, travel: slow, fit: null }, DEFAULT_PEN, {
+            startX: points[0]![0],
+            startY: points[0]![1],
+            returnHome: false,
+          }).totalS;
+        expect(drawS("junction") - drawS("blend")).toBeGreaterThan(0.0005);
+      }
+    }
+  });
+
   it("in scurve mode with hardly any limit on jerk take as long as in blend mode", () => {
     const time = (mode: MotionMode) =>
       plan(strokeSetOf([corner]), { mode, draw, travel: draw }, DEFAULT_PEN).totalS;
