@@ -240,6 +240,7 @@ type NineColumns = readonly [
   Float64Array,
 ];
 
+/** As it was first written. */
 function firstLoop(floor: Floor): void {
   const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
   const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns;
@@ -283,6 +284,7 @@ function firstLoop(floor: Floor): void {
   floor.count = k;
 }
 
+/** The same, without a function for each block. */
 function tightLoop(floor: Floor): void {
   const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
   const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns;

@@ -40,8 +40,9 @@ for (const speed of [10, 50]) {
     const row = SIDES_MM.map((side) => {
       const polygon = regularPolygon(corners, times, side);
       const ratio = drawS("blend", polygon, speed) / drawS("junction", polygon, speed);
-      const percent = Math.round(1000 * (ratio - 1)) / 10;
-      return `${percent > 0 ? "+" : ""}${(percent || 0).toFixed(1)} %`.padStart(6);
+      const tenths = Math.round(1000 * (ratio - 1));
+      const sign = tenths > 0 ? "+" : tenths < 0 ? "-" : "";
+      return `${sign}${(Math.abs(tenths) / 10).toFixed(1)} %`.padStart(6);
     });
     console.log(`| ${(times > 1 ? "5, a star" : String(corners)).padStart(9)} | ${row.join(" | ")} |`);
   }

@@ -24,7 +24,7 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
-import { SLACK, type RunLimits } from "./limits.js";
+import { SLACK, canStep, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 import type { FitSettings, MotionMode } from "./settings.js";
 import { PieceMerger } from "./merge-pieces.js";
@@ -400,11 +400,8 @@ export class AccelerationFitter {
 
   /** Speed runs straight between a piece's ends, and both limits are convex: the ends tell. */
   private keepsSpeed(vx: number, vy: number): boolean {
-    const { speed, motorSpeed, mixed } = this.limits;
-    const ax = Math.abs(vx);
-    const ay = Math.abs(vy);
-    const motor = mixed ? ax + ay : ax > ay ? ax : ay;
-    return vx * vx + vy * vy <= (speed * SLACK) ** 2 && motor <= motorSpeed * SLACK;
+    const { limits } = this;
+    return vx * vx + vy * vy <= (limits.speed * SLACK) ** 2 && canStep(limits, vx, vy);
   }
 
   /**

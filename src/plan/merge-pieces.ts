@@ -161,7 +161,7 @@ export class PieceMerger {
     return false;
   }
 
-  /** Two pieces of T seconds, the first for this share of them. */
+  /** Two pieces of T seconds, the first for this share of them; the floor is a limit like others. */
   private solveTwo(share: number, T: number): boolean {
     const { fewer } = this;
     const { h } = fewer;
