@@ -121,6 +121,17 @@ export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from ".
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
 export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
+// job
+export {
+  followedSettings,
+  planJob,
+  OLDEST_PLANNED_FIRMWARE,
+  type JobOptions,
+  type JobSettings,
+  type MachineJob,
+} from "./job/plan-job.js";
+export { planWalk, type WalkOptions } from "./job/plan-walk.js";
+
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";
 export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";

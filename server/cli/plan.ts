@@ -4,14 +4,11 @@ import {
   PlotwrightError,
   importDrawing,
   machineOf,
-  motionForFirmware,
-  plan,
-  compile,
+  planJob,
   pointCount,
   strokeCount,
   trajectoryStats,
   trajectoryToSvg,
-  withLayerCodes,
   plotLines,
   svgOptionsOf,
   toJson,
@@ -20,7 +17,7 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { BOARD_AT_HOME, prepareDrawing, type PreparedJob } from "../planning/stages.js";
+import { prepareDrawing, type PreparedJob } from "../planning/stages.js";
 import type { CliIo } from "./io.js";
 import { withOnlyLayers } from "./layers.js";
 
@@ -116,18 +113,13 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
-  const { motion, pen } = withLayerCodes(settings, job.prepared.strokes.layers);
-  const followed = motionForFirmware(motion, options.firmware);
-  const trajectory = plan(job.prepared.strokes, followed, pen, { machine, liftFirst: true });
+  const { firmware } = options;
+  const planned = planJob(job.prepared, settings, machine, { firmware, liftFirst: true });
+  const { trajectory } = planned;
   const planMs = clock();
-  const commands = compile(trajectory, {
-    machine,
-    firmware: options.firmware,
-    pen,
-    start: BOARD_AT_HOME,
-  });
+  const commands = planned.commands();
   const compileMs = clock();
-  const lines = plotLines(commands, { machine, pen, firmware: options.firmware });
+  const lines = plotLines(commands, { machine, pen: settings.pen, firmware });
   const stats = trajectoryStats(trajectory);
   const report: PlanReport = {
     strokes: strokeCount(job.prepared.strokes),

@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
 import {
-  motionForFirmware,
+  planJob,
   PlotwrightError,
   pointCount,
   strokeCount,
@@ -12,7 +12,7 @@ import {
 } from "../../src/index.js";
 import type { JobStats } from "../../src/schema/index.js";
 import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
-import { BOARD_AT_HOME, OLDEST_PLANNED_FIRMWARE, planAndCompile, prepareText } from "./stages.js";
+import { planAndCompile, prepareText } from "./stages.js";
 
 const input = workerData as WorkerInput;
 const port = parentPort;
@@ -43,28 +43,14 @@ function answer(prepared: Prepared, warnings: readonly string[], message: ToWork
   }
 }
 
-/**
- * Compiled too, though only figures are wanted: what the board can't do shows here, not in mid-plot. The board's own
- * firmware says how it moves, which makes the time; its commands are not needed for that.
- */
+/** Compiled too, though only figures are wanted: what the board can't do shows here, not in the middle of a plot. */
 function measure(
   prepared: Prepared,
   warnings: readonly string[],
   firmware: string | null,
 ): { stats: JobStats; warnings: readonly string[] } {
-  const { trajectory, commands } = planAndCompile(
-    prepared,
-    {
-      from: null,
-      until: null,
-      startXMm: 0,
-      startYMm: 0,
-      settings: { ...input.settings, motion: motionForFirmware(input.settings.motion, firmware) },
-      firmware: OLDEST_PLANNED_FIRMWARE,
-      board: BOARD_AT_HOME,
-    },
-    input.machine,
-  );
+  const job = planJob(prepared, input.settings, input.machine, { firmware });
+  const { trajectory } = job;
   const figures = trajectoryStats(trajectory);
   const stats: JobStats = {
     strokeCount: strokeCount(prepared.strokes),
@@ -74,7 +60,7 @@ function measure(
     penLiftCount: figures.penLiftCount,
     durationS: figures.durationS,
   };
-  return { stats, warnings: [...warnings, ...commands.warnings] };
+  return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 
 function fault(error: unknown): { code: ErrorCode; message: string } {

@@ -5,27 +5,18 @@
 import {
   PlotwrightError,
   checkBounds,
-  compile,
   importDrawing,
-  motionForFirmware,
-  plan,
+  planJob,
   prepare,
   prepareSettingsOf,
   strokeCount,
-  withLayerCodes,
-  type BoardState,
   type Drawing,
   type MachineProfile,
   type Prepared,
-  type StrokeSet,
   type Work,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
-
-/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
-export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
-export const BOARD_AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
 
 export interface PreparedJob {
   readonly prepared: Prepared;
@@ -58,40 +49,12 @@ export function prepareDrawing(
   return { prepared, warnings };
 }
 
+/** The plan of a request with its commands, as it crosses threads. */
 export function planAndCompile(
   prepared: Pick<Prepared, "strokes">,
-  request: PlanRequest,
+  { settings, ...options }: PlanRequest,
   machine: MachineProfile,
 ): PlannedPlot {
-  const { from, until } = request;
-  const settings = withLayerCodes(request.settings, prepared.strokes.layers);
-  const strokes = until === null ? prepared.strokes : firstStrokes(prepared.strokes, until);
-  const trajectory = plan(strokes, motionForFirmware(settings.motion, request.firmware), settings.pen, {
-    ...(from === null ? {} : { from }),
-    startX: request.startXMm,
-    startY: request.startYMm,
-    penBesideMm: penBesideMmOf(settings.motion, machine),
-    machine,
-  });
-  const commands = compile(trajectory, {
-    machine,
-    firmware: request.firmware,
-    pen: settings.pen,
-    start: request.board,
-  });
-  return { trajectory, commands };
+  const job = planJob(prepared, settings, machine, options);
+  return { trajectory: job.trajectory, commands: job.commands() };
 }
-
-/** How far from the drawing a pen may stand that was stopped on its line: what the line may leave it by, and rounding to steps. */
-function penBesideMmOf({ draw, layers, fit }: PlotSettings["motion"], machine: MachineProfile): number {
-  const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);
-  return Math.max(draw.cornerMm, ...corners) + (fit?.toleranceMm ?? 0) + 2 / machine.stepsPerMm;
-}
-
-/** A drawing without its last strokes; the others keep their numbers. */
-const firstStrokes = ({ xy, offsets, layer, layers }: StrokeSet, count: number): StrokeSet => ({
-  xy: xy.subarray(0, 2 * offsets[count]!),
-  offsets: offsets.subarray(0, count + 1),
-  layer: layer.subarray(0, count),
-  layers,
-});

@@ -6,11 +6,10 @@
  * the motors are switched on after a pause by hand *is* home.
  */
 import {
-  compile,
   machineOf,
-  motionForFirmware,
   parseSteps,
-  plan,
+  planJob,
+  planWalk,
   PlotwrightError,
   penCommand,
   penMoveOf,
@@ -18,11 +17,11 @@ import {
   setUpCommands,
   Streamer,
   type BoardState,
+  type MachineJob,
   type MachineProfile,
   type PenSettings,
   type StreamReport,
   type StrokeSet,
-  type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { AdvanceWatch } from "./advance-watch.js";
@@ -46,13 +45,6 @@ const SERVO_MS = 400;
 /** What the board's layer variable holds while its counters count from home: this and the mode of microsteps. */
 const PLACE_KNOWN = 112;
 const COARSEST_MODE = 5;
-
-const NO_STROKES: StrokeSet = {
-  xy: new Float64Array(0),
-  offsets: new Uint32Array(1),
-  layer: new Uint16Array(0),
-  layers: [],
-};
 
 export interface CarriageEvents {
   /** Pen, motors or place have changed. */
@@ -258,9 +250,15 @@ export class Carriage {
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
-    const trajectory = planWalk(from.x, from.y, x, y, this.followed(settings));
-    if (trajectory.blockCount === 0) return;
-    await this.playTrajectory(trajectory, settings);
+    const job = planWalk(settings, machine, {
+      fromXMm: from.x,
+      fromYMm: from.y,
+      toXMm: x,
+      toYMm: y,
+      firmware: this.connection.features.version,
+      board: this.state!,
+    });
+    if (job.trajectory.blockCount > 0) await this.playJob(job);
   }
 
   /** Draws strokes given in mm from where the carriage stands, and comes back there. */
@@ -269,23 +267,21 @@ export class Carriage {
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
-    const { motion, pen } = this.followed(settings);
-    await this.playTrajectory(shifted(plan(strokes, motion, pen), x, y), settings);
-  }
-
-  private followed(settings: PlotSettings): PlotSettings {
-    return { ...settings, motion: motionForFirmware(settings.motion, this.connection.features.version) };
-  }
-
-  private async playTrajectory(trajectory: Trajectory, settings: PlotSettings): Promise<void> {
-    const commands = compile(trajectory, {
-      machine: machineOf(settings),
+    const here = { ...strokes, xy: strokes.xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
+    const job = planJob({ strokes: here }, settings, machine, {
+      startXMm: x,
+      startYMm: y,
+      endXMm: x,
+      endYMm: y,
       firmware: this.connection.features.version,
-      pen: settings.pen,
-      start: this.state!,
+      board: this.state!,
     });
+    await this.playJob(job);
+  }
+
+  private async playJob(job: MachineJob): Promise<void> {
     try {
-      await this.play(this.streamer(), { trajectory, commands });
+      await this.play(this.streamer(), { trajectory: job.trajectory, commands: job.commands() });
     } catch (error) {
       if (error instanceof PlotwrightError && error.code === "conflict") await this.findPlace();
       throw error;
@@ -395,29 +391,6 @@ export class Carriage {
         "or moved by another program. Set home again before the next plot.",
     );
   }
-}
-
-/** A plan to home of nothing, moved so that home is the goal. */
-function planWalk(
-  fromX: number,
-  fromY: number,
-  toX: number,
-  toY: number,
-  settings: PlotSettings,
-): Trajectory {
-  const start = { startX: fromX - toX, startY: fromY - toY };
-  return shifted(plan(NO_STROKES, settings.motion, settings.pen, start), toX, toY);
-}
-
-/** The same motion elsewhere, mm. */
-function shifted(trajectory: Trajectory, byX: number, byY: number): Trajectory {
-  return {
-    ...trajectory,
-    x: trajectory.x.map((x) => x + byX),
-    y: trajectory.y.map((y) => y + byY),
-    endX: trajectory.endX + byX,
-    endY: trajectory.endY + byY,
-  };
 }
 
 const placeUnknown = (): PlotwrightError =>

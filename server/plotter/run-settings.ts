@@ -1,10 +1,9 @@
 /** The settings of a plot under way, as they were changed on the way. */
 import {
   drawLimitsOf,
-  motionForFirmware,
+  followedSettings,
   penOfLayer,
   settingsIdOf,
-  withLayerCodes,
   type PenSettings,
   type Place,
   type StrokeSet,
@@ -52,8 +51,7 @@ export class RunSettings {
   /** What the layer of a place brakes and lifts with: as it was planned. */
   at(place: Place | null): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
     const { layer, layers } = this.strokes;
-    const followed = motionForFirmware(this.current.motion, this.firmware);
-    const { motion, pen } = withLayerCodes({ ...this.current, motion: followed }, layers);
+    const { motion, pen } = followedSettings(this.current, layers, this.firmware);
     const own = place ? layers[layer[place.stroke]!] : undefined;
     const travelAccel = motion.travel.accelMmPerS2;
     if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };

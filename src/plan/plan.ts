@@ -29,8 +29,11 @@ export interface PlanOptions {
   readonly penBesideMm?: number | undefined;
   /** Begin with a lift: nobody knows where the pen is. Default false: it is up. */
   readonly liftFirst?: boolean | undefined;
-  /** End at 0, 0 with the pen up; default true. False: rest where the last stroke ends. */
+  /** End at `endX`, `endY` with the pen up; default true. False: rest where the last stroke ends. */
   readonly returnHome?: boolean | undefined;
+  /** mm in the machine frame; default 0, 0, which is home. */
+  readonly endX?: number | undefined;
+  readonly endY?: number | undefined;
   /** Its motors' limits are kept then too: steps a second, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
   /** Looked at before every stroke. An AbortSignal fits. */
@@ -60,9 +63,30 @@ export function plan(
     else builder.draw(stroke, 0, 0);
   }
   builder.lift(Infinity);
-  if (options.returnHome ?? true) builder.travel(0, 0);
+  if (options.returnHome ?? true) builder.travel(options.endX ?? 0, options.endY ?? 0);
   return builder.finish();
 }
+
+/** A straight move with the pen up, from rest to rest. Throws `bad-setting` for settings that contradict each other. */
+export function planTravel(
+  from: readonly [x: number, y: number],
+  to: readonly [x: number, y: number],
+  motion: MotionSettings,
+  pen: PenSettings,
+  machine?: MachineProfile,
+): Trajectory {
+  checkSettings(motion, pen);
+  const builder = new PlanBuilder(NO_STROKES, motion, pen, machine, from[0], from[1]);
+  builder.travel(to[0], to[1]);
+  return builder.finish();
+}
+
+const NO_STROKES: StrokeSet = {
+  xy: new Float64Array(0),
+  offsets: new Uint32Array(1),
+  layer: new Uint16Array(0),
+  layers: [],
+};
 
 class PlanBuilder {
   private readonly blocks: BlockColumns;

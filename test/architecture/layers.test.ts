@@ -15,6 +15,7 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   prepare: ["drawing", "geometry", "machines", "units", "errors"],
   plan: ["prepare", "drawing", "geometry", "machines", "units", "errors"],
   ebb: ["plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
+  job: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
   export: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
   board: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],
   schema: ["board", "ebb", "plan", "prepare", "drawing", "geometry", "machines", "units", "errors"],

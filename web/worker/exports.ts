@@ -1,14 +1,11 @@
 /** The prepared drawing as files. Fetched when the first one is saved, so the compiler is no part of the first load. */
 import {
-  compile,
   machineOf,
-  motionForFirmware,
-  plan,
+  planJob,
   plotLines,
   svgOptionsOf,
   toJson,
   toSvg,
-  withLayerCodes,
   type Prepared,
 } from "../../src/index.js";
 import type { ExportFormat, PlanSettings } from "./protocol.js";
@@ -23,9 +20,6 @@ export const exportText = (
   if (format === "svg") return toSvg(strokes, svgOptionsOf(prepared, settings));
   if (format === "json") return JSON.stringify(toJson(strokes, { widthMm, heightMm }));
   const machine = machineOf(settings);
-  const { motion, pen } = withLayerCodes(settings, strokes.layers);
-  const followed = motionForFirmware(motion, firmware);
-  const trajectory = plan(strokes, followed, pen, { machine, liftFirst: true });
-  const commands = compile(trajectory, { machine, firmware, pen });
-  return `${plotLines(commands, { machine, firmware, pen }).join("\n")}\n`;
+  const commands = planJob(prepared, settings, machine, { firmware, liftFirst: true }).commands();
+  return `${plotLines(commands, { machine, firmware, pen: settings.pen }).join("\n")}\n`;
 };

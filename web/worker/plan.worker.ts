@@ -6,17 +6,15 @@
  * import the file again, and a change of margin does not either.
  */
 import {
-  findMachine,
-  motionForFirmware,
+  machineOf,
   penStopsOf,
   placeDrawing,
-  plan,
+  planJob,
   pointCount,
   prepare,
   prepareSettingsOf,
   strokeCount,
   trajectoryStats,
-  withLayerCodes,
   type Drawing,
   type Placement,
   type Prepared,
@@ -83,10 +81,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
-    const { motion, pen } = withLayerCodes(settings, ready.strokes.layers);
-    const trajectory = plan(ready.strokes, motionForFirmware(motion, firmware), pen, {
-      machine: findMachine(settings) ?? undefined,
-    });
+    const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
     const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
