@@ -76,24 +76,21 @@ export {
   type PrepareSettings,
   type ShiftMm,
   type SpreadMode,
-} from "./prepare/settings.js";
+} from "./settings/prepare.js";
 
 // plan
 export {
   DEFAULT_FIT,
   DEFAULT_MOTION,
-  DEFAULT_PEN,
   MOTION_MODES,
   type EaseSettings,
   type FitSettings,
-  type HopSettings,
   type LayerMotion,
-  type LayerPen,
   type MotionLimits,
   type MotionMode,
   type MotionSettings,
-  type PenSettings,
-} from "./plan/settings.js";
+} from "./settings/motion.js";
+export { DEFAULT_PEN, type HopSettings, type LayerPen, type PenSettings } from "./settings/pen.js";
 export { plan, type PlanOptions } from "./plan/plan.js";
 export {
   stateAt,
@@ -122,15 +119,7 @@ export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines
 export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
 // job
-export {
-  followedSettings,
-  planJob,
-  OLDEST_PLANNED_FIRMWARE,
-  type JobOptions,
-  type JobSettings,
-  type MachineJob,
-} from "./job/plan-job.js";
-export { planWalk, type WalkOptions } from "./job/plan-walk.js";
+export { planJob, type JobOptions, type JobSettings, type MachineJob } from "./job/plan-job.js";
 
 // ebb
 export type { BoardState, CommandStream } from "./ebb/command-stream.js";

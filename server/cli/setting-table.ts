@@ -1,16 +1,7 @@
 /** The settings that have an option on the command line: the flag, where its value goes, how it is read. */
 import { InvalidArgumentError } from "commander";
-import {
-  LAYER_MODES,
-  MIRROR_MODES,
-  MOTION_MODES,
-  ORDER_MODES,
-  PAPER_SIZES,
-  SPREAD_MODES,
-  type FourMargins,
-  type PaperSize,
-  type PlacedBox,
-} from "../../src/index.js";
+import { PAPER_SIZES, type FourMargins, type PaperSize, type PlacedBox } from "../../src/index.js";
+import { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "../../src/internal.js";
 
 export interface SettingOption {
   readonly flags: string;
@@ -21,71 +12,42 @@ export interface SettingOption {
   readonly choices?: readonly string[];
 }
 
-const row = (
-  flags: string,
-  path: string,
-  about: string,
-  more: Partial<SettingOption> = {},
-): SettingOption => ({
-  flags,
-  path,
-  about,
-  ...more,
-});
-const amount = (flags: string, path: string, about: string): SettingOption =>
-  row(flags, path, about, { parse: number });
-
-export const SETTING_OPTIONS: readonly SettingOption[] = [
-  row("--machine <id>", "machine", "plotter model, for example axidraw-v3"),
-  row("--paper <size>", "prepare.paper", "A4, A3, Letter, … or WIDTHxHEIGHT in mm", { parse: paper }),
-  row("--landscape", "prepare.landscape", "a named paper lies on its long side (default)"),
-  row("--no-landscape", "prepare.landscape", "a named paper stands upright"),
-  amount("--margin <mm>", "prepare.marginMm", "free edge around the drawing"),
-  row("--margins <mm,mm,mm,mm>", "prepare.margins", "top, right, bottom, left", { parse: fourMargins }),
-  row("--fit", "prepare.fit", "scale the drawing to the paper inside the margins (default)"),
-  row("--no-fit", "prepare.fit", "draw in true size"),
-  row("--place <x,y[,w,h]>", "prepare.place", "the drawing's own box, mm from the paper's corner", {
+/** Settings whose value is more than one number, switch or choice. */
+const STRUCTURED: readonly SettingOption[] = [
+  { flags: "--machine <id>", path: "machine", about: "plotter model, for example axidraw-v3" },
+  {
+    flags: "--paper <size>",
+    path: "prepare.paper",
+    about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm",
+    parse: paper,
+  },
+  {
+    flags: "--margins <mm,mm,mm,mm>",
+    path: "prepare.margins",
+    about: "top, right, bottom, left",
+    parse: fourMargins,
+  },
+  {
+    flags: "--place <x,y[,w,h]>",
+    path: "prepare.place",
+    about: "the drawing's own box, mm from the paper's corner",
     parse: place,
-  }),
-  amount("--rotate <deg>", "prepare.rotateDeg", "turn the drawing clockwise"),
-  row("--mirror <how>", "prepare.mirror", "mirror the drawing", { choices: MIRROR_MODES }),
-  row("--clip", "prepare.clipToMargins", "cut off what lies outside the margins (default)"),
-  row("--no-clip", "prepare.clipToMargins", "draw over the margins"),
-  row("--crop-to-page", "prepare.cropToPage", "cut off what lies outside the file's own page"),
-  amount("--hatch <mm>", "prepare.hatch.spacingMm", "fill areas with lines so far apart"),
-  amount("--hatch-angle <deg>", "prepare.hatch.angleDeg", "direction of the hatch lines"),
-  row("--hatch-cross", "prepare.hatch.cross", "hatch both ways"),
-  row("--no-outline-fills", "prepare.outlineFills", "leave out the outline of shapes that are only filled"),
-  row("--hide-covered", "prepare.hideCovered", "leave out what lies under filled shapes"),
-  amount("--drop-repeats <mm>", "prepare.dropRepeatsMm", "leave out what is drawn already, this near"),
-  amount("--drop-shorter <mm>", "prepare.dropShorterMm", "leave out strokes shorter than this"),
-  amount("--join <mm>", "prepare.joinMm", "join ends that are closer than this"),
-  amount("--simplify <mm>", "prepare.simplifyMm", "drop points closer than this to the line"),
-  amount("--smooth <rounds>", "prepare.smoothRounds", "round off corners, 0 to 5 times"),
-  amount("--flatten <mm>", "prepare.flattenMm", "largest gap between a curve and its chords"),
-  row("--reloop", "prepare.reloop", "begin closed strokes at a random point"),
-  row("--order <how>", "prepare.order", "order of strokes", { choices: ORDER_MODES }),
-  amount("--order-s <s>", "prepare.orderS", "how long --order best may search"),
-  row("--spread <how>", "prepare.spread", "draw neighbours apart in time", { choices: SPREAD_MODES }),
-  amount("--reink <mm>", "prepare.reinkMm", "split layers after so much drawing, to take up ink"),
-  row("--layers <by>", "prepare.layers", "what makes a layer", { choices: LAYER_MODES }),
-  row("--mode <how>", "motion.mode", "how corners are taken", { choices: MOTION_MODES }),
-  amount("--speed <mm/s>", "motion.draw.speedMmPerS", "largest speed, pen down"),
-  amount("--accel <mm/s²>", "motion.draw.accelMmPerS2", "acceleration, pen down"),
-  amount("--corner <mm>", "motion.draw.cornerMm", "how far corners and tight curves may be left, pen down"),
-  amount("--jerk <mm/s³>", "motion.draw.jerkMmPerS3", "largest change of acceleration, pen down (scurve)"),
-  amount("--travel-speed <mm/s>", "motion.travel.speedMmPerS", "largest speed, pen up"),
-  amount("--travel-accel <mm/s²>", "motion.travel.accelMmPerS2", "acceleration, pen up"),
-  amount(
-    "--travel-jerk <mm/s³>",
-    "motion.travel.jerkMmPerS3",
-    "largest change of acceleration, pen up (scurve)",
-  ),
-  amount("--pen-up <percent>", "pen.upPct", "height while travelling"),
-  amount("--pen-down <percent>", "pen.downPct", "height while drawing"),
-  amount("--pen-lift-ms <ms>", "pen.liftMs", "wait for the pen to lift"),
-  amount("--pen-drop-ms <ms>", "pen.dropMs", "wait for the pen to drop"),
+  },
 ];
+
+/** From the settings tables. A switch is on with its flag and off with its "--no-" flag. */
+function optionsOf(setting: SettingFlag): SettingOption[] {
+  const { path, flag, row } = setting;
+  const about = `${row.about} (${valuesInWords(setting)})`;
+  if (row.kind === "number") return [{ flags: flagInWords(setting), path, about, parse: number }];
+  if (row.kind === "choice") return [{ flags: `${flag} <how>`, path, about, choices: row.choices }];
+  return [
+    { flags: flag, path, about },
+    { flags: flag.replace("--", "--no-"), path, about: row.aboutOff ?? "switches that off" },
+  ];
+}
+
+export const SETTING_OPTIONS: readonly SettingOption[] = [...STRUCTURED, ...SETTING_FLAGS.flatMap(optionsOf)];
 
 const NAMED_SIZES: readonly unknown[] = Object.values(PAPER_SIZES);
 

@@ -36,9 +36,7 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   for (const option of SETTING_OPTIONS) {
     const key = keyOf(option);
     const value = values[key];
-    // "--no-x" without an "--x" beside it is true until it is given.
-    const isSaid = value !== undefined && !(value === true && isOnlyNegated(option));
-    if (isSaid) setPath(settings, option.path.split("."), value);
+    if (value !== undefined) setPath(settings, option.path.split("."), value);
   }
   const machineFile = values["machineFile"];
   if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
@@ -52,10 +50,6 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
 }
 
 const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();
-
-const isOnlyNegated = (option: SettingOption): boolean =>
-  option.flags.startsWith("--no-") &&
-  !SETTING_OPTIONS.some((other) => other !== option && other.path === option.path);
 
 function setPath(target: Record<string, unknown>, path: readonly string[], value: unknown): void {
   const [first = "", ...rest] = path;

@@ -9,7 +9,6 @@ import {
   machineOf,
   parseSteps,
   planJob,
-  planWalk,
   PlotwrightError,
   penCommand,
   penMoveOf,
@@ -23,6 +22,7 @@ import {
   type StreamReport,
   type StrokeSet,
 } from "../../src/index.js";
+import { planWalk } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import type { Connection } from "./connection.js";

@@ -1,13 +1,13 @@
 /** The settings of a plot under way, as they were changed on the way. */
 import {
   drawLimitsOf,
-  followedSettings,
   penOfLayer,
   settingsIdOf,
   type PenSettings,
   type Place,
   type StrokeSet,
 } from "../../src/index.js";
+import { followedSettings } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./types.js";
 

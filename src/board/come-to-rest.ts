@@ -15,7 +15,7 @@
  * straight blocks it is exact and on curved ones within a fraction of a micrometre.
  */
 import { liftTiming } from "../plan/pen-times.js";
-import type { PenSettings } from "../plan/settings.js";
+import type { PenSettings } from "../settings/pen.js";
 import { blockLength, blockState, stateAt, type MotionState, type Trajectory } from "../plan/trajectory.js";
 
 export interface RestPlan {

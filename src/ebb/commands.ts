@@ -3,7 +3,7 @@
  */
 import { servoPosFromPct } from "../machines/pen.js";
 import type { MachineProfile } from "../machines/profile.js";
-import type { PenSettings } from "../plan/settings.js";
+import type { PenSettings } from "../settings/pen.js";
 import { firmwareFeatures } from "./firmware.js";
 
 /** The servo goes its way in this part of the wait for it; the rest lets it come to rest. */

@@ -6,7 +6,7 @@
  * there: the step counters at the end are those of the plan.
  */
 import type { MachineProfile } from "../machines/profile.js";
-import type { PenSettings } from "../plan/settings.js";
+import type { PenSettings } from "../settings/pen.js";
 import type { PenMove, Trajectory } from "../plan/trajectory.js";
 import { TICKS_PER_MS } from "../units.js";
 import { MAX_DELAY_MS, penCommand, penMoveSetUp, penSetUpCommands, type PenWay } from "./commands.js";

@@ -1,5 +1,5 @@
 /** What a firmware asks of the plan itself, before there are commands. */
-import type { LayerMotion, MotionLimits, MotionSettings } from "../plan/settings.js";
+import type { LayerMotion, MotionLimits, MotionSettings } from "../settings/motion.js";
 import { firmwareFeatures } from "./firmware.js";
 
 /**

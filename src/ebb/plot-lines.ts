@@ -1,6 +1,6 @@
 /** A whole plot as text: for files, and for reading. */
 import type { MachineProfile } from "../machines/profile.js";
-import type { PenSettings } from "../plan/settings.js";
+import type { PenSettings } from "../settings/pen.js";
 import { closingCommands, setUpCommands } from "./commands.js";
 import type { CommandStream } from "./command-stream.js";
 import { commandLine } from "./compile.js";

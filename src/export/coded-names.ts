@@ -1,7 +1,8 @@
 /** Layer names with the codes that say what the settings say, so that other software plots the file likewise. */
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { codeOfSpeed, withLayerCodes } from "../plan/coded-layers.js";
-import type { MotionSettings, PenSettings } from "../plan/settings.js";
+import type { MotionSettings } from "../settings/motion.js";
+import type { PenSettings } from "../settings/pen.js";
 import { formatLayerName, parseLayerName } from "../prepare/layer-codes.js";
 import type { Prepared } from "../prepare/prepare.js";
 import { penOf, penStopsOf, type PenSetup } from "../prepare/pens.js";

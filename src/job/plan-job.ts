@@ -11,7 +11,8 @@ import { motionForFirmware } from "../ebb/firmware-motion.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 import { plan } from "../plan/plan.js";
-import type { MotionSettings, PenSettings } from "../plan/settings.js";
+import type { MotionSettings } from "../settings/motion.js";
+import type { PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "../plan/trajectory.js";
 
 /** Firmware to plan for while no board has been asked: every newer one does at least as well. */

@@ -1,87 +1,85 @@
-/** Refuses motion and pen settings from which no sensible plan can be made. */
+/** Refuses motion and pen settings from which no sensible plan can be made, by the ranges of the settings tables. */
 import { PlotwrightError } from "../errors.js";
+import {
+  DRAW_TABLE,
+  EASE_TABLE,
+  FIT_TABLE,
+  MOTION_MODES,
+  MOTOR_ACCEL,
+  TRAVEL_TABLE,
+  type MotionSettings,
+} from "../settings/motion.js";
+import {
+  CLEAR_SHARE,
+  DROP_RATE,
+  HOP_TABLE,
+  LAYER_WAIT,
+  LIFT_RATE,
+  PEN_TABLE,
+  type PenSettings,
+} from "../settings/pen.js";
+import { isAllowed, rangeInWords, type NumberSetting } from "../settings/setting.js";
 import { drawLimitsOf } from "./limits.js";
 import { penOfLayer } from "./pen-times.js";
-import {
-  MOTION_MODES,
-  type HopSettings,
-  type MotionLimits,
-  type MotionSettings,
-  type PenSettings,
-} from "./settings.js";
 
 /** @throws PlotwrightError "bad-setting", naming the setting, its value and what is allowed */
 export function checkSettings(motion: MotionSettings, pen: PenSettings): void {
   if (!MOTION_MODES.includes(motion.mode)) {
     throw bad(`motion mode is "${String(motion.mode)}": choose one of ${MOTION_MODES.join(", ")}`);
   }
-  checkLimits("draw", motion.draw);
-  checkLimits("travel", motion.travel);
+  checkNumbers("draw", DRAW_TABLE, motion.draw);
+  checkNumbers("travel", TRAVEL_TABLE, motion.travel);
   for (const layer of Object.keys(motion.layers ?? {})) {
-    checkLimits(`layer "${layer}" draw`, drawLimitsOf(motion, layer));
+    checkNumbers(`layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
   }
-  if (motion.fit) {
-    positive("fit tolerance", motion.fit.toleranceMm, "mm");
-    within("fit floor", motion.fit.floorMs, 200, "ms");
-  }
-  if (motion.ease) {
-    positive("slow-in length", motion.ease.lengthMm, "mm");
-    positive("slow-in speed", motion.ease.speedMmPerS, "mm/s");
-  }
-  if (motion.motorAccelStepsPerS2 !== undefined && motion.motorAccelStepsPerS2 !== null) {
-    positive("motor acceleration", motion.motorAccelStepsPerS2, "steps/s²");
-  }
+  if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);
+  if (motion.ease) checkNumbers("slow-in", EASE_TABLE, motion.ease);
+  checkNumber("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
   checkPen("pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
-    if (beforeMs !== undefined) within(`layer "${layer}" wait before it`, beforeMs, 60_000, "ms");
+    checkNumber(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
   }
 }
 
-function checkLimits(name: string, limits: MotionLimits): void {
-  positive(`${name} speed`, limits.speedMmPerS, "mm/s");
-  positive(`${name} acceleration`, limits.accelMmPerS2, "mm/s²");
-  positive(`${name} corner deviation`, limits.cornerMm, "mm");
-  positive(`${name} jerk`, limits.jerkMmPerS3, "mm/s³");
-}
-
 function checkPen(name: string, pen: PenSettings): void {
-  within(`${name} up height`, pen.upPct, 100, "%");
-  within(`${name} down height`, pen.downPct, 100, "%");
-  within(`${name} lift time`, pen.liftMs, 60_000, "ms");
-  within(`${name} drop time`, pen.dropMs, 60_000, "ms");
+  checkNumbers(name, PEN_TABLE, pen);
   if (pen.upPct <= pen.downPct) {
     throw bad(
       `${name} up height ${pen.upPct} % is not above its down height ${pen.downPct} %: ` +
         "the pen would never leave the paper; raise the one or lower the other",
     );
   }
-  if (pen.liftPctPerS !== undefined && pen.liftPctPerS !== null) {
-    positive(`${name} lift rate`, pen.liftPctPerS, "%/s");
-  }
-  if (pen.dropPctPerS !== undefined && pen.dropPctPerS !== null) {
-    positive(`${name} drop rate`, pen.dropPctPerS, "%/s");
-  }
-  if (pen.clearPct !== undefined) within(`${name} clear share`, pen.clearPct, 100, "%");
-  if (pen.hop) checkHop(name, pen.hop, pen.downPct);
-}
-
-function checkHop(name: string, hop: HopSettings, downPct: number): void {
-  positive(`${name} hop length`, hop.longestMm, "mm");
-  within(`${name} hop height`, hop.upPct, 100, "%");
-  if (hop.upPct <= downPct) {
-    throw bad(`${name} hop height ${hop.upPct} % is not above its down height ${downPct} %: raise it`);
+  checkNumber(name, LIFT_RATE, pen.liftPctPerS);
+  checkNumber(name, DROP_RATE, pen.dropPctPerS);
+  checkNumber(name, CLEAR_SHARE, pen.clearPct);
+  if (!pen.hop) return;
+  checkNumbers(`${name} hop`, HOP_TABLE, pen.hop);
+  if (pen.hop.upPct <= pen.downPct) {
+    throw bad(
+      `${name} hop height ${pen.hop.upPct} % is not above its down height ${pen.downPct} %: raise it`,
+    );
   }
 }
 
-function positive(name: string, value: number, unit: string): void {
-  if (!(value > 0 && value < Infinity)) throw bad(`${name} is ${value} ${unit}: it must be above 0`);
+function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
+  name: string,
+  table: Table,
+  values: Readonly<Record<keyof Table, number>>,
+): void {
+  for (const [key, row] of Object.entries(table)) check(name, row, values[key] as number);
 }
 
-function within(name: string, value: number, max: number, unit: string): void {
-  if (!(value >= 0 && value <= max)) throw bad(`${name} is ${value} ${unit}: it must be 0 to ${max}`);
+/** For a setting that may be left out. */
+function checkNumber(name: string, row: NumberSetting, value: number | null | undefined): void {
+  if (value !== null && value !== undefined) check(name, row, value);
 }
 
-function bad(message: string): PlotwrightError {
-  return new PlotwrightError("bad-setting", message);
+function check(name: string, row: NumberSetting, value: number): void {
+  // The planner itself knows no upper limit of speeds and lengths; percentages and waits have one.
+  const range = row.minExcluded ? { ...row, max: Infinity } : row;
+  if (isAllowed(range, value)) return;
+  throw bad(`${name} ${row.label.toLowerCase()} is ${value} ${row.unit}: it must be ${rangeInWords(range)}`);
 }
+
+const bad = (message: string): PlotwrightError => new PlotwrightError("bad-setting", message);

@@ -11,7 +11,8 @@
 import { settingsIdOf, type StrokeLayer } from "../drawing/stroke-set.js";
 import { parseLayerName, type LayerCodes } from "../prepare/layer-codes.js";
 import { penOfLayer } from "./pen-times.js";
-import type { LayerMotion, LayerPen, MotionSettings, PenSettings } from "./settings.js";
+import type { LayerMotion, MotionSettings } from "../settings/motion.js";
+import type { LayerPen, PenSettings } from "../settings/pen.js";
 
 const MM_PER_INCH = 25.4;
 /** mm/s of one percent. */

@@ -26,7 +26,7 @@ import { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
 import { SLACK, canStep, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
-import type { FitSettings, MotionMode } from "./settings.js";
+import type { FitSettings, MotionMode } from "../settings/motion.js";
 import { PieceMerger } from "./merge-pieces.js";
 import { PieceChain } from "./piece-chain.js";
 import { PieceNotes } from "./piece-notes.js";

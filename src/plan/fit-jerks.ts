@@ -11,7 +11,7 @@ import type { BlockColumns } from "./block-columns.js";
 import { FitSource, isBeside } from "./fit-source.js";
 import type { RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
-import type { FitSettings } from "./settings.js";
+import type { FitSettings } from "../settings/motion.js";
 import { keepsJerkLimits, solveAxis } from "./three-jerks.js";
 
 /** The search for the longest stretch ends within one part in so many of it. */

@@ -26,7 +26,7 @@ import type { BlockColumns } from "./block-columns.js";
 import { FitSource, SHARP, isBeside } from "./fit-source.js";
 import { SLACK, canStep, type RunLimits } from "./limits.js";
 import type { RunEnd, RunPath } from "./run-path.js";
-import type { FitSettings } from "./settings.js";
+import type { FitSettings } from "../settings/motion.js";
 
 /** Longer runs have other fits; and so many blocks has a segment at most, with the corner after it. */
 const MOST_SEGMENTS = 5;

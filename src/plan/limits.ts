@@ -2,7 +2,7 @@
 import { TICKS_PER_S } from "../units.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { RunPath } from "./run-path.js";
-import type { LayerMotion, MotionLimits, MotionSettings } from "./settings.js";
+import type { LayerMotion, MotionLimits, MotionSettings } from "../settings/motion.js";
 
 export interface RunLimits {
   /** mm/s, mm/s², mm/s³. */

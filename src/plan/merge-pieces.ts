@@ -17,7 +17,7 @@ import { KnotGuess } from "./knot-guess.js";
 import { canStep, type RunLimits } from "./limits.js";
 import type { PieceNotes } from "./piece-notes.js";
 import { PlanWalk } from "./plan-walk.js";
-import type { FitSettings } from "./settings.js";
+import type { FitSettings } from "../settings/motion.js";
 
 /** Share of ε that the places looked at may use: between them the distance can be a little more. */
 const BETWEEN = 0.96;

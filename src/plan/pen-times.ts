@@ -6,7 +6,7 @@
  * The carriage starts when `clearPct` of the lift is over. A hop lifts by a part of the full way only, and takes
  * that part of the full time.
  */
-import type { PenSettings } from "./settings.js";
+import type { PenSettings } from "../settings/pen.js";
 
 export interface PenTiming {
   readonly heightPct: number;

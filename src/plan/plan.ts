@@ -16,7 +16,8 @@ import { PenMoveColumns } from "./pen-move-columns.js";
 import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter } from "./run-writer.js";
-import type { MotionSettings, PenSettings } from "./settings.js";
+import type { MotionSettings } from "../settings/motion.js";
+import type { PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
 export interface PlanOptions {

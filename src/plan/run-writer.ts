@@ -8,7 +8,7 @@ import { writeJunctionRun } from "./junction.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 import { SCurvePlanner } from "./scurve.js";
-import type { FitSettings, MotionMode } from "./settings.js";
+import type { FitSettings, MotionMode } from "../settings/motion.js";
 import { writeSingle } from "./straight.js";
 
 export class RunWriter {

@@ -3,7 +3,7 @@ import type { Drawing } from "../drawing/drawing.js";
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import type { LayerTable } from "./layers.js";
-import type { PrepareSettings } from "./settings.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import { setFor } from "./set-for.js";
 import { inkPortions } from "./spread.js";
 

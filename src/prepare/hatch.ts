@@ -16,7 +16,7 @@
 import { ClipperOffset, EndType, JoinType, type Paths64 } from "clipper2-ts";
 import { LineBuilder } from "../geometry/polyline.js";
 import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
-import type { HatchSettings } from "./settings.js";
+import type { HatchSettings } from "../settings/prepare.js";
 
 /** mm; a finer pen does not exist, and a smaller number would only fill the memory. */
 const FINEST_SPACING = 0.05;

@@ -2,7 +2,7 @@
 import type { Drawing, DrawingPaths } from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
 import { parseLayerName } from "./layer-codes.js";
-import type { LayerMode, PrepareSettings } from "./settings.js";
+import type { LayerMode, PrepareSettings } from "../settings/prepare.js";
 
 /** StrokeSet keeps a layer index in 16 bits; what is beyond shares the last layer. */
 const MOST_LAYERS = 65_535;

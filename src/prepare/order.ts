@@ -6,7 +6,7 @@
 import { distance, type Lines } from "../geometry/polyline.js";
 import { improveTour } from "./best-order.js";
 import { nearestOrder, type PenPlace } from "./nearest.js";
-import type { PrepareSettings } from "./settings.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import { fileTour, tagRanges, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 

@@ -10,7 +10,7 @@
 import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
 import { setFor } from "./set-for.js";
-import type { PrepareSettings, ShiftMm } from "./settings.js";
+import type { PrepareSettings, ShiftMm } from "../settings/prepare.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
 export type PenStopMode = (typeof PEN_STOP_MODES)[number];

@@ -22,7 +22,7 @@ import {
 } from "../geometry/affine.js";
 import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { boundsOfVerbs } from "./bounds.js";
-import type { MirrorMode, PlacedBox, PrepareSettings } from "./settings.js";
+import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
 
 export interface Placement {
   /** Page mm to machine mm. */

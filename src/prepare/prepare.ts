@@ -29,7 +29,7 @@ import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
 import { setFor } from "./set-for.js";
-import type { PrepareSettings } from "./settings.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import {
   ANYWHERE,
   addHatch,

@@ -17,7 +17,7 @@ import { dashLines, scaledPattern } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
 import { isFarAway, pageCorners, type Placement } from "./place.js";
-import type { HatchSettings, PrepareSettings } from "./settings.js";
+import type { HatchSettings, PrepareSettings } from "../settings/prepare.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** The box that nothing may leave, or null when nothing is cut off. */

@@ -1,7 +1,7 @@
 /** Orders and splits for wet ink: neighbours apart in time, and stops to take up ink. */
 import { LineBuilder, distance, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
-import type { SpreadMode } from "./settings.js";
+import type { SpreadMode } from "../settings/prepare.js";
 import { tagRanges } from "./tour.js";
 
 /** Passes of "interleave": the pen comes by a place so many times, each time drawing every so manieth line. */

@@ -2,137 +2,100 @@
 import { z } from "zod";
 import {
   DEFAULT_MOTION,
-  DEFAULT_PEN,
-  MOTION_MODES,
+  DRAW_TABLE,
+  EASE_TABLE,
+  FIT_TABLE,
+  MOTION_TABLE,
+  MOTOR_ACCEL,
+  TRAVEL_TABLE,
   type MotionSettings,
+} from "../settings/motion.js";
+import {
+  CLEAR_SHARE,
+  DEFAULT_PEN,
+  DROP_RATE,
+  HOP_TABLE,
+  LAYER_WAIT,
+  LIFT_RATE,
+  PEN_TABLE,
+  PLOT_PEN_TABLE,
   type PenSettings,
-} from "../plan/settings.js";
+} from "../settings/pen.js";
 import {
   DEFAULT_PREPARE,
-  LAYER_MODES,
-  MIRROR_MODES,
-  ORDER_MODES,
-  SPREAD_MODES,
+  HATCH_TABLE,
+  LAYER_REPEATS,
+  PAPER_TABLE,
+  PREPARE_TABLE,
   type PrepareSettings,
-} from "../prepare/settings.js";
+} from "../settings/prepare.js";
 import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
 import { machineProfileSchema } from "./machine.js";
+import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";
 
 const positive = (max: number) => z.number().gt(0).max(max);
-const nonNegative = (max: number) => z.number().min(0).max(max);
 
 const anywhere = z.number().min(-100_000).max(100_000);
-const paperSizeSchema = z.object({ widthMm: positive(5_000), heightMm: positive(5_000) });
+const paperSizeSchema = z.object(shapeOf(PAPER_TABLE));
 const layerId = z.string().max(500);
 const layerIds = z.array(layerId).max(10_000);
 const byLayer = <T extends z.ZodType>(value: T) => z.record(layerId, value);
-const hatchSchema = z.object({
-  spacingMm: nonNegative(100),
-  angleDeg: z.number().min(-360).max(360),
-  cross: z.boolean(),
-});
+const hatchSchema = z.object(shapeWithDefaults(HATCH_TABLE));
 
-// Fields that came after the first release have defaults, so that stored jobs and presets stay readable.
+// Everything has a default, so that jobs and presets stored by an older version stay readable.
 export const prepareSettingsSchema = z.object({
-  paper: paperSizeSchema,
-  landscape: z.boolean(),
-  marginMm: nonNegative(1_000),
-  fit: z.boolean(),
-  rotateDeg: z.number().min(-360).max(360),
-  clipToMargins: z.boolean(),
-  flattenMm: z.number().min(0.001).max(5),
-  joinMm: nonNegative(50),
-  dropShorterMm: nonNegative(1_000),
-  simplifyMm: nonNegative(5),
-  layers: z.enum(LAYER_MODES),
-  hiddenLayers: layerIds,
+  ...shapeWithDefaults(PREPARE_TABLE),
+  paper: paperSizeSchema.default(DEFAULT_PREPARE.paper),
+  hiddenLayers: layerIds.default([]),
   shownLayers: layerIds.default([]),
   layerOrder: layerIds.default([]),
-  layerRepeats: byLayer(z.int().min(1).max(20)).default({}),
-  order: z.enum(ORDER_MODES),
-  orderS: nonNegative(3_600).default(DEFAULT_PREPARE.orderS),
+  layerRepeats: byLayer(numberSchema(LAYER_REPEATS)).default({}),
   margins: z
     .object({
-      topMm: nonNegative(1_000),
-      rightMm: nonNegative(1_000),
-      bottomMm: nonNegative(1_000),
-      leftMm: nonNegative(1_000),
+      topMm: numberSchema(PREPARE_TABLE.marginMm),
+      rightMm: numberSchema(PREPARE_TABLE.marginMm),
+      bottomMm: numberSchema(PREPARE_TABLE.marginMm),
+      leftMm: numberSchema(PREPARE_TABLE.marginMm),
     })
     .nullable()
     .default(null),
-  mirror: z.enum(MIRROR_MODES).default(DEFAULT_PREPARE.mirror),
   place: z
     .object({
       xMm: anywhere,
       yMm: anywhere,
       widthMm: positive(100_000).nullable(),
       heightMm: positive(100_000).nullable(),
-      turnDeg: z.number().min(-360).max(360).optional(),
+      turnDeg: numberSchema(PREPARE_TABLE.rotateDeg).optional(),
     })
     .nullable()
     .default(null),
-  cropToPage: z.boolean().default(DEFAULT_PREPARE.cropToPage),
   reach: paperSizeSchema.nullable().default(null),
   hatch: hatchSchema.default(DEFAULT_PREPARE.hatch),
   layerHatches: z
     .array(hatchSchema.extend({ layer: z.string().max(500) }))
     .max(10_000)
     .default([]),
-  outlineFills: z.boolean().default(DEFAULT_PREPARE.outlineFills),
-  hideCovered: z.boolean().default(DEFAULT_PREPARE.hideCovered),
-  dropRepeatsMm: nonNegative(5).default(DEFAULT_PREPARE.dropRepeatsMm),
-  smoothRounds: z.int().min(0).max(5).default(DEFAULT_PREPARE.smoothRounds),
-  reloop: z.boolean().default(DEFAULT_PREPARE.reloop),
-  spread: z.enum(SPREAD_MODES).default(DEFAULT_PREPARE.spread),
-  reinkMm: nonNegative(1_000_000).default(DEFAULT_PREPARE.reinkMm),
 }) satisfies z.ZodType<PrepareSettings>;
 
-const motionLimitsSchema = z.object({
-  speedMmPerS: positive(1_000),
-  accelMmPerS2: positive(50_000),
-  cornerMm: positive(10),
-  jerkMmPerS3: positive(10_000_000),
-});
-
 export const motionSettingsSchema = z.object({
-  mode: z.enum(MOTION_MODES),
-  draw: motionLimitsSchema,
-  travel: motionLimitsSchema,
-  fit: z
-    .object({ toleranceMm: z.number().min(0.001).max(1), floorMs: nonNegative(200) })
-    .nullable()
-    .optional(),
-  ease: z
-    .object({ lengthMm: positive(1_000), speedMmPerS: positive(1_000) })
-    .nullable()
-    .optional(),
-  motorAccelStepsPerS2: positive(100_000_000).nullable().optional(),
-  layers: z.record(z.string().max(500), motionLimitsSchema.partial()).optional(),
+  ...shapeWithDefaults(MOTION_TABLE),
+  draw: z.object(shapeWithDefaults(DRAW_TABLE)),
+  travel: z.object(shapeWithDefaults(TRAVEL_TABLE)),
+  fit: z.object(shapeWithDefaults(FIT_TABLE)).nullable().optional(),
+  ease: z.object(shapeOf(EASE_TABLE)).nullable().optional(),
+  motorAccelStepsPerS2: numberSchema(MOTOR_ACCEL).nullable().optional(),
+  layers: byLayer(z.object(shapeOf(DRAW_TABLE)).partial()).optional(),
 }) satisfies z.ZodType<MotionSettings>;
 
-const layerPenSchema = z
-  .object({
-    upPct: nonNegative(100),
-    downPct: nonNegative(100),
-    liftMs: nonNegative(10_000),
-    dropMs: nonNegative(10_000),
-    beforeMs: nonNegative(60_000),
-  })
-  .partial();
-
 export const penSettingsSchema = z.object({
-  upPct: nonNegative(100),
-  downPct: nonNegative(100),
-  liftMs: nonNegative(10_000),
-  dropMs: nonNegative(10_000),
-  liftPctPerS: positive(10_000).nullable().optional(),
-  dropPctPerS: positive(10_000).nullable().optional(),
-  clearPct: nonNegative(100).optional(),
-  hop: z
-    .object({ longestMm: positive(1_000), upPct: nonNegative(100) })
-    .nullable()
-    .optional(),
-  layers: z.record(z.string().max(500), layerPenSchema).optional(),
+  ...shapeWithDefaults(PEN_TABLE),
+  liftPctPerS: numberSchema(LIFT_RATE).nullable().optional(),
+  dropPctPerS: numberSchema(DROP_RATE).nullable().optional(),
+  clearPct: numberSchema(CLEAR_SHARE).optional(),
+  hop: z.object(shapeOf(HOP_TABLE)).nullable().optional(),
+  layers: byLayer(
+    z.object({ ...shapeOf(PEN_TABLE), beforeMs: numberSchema(LAYER_WAIT) }).partial(),
+  ).optional(),
 }) satisfies z.ZodType<PenSettings>;
 
 export const plotPenSchema = z.object({
@@ -142,9 +105,7 @@ export const plotPenSchema = z.object({
     .string()
     .regex(/^#[0-9a-f]{6}$/)
     .nullable(),
-  widthMm: positive(50),
-  offsetXMm: z.number().min(-100).max(100),
-  offsetYMm: z.number().min(-100).max(100),
+  ...shapeOf(PLOT_PEN_TABLE),
 }) satisfies z.ZodType<PlotPen>;
 
 /** Everything that decides what a job puts on paper. Kept whole with every job. */

@@ -1,7 +1,8 @@
+import { HATCH_TABLE, PREPARE_TABLE } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Switch } from "../ui/choice.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 import { usePrepareChange } from "./paper.js";
 
 const words = setup.fill;
@@ -21,40 +22,34 @@ export const FillFields = () => {
       />
       {isOn && (
         <>
-          <NumberField
-            label={words.spacing}
+          <SettingField
+            setting={HATCH_TABLE.spacingMm}
             value={hatch.spacingMm}
-            unit="mm"
-            min={0.05}
-            max={100}
-            step={0.05}
-            slider={[0.1, 5]}
             hint={words.spacingHint}
             onChange={(spacingMm) => change("hatch spacing", { hatch: { ...hatch, spacingMm } })}
           />
-          <NumberField
-            label={words.angle}
+          <SettingField
+            setting={HATCH_TABLE.angleDeg}
             value={hatch.angleDeg}
-            unit="°"
-            min={-360}
-            max={360}
-            step={5}
-            slider={[0, 180]}
             onChange={(angleDeg) => change("hatch angle", { hatch: { ...hatch, angleDeg } })}
           />
           <Switch
-            label={words.cross}
+            label={HATCH_TABLE.cross.label}
             isOn={hatch.cross}
             onChange={(cross) => change("hatch cross", { hatch: { ...hatch, cross } })}
           />
         </>
       )}
       <Switch
-        label={words.outline}
+        label={PREPARE_TABLE.outlineFills.label}
         isOn={outlineFills}
         onChange={(on) => change("outline", { outlineFills: on })}
       />
-      <Switch label={words.hide} isOn={hideCovered} onChange={(on) => change("hide", { hideCovered: on })} />
+      <Switch
+        label={PREPARE_TABLE.hideCovered.label}
+        isOn={hideCovered}
+        onChange={(on) => change("hide", { hideCovered: on })}
+      />
     </>
   );
 };

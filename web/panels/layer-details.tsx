@@ -7,6 +7,7 @@ import {
   type LayerPen,
   type PreparedLayer,
 } from "../../src/index.js";
+import { DRAW_TABLE, HATCH_TABLE, LAYER_REPEATS, LAYER_WAIT, PEN_TABLE } from "../../src/internal.js";
 import {
   hatchLayer,
   repeatLayer,
@@ -102,21 +103,13 @@ const MotionFields = ({ row }: RowProps) => {
   const own: LayerMotion = usePageState(({ settings }) => settings.motion.layers?.[row.id]) ?? {};
   const { motion } = useInherited(row);
   const change = useChange();
-  const fields = [
-    ["speedMmPerS", words.speed, "mm/s", 1, 1_000, 5],
-    ["accelMmPerS2", words.accel, "mm/s²", 10, 50_000, 50],
-  ] as const;
-  return fields.map(([key, label, unit, min, max, step]) => (
+  return (["speedMmPerS", "accelMmPerS2"] as const).map((key) => (
     <OwnNumber
       key={key}
-      label={label}
+      {...DRAW_TABLE[key]}
       value={own[key] ?? null}
       inherited={motion[key] ?? null}
-      unit={unit}
-      min={min}
-      max={max}
-      step={step}
-      resetLabel={words.reset(label)}
+      resetLabel={words.reset(DRAW_TABLE[key].label)}
       onChange={(value) =>
         change(`${key} of ${row.id}`, (settings) => setLayerMotion(settings, row.id, { [key]: value }))
       }
@@ -124,28 +117,25 @@ const MotionFields = ({ row }: RowProps) => {
   ));
 };
 
+const LAYER_PEN_FIELDS = [
+  ["downPct", PEN_TABLE.downPct],
+  ["upPct", PEN_TABLE.upPct],
+  ["liftMs", PEN_TABLE.liftMs],
+  ["dropMs", PEN_TABLE.dropMs],
+  ["beforeMs", LAYER_WAIT],
+] as const;
+
 const PenFields = ({ row }: RowProps) => {
   const own: LayerPen = usePageState(({ settings }) => settings.pen.layers?.[row.id]) ?? {};
   const { pen } = useInherited(row);
   const change = useChange();
-  const fields = [
-    ["downPct", words.penDown, "%", 100, 1],
-    ["upPct", words.penUp, "%", 100, 1],
-    ["liftMs", words.lift, "ms", 10_000, 10],
-    ["dropMs", words.drop, "ms", 10_000, 10],
-    ["beforeMs", words.before, "ms", 60_000, 500],
-  ] as const;
-  return fields.map(([key, label, unit, max, step]) => (
+  return LAYER_PEN_FIELDS.map(([key, setting]) => (
     <OwnNumber
       key={key}
-      label={label}
+      {...setting}
       value={own[key] ?? null}
       inherited={pen[key]}
-      unit={unit}
-      min={0}
-      max={max}
-      step={step}
-      resetLabel={words.reset(label)}
+      resetLabel={words.reset(setting.label)}
       onChange={(value) =>
         change(`${key} of ${row.id}`, (settings) => setLayerPenMotion(settings, row.id, { [key]: value }))
       }
@@ -160,14 +150,10 @@ const InkFields = ({ row }: RowProps) => {
   return (
     <>
       <OwnNumber
-        label={words.repeat}
+        {...LAYER_REPEATS}
         value={layerRepeats[row.id] ?? null}
-        inherited={1}
-        unit={words.repeatUnit}
-        min={1}
-        max={20}
-        step={1}
-        resetLabel={words.reset(words.repeat)}
+        inherited={LAYER_REPEATS.default}
+        resetLabel={words.reset(LAYER_REPEATS.label)}
         onChange={(times) =>
           change(`repeat ${row.id}`, (settings) =>
             repeatLayer(settings, row.id, times === null ? null : Math.round(times)),
@@ -175,13 +161,10 @@ const InkFields = ({ row }: RowProps) => {
         }
       />
       <OwnNumber
+        {...HATCH_TABLE.spacingMm}
         label={words.hatch}
         value={own?.spacingMm ?? null}
         inherited={hatch.spacingMm}
-        unit="mm"
-        min={0}
-        max={100}
-        step={0.1}
         resetLabel={words.reset(words.hatch)}
         onChange={(spacingMm) =>
           change(`hatch of ${row.id}`, (settings) =>
@@ -191,13 +174,10 @@ const InkFields = ({ row }: RowProps) => {
       />
       {own && own.spacingMm > 0 && (
         <OwnNumber
+          {...HATCH_TABLE.angleDeg}
           label={words.hatchAngle}
           value={own.angleDeg}
           inherited={hatch.angleDeg}
-          unit="°"
-          min={-360}
-          max={360}
-          step={5}
           resetLabel={words.reset(words.hatchAngle)}
           onChange={(angleDeg) =>
             change(`hatch angle of ${row.id}`, (settings) =>

@@ -1,20 +1,15 @@
-import type { PlotSettings } from "../../src/schema/index.js";
+import { PREPARE_TABLE, type Setting } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Segments, Switch } from "../ui/choice.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 import { usePrepareChange } from "./paper.js";
 
 const words = setup.lines;
 
-/** The plain lengths, in the order in which they are applied. */
-const LENGTHS = [
-  { key: "joinMm", label: words.join, min: 0, max: 50, step: 0.05 },
-  { key: "dropShorterMm", label: words.drop, min: 0, max: 1_000, step: 0.1 },
-  { key: "dropRepeatsMm", label: words.repeats, min: 0, max: 5, step: 0.05 },
-  { key: "simplifyMm", label: words.simplify, min: 0, max: 5, step: 0.01 },
-  { key: "flattenMm", label: words.flatten, min: 0.001, max: 5, step: 0.01 },
-] as const satisfies readonly { key: keyof PlotSettings["prepare"]; [more: string]: unknown }[];
+type Key = keyof typeof PREPARE_TABLE;
+/** The numbers and switches that the settings table lists for this panel, in its order. */
+const ROWS = (Object.entries(PREPARE_TABLE) as [Key, Setting][]).filter(([, { panel }]) => panel === "lines");
 
 /** How strokes are ordered, joined and cleaned. */
 export const LinesFields = () => {
@@ -23,7 +18,7 @@ export const LinesFields = () => {
   return (
     <>
       <Segments
-        label={words.order}
+        label={PREPARE_TABLE.order.label}
         value={prepare.order}
         options={[
           { value: "none", label: words.orderNone },
@@ -33,18 +28,14 @@ export const LinesFields = () => {
         onChange={(order) => change("order", { order })}
       />
       {prepare.order === "best" && (
-        <NumberField
-          label={words.orderS}
+        <SettingField
+          setting={PREPARE_TABLE.orderS}
           value={prepare.orderS}
-          unit="s"
-          min={0.1}
-          max={600}
-          step={1}
           onChange={(orderS) => change("order time", { orderS })}
         />
       )}
       <Segments
-        label={words.spread}
+        label={PREPARE_TABLE.spread.label}
         value={prepare.spread}
         options={[
           { value: "none", label: words.spreads.none },
@@ -54,34 +45,23 @@ export const LinesFields = () => {
         onChange={(spread) => change("spread", { spread })}
       />
       {prepare.spread !== "none" && <p className="note">{words.spreadHint}</p>}
-      {LENGTHS.map(({ key, label, min, max, step }) => (
-        <NumberField
-          key={key}
-          label={label}
-          value={prepare[key]}
-          unit="mm"
-          min={min}
-          max={max}
-          step={step}
-          digits={3}
-          onChange={(value) => change(key, { [key]: value })}
-        />
-      ))}
-      <NumberField
-        label={words.smooth}
-        value={prepare.smoothRounds}
-        unit=""
-        min={0}
-        max={6}
-        step={1}
-        digits={0}
-        onChange={(rounds) => change("smooth", { smoothRounds: Math.round(rounds) })}
-      />
-      <Switch
-        label={words.reloop}
-        isOn={prepare.reloop}
-        onChange={(reloop) => change("reloop", { reloop })}
-      />
+      {ROWS.map(([key, setting]) =>
+        setting.kind === "number" ? (
+          <SettingField
+            key={key}
+            setting={setting}
+            value={prepare[key] as number}
+            onChange={(value) => change(key, { [key]: value })}
+          />
+        ) : (
+          <Switch
+            key={key}
+            label={setting.label}
+            isOn={prepare[key] as boolean}
+            onChange={(value) => change(key, { [key]: value })}
+          />
+        ),
+      )}
     </>
   );
 };

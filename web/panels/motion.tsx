@@ -1,24 +1,20 @@
 import { useId } from "react";
 import { DEFAULT_FIT, MOTION_MODES, type MotionLimits, type MotionMode } from "../../src/index.js";
+import { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Switch } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 import { CornerPicture } from "./corner-picture.js";
 import { SettingsGroup } from "./settings-group.js";
 
 const words = text.motion;
 type MotionSettings = PlotSettings["motion"];
 
-/** Ranges in everyday use, for the sliders; the fields take everything that the schema takes. */
-const EVERYDAY = {
-  draw: { speed: [5, 200], accel: [50, 3_000] },
-  travel: { speed: [10, 400], accel: [50, 5_000] },
-} as const;
-/** Where slow-in begins when it is switched on. */
-const FIRST_EASE = { lengthMm: 1.5, speedMmPerS: 10 };
+/** What slow-in starts with when it is switched on. */
+const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TABLE.speedMmPerS.default };
 
 const useMotionChange = () => {
   const { changeSettings } = useActions();
@@ -77,54 +73,34 @@ interface LimitFieldsProps {
 
 const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
   const changeMotion = useMotionChange();
+  const table = which === "draw" ? DRAW_TABLE : TRAVEL_TABLE;
   const change = (part: Partial<MotionLimits>): void =>
     changeMotion(`${which} ${Object.keys(part).join()}`, { [which]: { ...limits, ...part } });
   return (
     <fieldset className="subgroup">
       <legend>{title}</legend>
-      <NumberField
-        label={words.speed}
+      <SettingField
+        setting={table.speedMmPerS}
         value={limits.speedMmPerS}
-        unit="mm/s"
-        min={0.1}
-        max={1_000}
-        step={1}
-        slider={EVERYDAY[which].speed}
         onChange={(speedMmPerS) => change({ speedMmPerS })}
       />
-      <NumberField
-        label={words.accel}
+      <SettingField
+        setting={table.accelMmPerS2}
         value={limits.accelMmPerS2}
-        unit="mm/s²"
-        min={1}
-        max={50_000}
-        step={10}
-        slider={EVERYDAY[which].accel}
         onChange={(accelMmPerS2) => change({ accelMmPerS2 })}
       />
       {which === "draw" && (
-        <NumberField
-          label={words.corner}
+        <SettingField
+          setting={table.cornerMm}
           value={limits.cornerMm}
-          unit="mm"
-          min={0.001}
-          max={10}
-          step={0.01}
-          digits={3}
-          slider={[0.01, 0.5]}
           hint={words.cornerHint}
           onChange={(cornerMm) => change({ cornerMm })}
         />
       )}
       {mode === "scurve" && (
-        <NumberField
-          label={words.jerk}
+        <SettingField
+          setting={table.jerkMmPerS3}
           value={limits.jerkMmPerS3}
-          unit="mm/s³"
-          min={1}
-          max={10_000_000}
-          step={500}
-          slider={[1_000, 100_000]}
           hint={words.jerkHint}
           onChange={(jerkMmPerS3) => change({ jerkMmPerS3 })}
         />
@@ -145,22 +121,14 @@ const Refinements = ({ motion }: { motion: MotionSettings }) => {
       />
       {ease && (
         <div className="field-pair">
-          <NumberField
-            label={words.easeLength}
+          <SettingField
+            setting={EASE_TABLE.lengthMm}
             value={ease.lengthMm}
-            unit="mm"
-            min={0.1}
-            max={100}
-            step={0.5}
             onChange={(lengthMm) => change("ease length", { ease: { ...ease, lengthMm } })}
           />
-          <NumberField
-            label={words.easeSpeed}
+          <SettingField
+            setting={EASE_TABLE.speedMmPerS}
             value={ease.speedMmPerS}
-            unit="mm/s"
-            min={0.1}
-            max={1_000}
-            step={1}
             onChange={(speedMmPerS) => change("ease speed", { ease: { ...ease, speedMmPerS } })}
           />
         </div>
@@ -171,14 +139,9 @@ const Refinements = ({ motion }: { motion: MotionSettings }) => {
         onChange={(isOn) => change("fit", { fit: isOn ? DEFAULT_FIT : null })}
       />
       {fit && (
-        <NumberField
-          label={words.fitTolerance}
+        <SettingField
+          setting={FIT_TABLE.toleranceMm}
           value={fit.toleranceMm}
-          unit="mm"
-          min={0.001}
-          max={1}
-          step={0.005}
-          digits={3}
           hint={words.fitHint}
           onChange={(toleranceMm) => change("fit tolerance", { fit: { ...fit, toleranceMm } })}
         />

@@ -1,11 +1,12 @@
 import { PAPER_SIZES, type PaperName } from "../../src/index.js";
+import { PAPER_TABLE, PREPARE_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 import { placeOfFrame, wholeTurn } from "../preview/placing.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "./settings-group.js";
@@ -76,14 +77,10 @@ export const PaperPanel = () => {
         onChange={(value) => change("orientation", { landscape: value === "landscape" })}
       />
       {!prepare.margins && (
-        <NumberField
-          label={words.margin}
+        <SettingField
+          setting={PREPARE_TABLE.marginMm}
           value={marginMm}
-          unit="mm"
-          min={0}
           max={Math.floor(Math.min(paper.widthMm, paper.heightMm) / 2) - 1}
-          step={1}
-          slider={[0, 60]}
           onChange={(value) => change("margin", { marginMm: value })}
         />
       )}
@@ -102,13 +99,9 @@ export const PaperPanel = () => {
       />
       {prepare.place && <PlaceFields place={prepare.place} />}
       <div className="field-with-button">
-        <NumberField
-          label={words.rotate}
+        <SettingField
+          setting={PREPARE_TABLE.rotateDeg}
           value={angleDeg}
-          unit="°"
-          min={-360}
-          max={360}
-          step={1}
           onChange={(value) => turnTo("rotate", value)}
         />
         <button
@@ -122,7 +115,7 @@ export const PaperPanel = () => {
         </button>
       </div>
       <Segments
-        label={words.mirror}
+        label={PREPARE_TABLE.mirror.label}
         value={prepare.mirror}
         options={[
           { value: "none", label: words.mirrors.none },
@@ -132,12 +125,12 @@ export const PaperPanel = () => {
         onChange={(mirror) => change("mirror", { mirror })}
       />
       <Switch
-        label={words.cropToPage}
+        label={PREPARE_TABLE.cropToPage.label}
         isOn={prepare.cropToPage}
         onChange={(cropToPage) => change("crop", { cropToPage })}
       />
       <Switch
-        label={words.clip}
+        label={PREPARE_TABLE.clipToMargins.label}
         isOn={prepare.clipToMargins}
         onChange={(clipToMargins) => change("clip", { clipToMargins })}
       />
@@ -152,22 +145,14 @@ interface CustomSizeProps {
 
 const CustomSize = ({ paper, change }: CustomSizeProps) => (
   <div className="field-pair">
-    <NumberField
-      label={words.width}
+    <SettingField
+      setting={PAPER_TABLE.widthMm}
       value={paper.widthMm}
-      unit="mm"
-      min={10}
-      max={5_000}
-      step={1}
       onChange={(widthMm) => change("paper width", { paper: { ...paper, widthMm } })}
     />
-    <NumberField
-      label={words.height}
+    <SettingField
+      setting={PAPER_TABLE.heightMm}
       value={paper.heightMm}
-      unit="mm"
-      min={10}
-      max={5_000}
-      step={1}
       onChange={(heightMm) => change("paper height", { paper: { ...paper, heightMm } })}
     />
   </div>
@@ -195,14 +180,10 @@ const Margins = ({ prepare: { margins, marginMm }, change }: PartProps) => (
     {margins && (
       <div className="field-pair">
         {SIDES.map((side) => (
-          <NumberField
+          <SettingField
             key={side}
-            label={SIDE_WORDS[side]}
+            setting={{ ...PREPARE_TABLE.marginMm, label: SIDE_WORDS[side] }}
             value={margins[side]}
-            unit="mm"
-            min={0}
-            max={1_000}
-            step={1}
             onChange={(value) => change(`margin ${side}`, { margins: { ...margins, [side]: value } })}
           />
         ))}

@@ -1,16 +1,16 @@
+import { DROP_RATE, HOP_TABLE, PEN_TABLE, type NumberSetting } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { isReady } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Switch } from "../ui/choice.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 
 const words = setup.pen;
 type PenSettings = PlotSettings["pen"];
 
-/** What the refinements begin with when they are switched on. */
-const FIRST_DROP_PCT_PER_S = 60;
-const FIRST_HOP = { longestMm: 3, heightShare: 0.4 };
+/** A hop is lifted by this share of the full lift when it is switched on. */
+const FIRST_HOP_SHARE = 0.4;
 
 /** Heights, waits and refinements of the pen. */
 export const PenFields = () => {
@@ -24,14 +24,14 @@ export const PenFields = () => {
   return (
     <>
       <HeightField
-        label={words.up}
+        setting={PEN_TABLE.upPct}
         tryLabel={words.tryUp}
         value={pen.upPct}
         isUp
         onChange={(upPct) => change({ upPct })}
       />
       <HeightField
-        label={words.down}
+        setting={PEN_TABLE.downPct}
         tryLabel={words.tryDown}
         value={pen.downPct}
         isUp={false}
@@ -39,22 +39,14 @@ export const PenFields = () => {
       />
       <p className="note">{words.heightHint}</p>
       <div className="field-pair">
-        <NumberField
-          label={words.lift}
+        <SettingField
+          setting={PEN_TABLE.liftMs}
           value={pen.liftMs}
-          unit="ms"
-          min={0}
-          max={10_000}
-          step={10}
           onChange={(liftMs) => change({ liftMs })}
         />
-        <NumberField
-          label={words.drop}
+        <SettingField
+          setting={PEN_TABLE.dropMs}
           value={pen.dropMs}
-          unit="ms"
-          min={0}
-          max={10_000}
-          step={10}
           onChange={(dropMs) => change({ dropMs })}
         />
       </div>
@@ -74,17 +66,12 @@ const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
     <Switch
       label={words.gentle}
       isOn={Boolean(dropPctPerS)}
-      onChange={(isOn) => change({ dropPctPerS: isOn ? FIRST_DROP_PCT_PER_S : null })}
+      onChange={(isOn) => change({ dropPctPerS: isOn ? DROP_RATE.default : null })}
     />
     {dropPctPerS && (
-      <NumberField
-        label={words.gentleRate}
+      <SettingField
+        setting={DROP_RATE}
         value={dropPctPerS}
-        unit="%/s"
-        min={1}
-        max={10_000}
-        step={5}
-        slider={[10, 400]}
         onChange={(rate) => change({ dropPctPerS: rate })}
       />
     )}
@@ -97,28 +84,20 @@ const Hop = ({ pen: { hop, upPct, downPct }, change }: RefinementProps) => (
       label={words.hop}
       isOn={Boolean(hop)}
       onChange={(isOn) => {
-        const firstPct = Math.round(downPct + (upPct - downPct) * FIRST_HOP.heightShare);
-        change({ hop: isOn ? { longestMm: FIRST_HOP.longestMm, upPct: firstPct } : null });
+        const firstPct = Math.round(downPct + (upPct - downPct) * FIRST_HOP_SHARE);
+        change({ hop: isOn ? { longestMm: HOP_TABLE.longestMm.default, upPct: firstPct } : null });
       }}
     />
     {hop && (
       <div className="field-pair">
-        <NumberField
-          label={words.hopLongest}
+        <SettingField
+          setting={HOP_TABLE.longestMm}
           value={hop.longestMm}
-          unit="mm"
-          min={0.1}
-          max={1_000}
-          step={0.5}
           onChange={(longestMm) => change({ hop: { ...hop, longestMm } })}
         />
-        <NumberField
-          label={words.hopHeight}
+        <SettingField
+          setting={HOP_TABLE.upPct}
           value={hop.upPct}
-          unit="%"
-          min={0}
-          max={100}
-          step={1}
           onChange={(hopPct) => change({ hop: { ...hop, upPct: hopPct } })}
         />
       </div>
@@ -127,28 +106,19 @@ const Hop = ({ pen: { hop, upPct, downPct }, change }: RefinementProps) => (
 );
 
 interface HeightFieldProps {
-  readonly label: string;
+  readonly setting: NumberSetting;
   readonly tryLabel: string;
   readonly value: number;
   readonly isUp: boolean;
   onChange(value: number): void;
 }
 
-const HeightField = ({ label, tryLabel, value, isUp, onChange }: HeightFieldProps) => {
+const HeightField = ({ setting, tryLabel, value, isUp, onChange }: HeightFieldProps) => {
   const isIdle = usePageState(isReady);
   const { movePen } = useActions();
   return (
     <div className="field-with-button">
-      <NumberField
-        label={label}
-        value={value}
-        unit="%"
-        min={0}
-        max={100}
-        step={1}
-        slider={[0, 100]}
-        onChange={onChange}
-      />
+      <SettingField setting={setting} value={value} onChange={onChange} />
       <button
         type="button"
         className="button"

@@ -1,3 +1,4 @@
+import { PLOT_PEN_TABLE } from "../../src/internal.js";
 import "../styles/setup.css";
 import { useState } from "react";
 import { PEN_STOP_MODES, type PlotPen } from "../../src/index.js";
@@ -8,7 +9,7 @@ import { setup } from "../text/setup.js";
 import { Segments, Select, type ChoiceOption } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { NumberField } from "../ui/number-field.js";
+import { SettingField } from "../ui/setting-field.js";
 import { useChange } from "./use-change.js";
 
 const words = setup.pens;
@@ -178,31 +179,19 @@ const PenDetails = ({ pen }: { pen: PlotPen }) => {
     change(`${Object.keys(part).join()} of ${pen.id}`, (settings) => changePen(settings, pen.id, part));
   return (
     <div className="layer-details">
-      <NumberField
-        label={words.width}
+      <SettingField
+        setting={PLOT_PEN_TABLE.widthMm}
         value={pen.widthMm}
-        unit="mm"
-        min={0.05}
-        max={50}
-        step={0.05}
         onChange={(widthMm) => set({ widthMm })}
       />
-      <NumberField
-        label={words.offsetX}
+      <SettingField
+        setting={PLOT_PEN_TABLE.offsetXMm}
         value={pen.offsetXMm}
-        unit="mm"
-        min={-100}
-        max={100}
-        step={0.05}
         onChange={(offsetXMm) => set({ offsetXMm })}
       />
-      <NumberField
-        label={words.offsetY}
+      <SettingField
+        setting={PLOT_PEN_TABLE.offsetYMm}
         value={pen.offsetYMm}
-        unit="mm"
-        min={-100}
-        max={100}
-        step={0.05}
         hint={words.offsetHint}
         onChange={(offsetYMm) => set({ offsetYMm })}
       />

@@ -5,6 +5,8 @@ import { formatNumber, parseNumber } from "./format.js";
 export interface NumberLimits {
   readonly unit: string;
   readonly min: number;
+  /** `min` itself is not allowed. */
+  readonly minExcluded?: boolean | undefined;
   readonly max: number;
   /** What an arrow key adds; ten times that with Shift. */
   readonly step: number;
@@ -27,12 +29,12 @@ interface TypedNumber {
  */
 export const useTypedNumber = (
   value: number | null,
-  { unit, min, max, step, digits = 2 }: NumberLimits,
+  { unit, min, minExcluded = false, max, step, digits = 2 }: NumberLimits,
   onNumber: (value: number) => void,
   emptyAs?: { readonly from: number; take(): void },
 ): TypedNumber => {
   const [typed, setTyped] = useState<string | null>(null);
-  const isRight = (number: number): boolean => number >= min && number <= max;
+  const isRight = (number: number): boolean => (minExcluded ? number > min : number >= min) && number <= max;
   const problemOf = (words: string): string | null => {
     const number = parseNumber(words);
     if (number === null) return emptyAs && words.trim() === "" ? null : text.field.notANumber;
@@ -55,7 +57,8 @@ export const useTypedNumber = (
       event.preventDefault();
       setTyped(null);
       const next = (value ?? emptyAs?.from ?? 0) + way * step * (event.shiftKey ? 10 : 1);
-      onNumber(Math.min(max, Math.max(min, Number(next.toFixed(6)))));
+      const inRange = Math.min(max, Math.max(min, Number(next.toFixed(6))));
+      if (isRight(inRange)) onNumber(inRange);
     },
   };
 };

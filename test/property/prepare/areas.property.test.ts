@@ -2,7 +2,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { clipOf, drawingOf } from "../../support/drawings.js";
 import {
   distanceToRings,

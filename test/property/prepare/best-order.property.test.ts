@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { randomFrom } from "../../../src/prepare/random.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { improveBlocks } from "../../../src/prepare/tour-blocks.js";
 import { TourSearch } from "../../../src/prepare/tour-search.js";
 import { drawingOf } from "../../support/drawings.js";

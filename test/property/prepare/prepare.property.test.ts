@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
 import { distance } from "../../../src/geometry/polyline.js";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { drawingOf, type TestShape } from "../../support/drawings.js";
 
 const RUNS = { numRuns: 1_000 };

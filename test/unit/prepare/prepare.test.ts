@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { pointCount, strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
 import { checkBounds } from "../../../src/prepare/check-bounds.js";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { clipOf, drawingOf } from "../../support/drawings.js";
 
 const TRUE_SIZE: PrepareSettings = {

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
 import { placeDrawing } from "../../../src/prepare/place.js";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/prepare/settings.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { prepareSettingsSchema } from "../../../src/schema/index.js";
 import { drawingOf } from "../../support/drawings.js";
 

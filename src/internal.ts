@@ -1,0 +1,14 @@
+/** What server and web use besides the public library. No promise is made to anybody else. */
+export { followedSettings, OLDEST_PLANNED_FIRMWARE } from "./job/plan-job.js";
+export { planWalk } from "./job/plan-walk.js";
+export {
+  isAllowed,
+  rangeInWords,
+  type NumberSetting,
+  type Setting,
+  type SwitchSetting,
+} from "./settings/setting.js";
+export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./settings/tables.js";
+export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
+export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
+export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";

@@ -1,0 +1,37 @@
+/** Schemas made from the settings tables. */
+import { z } from "zod";
+import {
+  rangeInWords,
+  type NumberSetting,
+  type Setting,
+  type SettingsTable,
+  type ValuesOf,
+} from "../settings/setting.js";
+
+export function numberSchema(row: NumberSetting): z.ZodNumber {
+  const error = `it must be ${rangeInWords(row)}`;
+  const number = row.isWhole ? z.int({ error }) : z.number({ error });
+  const fromMin = row.minExcluded ? number.gt(row.min, { error }) : number.min(row.min, { error });
+  return fromMin.max(row.max, { error });
+}
+
+function schemaOf(row: Setting): z.ZodType {
+  if (row.kind === "number") return numberSchema(row);
+  if (row.kind === "switch") return z.boolean();
+  return z.enum(row.choices);
+}
+
+type ShapeOf<Table extends SettingsTable> = {
+  [K in keyof Table]: z.ZodType<ValuesOf<Table>[K], ValuesOf<Table>[K]>;
+};
+type ShapeWithDefaults<Table extends SettingsTable> = {
+  [K in keyof Table]: z.ZodDefault<z.ZodType<ValuesOf<Table>[K], ValuesOf<Table>[K]>>;
+};
+
+export const shapeOf = <Table extends SettingsTable>(table: Table): ShapeOf<Table> =>
+  Object.fromEntries(Object.entries(table).map(([key, row]) => [key, schemaOf(row)])) as ShapeOf<Table>;
+
+export const shapeWithDefaults = <Table extends SettingsTable>(table: Table): ShapeWithDefaults<Table> =>
+  Object.fromEntries(
+    Object.entries(table).map(([key, row]) => [key, schemaOf(row).default(row.default)]),
+  ) as ShapeWithDefaults<Table>;

@@ -1,0 +1,195 @@
+import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+
+/** How the pen moves. One set of limits with the pen down (`draw`), one with it up (`travel`). */
+export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
+export type MotionMode = (typeof MOTION_MODES)[number];
+
+const speed = {
+  kind: "number",
+  label: "Speed",
+  min: 0,
+  minExcluded: true,
+  max: 1_000,
+  unit: "mm/s",
+  step: 1,
+} as const;
+const accel = {
+  kind: "number",
+  label: "Acceleration",
+  min: 0,
+  minExcluded: true,
+  max: 50_000,
+  unit: "mm/s²",
+  step: 10,
+} as const;
+const corner = {
+  kind: "number",
+  label: "Corner rounding",
+  min: 0,
+  minExcluded: true,
+  max: 10,
+  unit: "mm",
+  step: 0.01,
+  digits: 3,
+  slider: [0.01, 0.5],
+} as const;
+const jerk = {
+  kind: "number",
+  label: "Softness",
+  min: 0,
+  minExcluded: true,
+  max: 10_000_000,
+  unit: "mm/s³",
+  step: 500,
+  slider: [1_000, 100_000],
+} as const;
+
+/** Limits with the pen down. */
+export const DRAW_TABLE = {
+  speedMmPerS: {
+    ...speed,
+    about: "largest speed, pen down",
+    flag: "--speed",
+    default: 50,
+    slider: [5, 200],
+  },
+  accelMmPerS2: {
+    ...accel,
+    about: "acceleration, pen down",
+    flag: "--accel",
+    default: 500,
+    slider: [50, 3_000],
+  },
+  /** δ: what the line may leave the drawing by (blend), or may pretend to (junction). */
+  cornerMm: {
+    ...corner,
+    about: "how far corners and tight curves may leave the drawing, pen down",
+    flag: "--corner",
+    default: 0.025,
+  },
+  jerkMmPerS3: {
+    ...jerk,
+    about: "largest change of acceleration, pen down (scurve)",
+    flag: "--jerk",
+    default: 10_000,
+  },
+} as const satisfies SettingsTable;
+
+/** Limits with the pen up. */
+export const TRAVEL_TABLE = {
+  speedMmPerS: {
+    ...speed,
+    about: "largest speed, pen up",
+    flag: "--travel-speed",
+    default: 150,
+    slider: [10, 400],
+  },
+  accelMmPerS2: {
+    ...accel,
+    about: "acceleration, pen up",
+    flag: "--travel-accel",
+    default: 1_000,
+    slider: [50, 5_000],
+  },
+  cornerMm: { ...corner, about: "how far corners may be left, pen up", default: 0.5 },
+  jerkMmPerS3: {
+    ...jerk,
+    about: "largest change of acceleration, pen up (scurve)",
+    flag: "--travel-jerk",
+    default: 20_000,
+  },
+} as const satisfies SettingsTable;
+
+export type MotionLimits = ValuesOf<typeof DRAW_TABLE>;
+
+export const MOTION_TABLE = {
+  mode: {
+    kind: "choice",
+    label: "Corners",
+    about: "how corners are taken",
+    flag: "--mode",
+    default: "blend",
+    choices: MOTION_MODES,
+  },
+} as const satisfies SettingsTable;
+
+export const FIT_TABLE = {
+  toleranceMm: {
+    kind: "number",
+    label: "Tolerance",
+    about: "how far merged commands may leave the plan",
+    default: 0.02,
+    min: 0.001,
+    max: 1,
+    unit: "mm",
+    step: 0.005,
+    digits: 3,
+  },
+  floorMs: {
+    kind: "number",
+    label: "Commands of at least",
+    about: "shorter commands are made only where the geometry is that short",
+    default: 15,
+    min: 0,
+    max: 200,
+    unit: "ms",
+    step: 1,
+  },
+} as const satisfies SettingsTable;
+
+/** A plan's blocks merged into fewer, longer ones. */
+export type FitSettings = ValuesOf<typeof FIT_TABLE>;
+
+export const EASE_TABLE = {
+  lengthMm: {
+    kind: "number",
+    label: "Length",
+    about: "length of the slow start and end of every stroke",
+    default: 1.5,
+    min: 0,
+    minExcluded: true,
+    max: 1_000,
+    unit: "mm",
+    step: 0.5,
+  },
+  speedMmPerS: { ...speed, label: "Speed", about: "speed of the slow start and end", default: 10 },
+} as const satisfies SettingsTable;
+
+/** Slow-in and slow-out: the first and last millimetres of every stroke are drawn no faster than this. */
+export type EaseSettings = ValuesOf<typeof EASE_TABLE>;
+
+/** Limit of one motor; matters on mixed machines, where a diagonal loads one motor more. */
+export const MOTOR_ACCEL = {
+  kind: "number",
+  label: "motor acceleration",
+  about: "largest acceleration of one motor",
+  default: 100_000,
+  min: 0,
+  minExcluded: true,
+  max: 100_000_000,
+  unit: "steps/s²",
+  step: 1_000,
+} as const satisfies NumberSetting;
+
+/** What one layer does differently; what is left out is as for all. */
+export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
+
+export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
+  readonly draw: MotionLimits;
+  readonly travel: MotionLimits;
+  readonly fit?: FitSettings | null | undefined;
+  readonly ease?: EaseSettings | null | undefined;
+  /** Largest acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
+  readonly motorAccelStepsPerS2?: number | null | undefined;
+  /** By layer id: limits with the pen down. */
+  readonly layers?: Readonly<Record<string, LayerMotion>> | undefined;
+}
+
+export const DEFAULT_FIT: FitSettings = defaultsOf(FIT_TABLE);
+
+export const DEFAULT_MOTION: MotionSettings = {
+  ...defaultsOf(MOTION_TABLE),
+  draw: defaultsOf(DRAW_TABLE),
+  travel: defaultsOf(TRAVEL_TABLE),
+  fit: DEFAULT_FIT,
+};

@@ -1,0 +1,138 @@
+/** The pen's settings. Heights are percent of the servo's range, 100 = highest. */
+import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+
+const height = { kind: "number", min: 0, max: 100, unit: "%", step: 1 } as const;
+const delay = { kind: "number", min: 0, max: 10_000, unit: "ms", step: 10 } as const;
+const rate = {
+  kind: "number",
+  min: 0,
+  minExcluded: true,
+  max: 10_000,
+  unit: "%/s",
+  step: 5,
+  slider: [10, 400],
+} as const;
+
+export const PEN_TABLE = {
+  upPct: {
+    ...height,
+    label: "Height up",
+    about: "height while travelling",
+    flag: "--pen-up",
+    default: 60,
+    slider: [0, 100],
+  },
+  downPct: {
+    ...height,
+    label: "Height down",
+    about: "height while drawing",
+    flag: "--pen-down",
+    default: 30,
+    slider: [0, 100],
+  },
+  /** With a rate this is a delay besides the time that the rate needs; without, the whole time. */
+  liftMs: {
+    ...delay,
+    label: "Wait after lifting",
+    about: "wait for the pen to lift",
+    flag: "--pen-lift-ms",
+    default: 250,
+  },
+  dropMs: {
+    ...delay,
+    label: "Wait after lowering",
+    about: "wait for the pen to drop",
+    flag: "--pen-drop-ms",
+    default: 300,
+  },
+} as const satisfies SettingsTable;
+
+/** How fast the pen rises and sinks where a rate is set; the default is what the page starts with. */
+export const LIFT_RATE = {
+  ...rate,
+  label: "Rises at",
+  about: "how fast the pen rises",
+  default: 60,
+} as const satisfies NumberSetting;
+export const DROP_RATE = {
+  ...rate,
+  label: "Sinks at",
+  about: "how fast the pen sinks",
+  default: 60,
+} as const satisfies NumberSetting;
+
+/** Share of the lift after which the pen is clear and the carriage may start. */
+export const CLEAR_SHARE = {
+  ...height,
+  label: "Clear after",
+  about: "share of the lift after which the carriage may start",
+  default: 100,
+} as const satisfies NumberSetting;
+
+/** A wait with the pen up before a layer's first stroke. */
+export const LAYER_WAIT = {
+  kind: "number",
+  label: "Wait before the layer",
+  about: "wait with the pen up before the layer's first stroke",
+  default: 0,
+  min: 0,
+  max: 60_000,
+  unit: "ms",
+  step: 500,
+} as const satisfies NumberSetting;
+
+export const HOP_TABLE = {
+  longestMm: {
+    kind: "number",
+    label: "Up to",
+    about: "longest travel that counts as a hop",
+    default: 3,
+    min: 0,
+    minExcluded: true,
+    max: 1_000,
+    unit: "mm",
+    step: 0.5,
+  },
+  upPct: { ...height, label: "Height", about: "height between strokes of a hop", default: 40 },
+} as const satisfies SettingsTable;
+
+/** Short travels between strokes: the pen is lifted less high, and so faster, for hops up to `longestMm`. */
+export type HopSettings = ValuesOf<typeof HOP_TABLE>;
+
+/** What one layer's pen does differently; what is left out is as for all. */
+export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undefined } & {
+  /** A wait with the pen up before the layer's first stroke. */
+  readonly beforeMs?: number | undefined;
+};
+
+/** Pen heights, and how long the queue waits for the pen. */
+export interface PenSettings extends ValuesOf<typeof PEN_TABLE> {
+  /** How fast the pen rises and sinks; null or left out: as fast as the servo can. A low drop rate is gentle. */
+  readonly liftPctPerS?: number | null | undefined;
+  readonly dropPctPerS?: number | null | undefined;
+  /** Share of the lift after which the pen is clear and the carriage may start: 100 waits for the whole of it. */
+  readonly clearPct?: number | undefined;
+  readonly hop?: HopSettings | null | undefined;
+  readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
+}
+
+export const DEFAULT_PEN: PenSettings = defaultsOf(PEN_TABLE);
+
+const offset = { kind: "number", default: 0, min: -100, max: 100, unit: "mm", step: 0.05 } as const;
+
+/** A pen of the user's list: its line, and how far from the first pen it draws. */
+export const PLOT_PEN_TABLE = {
+  widthMm: {
+    kind: "number",
+    label: "Line width",
+    about: "width of the pen's line",
+    default: 0.4,
+    min: 0,
+    minExcluded: true,
+    max: 50,
+    unit: "mm",
+    step: 0.05,
+  },
+  offsetXMm: { ...offset, label: "Draws too far right by", about: "how far right of the first pen it draws" },
+  offsetYMm: { ...offset, label: "Draws too far down by", about: "how far below the first pen it draws" },
+} as const satisfies SettingsTable;

@@ -1,0 +1,352 @@
+import type { PaperSize } from "../drawing/paper.js";
+import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+
+export const LAYER_MODES = ["group", "stroke", "all"] as const;
+export type LayerMode = (typeof LAYER_MODES)[number];
+
+export const ORDER_MODES = ["none", "fast", "best"] as const;
+export type OrderMode = (typeof ORDER_MODES)[number];
+
+export const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
+export type MirrorMode = (typeof MIRROR_MODES)[number];
+
+export const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
+export type SpreadMode = (typeof SPREAD_MODES)[number];
+
+export interface FourMargins {
+  readonly topMm: number;
+  readonly rightMm: number;
+  readonly bottomMm: number;
+  readonly leftMm: number;
+}
+
+/** Where the drawing's own box goes, mm from the paper's top left corner. */
+export interface PlacedBox {
+  readonly xMm: number;
+  readonly yMm: number;
+  /** One of them null: the drawing keeps its proportions. Both null: its true size. */
+  readonly widthMm: number | null;
+  readonly heightMm: number | null;
+  /** A turn after that, clockwise about the box's middle: the size stays, and so does the middle. */
+  readonly turnDeg?: number | undefined;
+}
+
+export interface ShiftMm {
+  readonly xMm: number;
+  readonly yMm: number;
+}
+
+const paperSide = { kind: "number", min: 1, max: 5_000, unit: "mm", step: 1 } as const;
+
+/** Paper of one's own size, upright. */
+export const PAPER_TABLE = {
+  widthMm: { ...paperSide, label: "Width", about: "width of the upright paper", default: 210 },
+  heightMm: { ...paperSide, label: "Height", about: "height of the upright paper", default: 297 },
+} as const satisfies SettingsTable;
+
+export const HATCH_TABLE = {
+  spacingMm: {
+    kind: "number",
+    label: "Pen width",
+    about: "fill areas with lines so far apart; 0 leaves them empty",
+    flag: "--hatch",
+    default: 0,
+    min: 0,
+    max: 100,
+    unit: "mm",
+    step: 0.05,
+    slider: [0.1, 5],
+  },
+  angleDeg: {
+    kind: "number",
+    label: "Angle",
+    about: "direction of the hatch lines, clockwise from the x axis",
+    flag: "--hatch-angle",
+    default: 45,
+    min: -360,
+    max: 360,
+    unit: "°",
+    step: 5,
+    slider: [0, 180],
+  },
+  cross: {
+    kind: "switch",
+    label: "A second set across",
+    about: "hatch both ways",
+    flag: "--hatch-cross",
+    default: false,
+  },
+} as const satisfies SettingsTable;
+
+/** How areas are filled with lines. */
+export type HatchSettings = ValuesOf<typeof HATCH_TABLE>;
+
+export interface LayerHatch extends HatchSettings {
+  /** Layer id. */
+  readonly layer: string;
+}
+
+/** The settings of `prepare` that are one number, switch or choice each, in the order in which the page lists them. */
+export const PREPARE_TABLE = {
+  landscape: {
+    kind: "switch",
+    label: "Landscape",
+    about: "a named paper lies on its long side",
+    aboutOff: "a named paper stands upright",
+    flag: "--landscape",
+    default: true,
+  },
+  marginMm: {
+    kind: "number",
+    label: "Margin",
+    about: "free edge around the drawing",
+    flag: "--margin",
+    default: 15,
+    min: 0,
+    max: 1_000,
+    unit: "mm",
+    step: 1,
+    slider: [0, 60],
+  },
+  fit: {
+    kind: "switch",
+    label: "Fit paper",
+    about: "scale the drawing to the paper inside the margins",
+    aboutOff: "draw in true size, page corner on paper corner",
+    flag: "--fit",
+    default: true,
+  },
+  rotateDeg: {
+    kind: "number",
+    label: "Rotate",
+    about: "turn the drawing clockwise about its middle, before fitting",
+    flag: "--rotate",
+    default: 0,
+    min: -360,
+    max: 360,
+    unit: "°",
+    step: 1,
+  },
+  mirror: {
+    kind: "choice",
+    label: "Mirror",
+    about: "mirror the drawing",
+    flag: "--mirror",
+    default: "none",
+    choices: MIRROR_MODES,
+  },
+  clipToMargins: {
+    kind: "switch",
+    label: "Cut off what lies outside the margins",
+    about: "cut off what lies outside the margins",
+    aboutOff: "draw over the margins",
+    flag: "--clip",
+    default: true,
+  },
+  cropToPage: {
+    kind: "switch",
+    label: "Cut off what lies outside the file’s page",
+    about: "cut off what lies outside the file's own page",
+    flag: "--crop-to-page",
+    default: false,
+  },
+  outlineFills: {
+    kind: "switch",
+    label: "Draw the outline of filled shapes",
+    about: "draw the outline of shapes that are only filled",
+    flag: "--outline-fills",
+    default: true,
+  },
+  hideCovered: {
+    kind: "switch",
+    label: "Hide lines under filled shapes",
+    about: "leave out what lies under shapes painted later",
+    flag: "--hide-covered",
+    default: false,
+  },
+  joinMm: {
+    kind: "number",
+    label: "Join ends closer than",
+    about: "join ends that are closer than this",
+    flag: "--join",
+    panel: "lines",
+    default: 0.1,
+    min: 0,
+    max: 50,
+    unit: "mm",
+    step: 0.05,
+    digits: 3,
+  },
+  dropShorterMm: {
+    kind: "number",
+    label: "Skip strokes shorter than",
+    about: "leave out strokes shorter than this; 0 keeps dots too",
+    flag: "--drop-shorter",
+    panel: "lines",
+    default: 0,
+    min: 0,
+    max: 1_000,
+    unit: "mm",
+    step: 0.1,
+    digits: 3,
+  },
+  dropRepeatsMm: {
+    kind: "number",
+    label: "Leave out repeats within",
+    about: "leave out what is drawn already, this near; 0 keeps all",
+    flag: "--drop-repeats",
+    panel: "lines",
+    default: 0,
+    min: 0,
+    max: 5,
+    unit: "mm",
+    step: 0.05,
+    digits: 3,
+  },
+  simplifyMm: {
+    kind: "number",
+    label: "Simplify within",
+    about: "drop points closer than this to the line (Douglas–Peucker)",
+    flag: "--simplify",
+    panel: "lines",
+    default: 0,
+    min: 0,
+    max: 5,
+    unit: "mm",
+    step: 0.01,
+    digits: 3,
+  },
+  flattenMm: {
+    kind: "number",
+    label: "Curve smoothness",
+    about: "largest gap between a curve and its chords, on paper",
+    flag: "--flatten",
+    panel: "lines",
+    default: 0.02,
+    min: 0.001,
+    max: 5,
+    unit: "mm",
+    step: 0.01,
+    digits: 3,
+  },
+  smoothRounds: {
+    kind: "number",
+    label: "Smoothing, rounds",
+    about: "rounds of corner cutting (Chaikin); each doubles the points",
+    flag: "--smooth",
+    panel: "lines",
+    default: 0,
+    min: 0,
+    max: 5,
+    isWhole: true,
+    unit: "",
+    step: 1,
+    digits: 0,
+  },
+  reloop: {
+    kind: "switch",
+    label: "Begin closed lines at a random point",
+    about: "begin closed strokes at a random point",
+    flag: "--reloop",
+    panel: "lines",
+    default: false,
+  },
+  order: {
+    kind: "choice",
+    label: "Order of strokes",
+    about: "order of strokes",
+    flag: "--order",
+    default: "fast",
+    choices: ORDER_MODES,
+  },
+  orderS: {
+    kind: "number",
+    label: "Search for",
+    about: "how long --order best may search",
+    flag: "--order-s",
+    default: 9,
+    min: 0,
+    max: 3_600,
+    unit: "s",
+    step: 1,
+  },
+  spread: {
+    kind: "choice",
+    label: "Against wet ink",
+    about: "draw neighbours apart in time, so that ink dries",
+    flag: "--spread",
+    default: "none",
+    choices: SPREAD_MODES,
+  },
+  reinkMm: {
+    kind: "number",
+    label: "Take up ink every",
+    about: "split layers after so much drawing, to take up ink; 0 never",
+    flag: "--reink",
+    default: 0,
+    min: 0,
+    max: 1_000_000,
+    unit: "mm",
+    step: 100,
+  },
+  layers: {
+    kind: "choice",
+    label: "Layers from",
+    about: "what makes a layer",
+    flag: "--layers",
+    default: "group",
+    choices: LAYER_MODES,
+  },
+} as const satisfies SettingsTable;
+
+/** How often a layer is drawn, in `layerRepeats`. */
+export const LAYER_REPEATS = {
+  kind: "number",
+  label: "Draw it",
+  about: "how often the layer is drawn",
+  default: 1,
+  min: 1,
+  max: 20,
+  isWhole: true,
+  unit: "times",
+  step: 1,
+} as const satisfies NumberSetting;
+
+/** How the drawing is laid on the paper and made into strokes. What each plain setting does is in its table. */
+export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
+  /** Portrait size; `landscape` turns it. */
+  readonly paper: PaperSize;
+  /** Layer ids to leave out. */
+  readonly hiddenLayers: readonly string[];
+  /** Layers that are drawn although their name begins with "%". */
+  readonly shownLayers: readonly string[];
+  /** Layer ids that are drawn first, in this order; the rest follow in the file's order. */
+  readonly layerOrder: readonly string[];
+  /** By layer id: how many times it is drawn; default once. */
+  readonly layerRepeats: Readonly<Record<string, number>>;
+  /** By layer id: by how much its strokes are moved last of all, so that a pen that sits askew meets the others. */
+  readonly layerShifts?: Readonly<Record<string, ShiftMm>> | undefined;
+  /** Each side by itself; null: `marginMm` all round. */
+  readonly margins: FourMargins | null;
+  /** The drawing's place by numbers, after turning and mirroring; overrides `fit`. Null: `fit` decides. */
+  readonly place: PlacedBox | null;
+  /** Cut off what lies outside the machine's travel, from home; null: nothing is cut for it. */
+  readonly reach: PaperSize | null;
+  readonly hatch: HatchSettings;
+  /** Layers that are filled differently. */
+  readonly layerHatches: readonly LayerHatch[];
+}
+
+export const DEFAULT_PREPARE: PrepareSettings = {
+  ...defaultsOf(PREPARE_TABLE),
+  paper: defaultsOf(PAPER_TABLE),
+  hiddenLayers: [],
+  shownLayers: [],
+  layerOrder: [],
+  layerRepeats: {},
+  margins: null,
+  place: null,
+  reach: null,
+  hatch: defaultsOf(HATCH_TABLE),
+  layerHatches: [],
+};

@@ -1,0 +1,76 @@
+/**
+ * What a row of the settings tables says. The tables are the only place where a default, a range, a unit or a flag
+ * is written: the schema, the checks, the command line, the page's fields and docs/cli.md are made from them.
+ */
+interface Described {
+  /** On the page. */
+  readonly label: string;
+  /** On the command line and in its documentation. */
+  readonly about: string;
+  /** "--margin"; left out: the command line has no option for it. */
+  readonly flag?: string;
+  /** The page's panel that lists it among its plain settings; left out: a panel shows it in a way of its own. */
+  readonly panel?: "lines";
+}
+
+export interface NumberSetting extends Described {
+  readonly kind: "number";
+  readonly default: number;
+  readonly min: number;
+  readonly max: number;
+  /** `min` itself is not allowed: speeds of 0, for example. */
+  readonly minExcluded?: true;
+  readonly isWhole?: true;
+  /** "" for a plain count. */
+  readonly unit: string;
+  /** What an arrow key adds in the page's field. */
+  readonly step: number;
+  /** Digits after the point in the page's field; default 2. */
+  readonly digits?: number;
+  /** Ends of the field's slider: the range in everyday use. */
+  readonly slider?: readonly [from: number, to: number];
+}
+
+export interface SwitchSetting extends Described {
+  readonly kind: "switch";
+  readonly default: boolean;
+  /** What `--no-…` does. */
+  readonly aboutOff?: string;
+}
+
+export interface ChoiceSetting<T extends string = string> extends Described {
+  readonly kind: "choice";
+  readonly default: T;
+  readonly choices: readonly T[];
+}
+
+export type Setting = NumberSetting | SwitchSetting | ChoiceSetting;
+export type SettingsTable = Readonly<Record<string, Setting>>;
+
+type ValueOf<S> = S extends NumberSetting
+  ? number
+  : S extends SwitchSetting
+    ? boolean
+    : S extends { readonly choices: readonly (infer T)[] }
+      ? T
+      : never;
+
+/** The object that a table describes. */
+export type ValuesOf<Table extends SettingsTable> = { readonly [K in keyof Table]: ValueOf<Table[K]> };
+
+export const defaultsOf = <Table extends SettingsTable>(table: Table): ValuesOf<Table> =>
+  Object.fromEntries(Object.entries(table).map(([key, row]) => [key, row.default])) as ValuesOf<Table>;
+
+/** Whether a value is within the row's range. */
+export const isAllowed = (row: NumberSetting, value: number): boolean =>
+  Number.isFinite(value) &&
+  (row.minExcluded ? value > row.min : value >= row.min) &&
+  value <= row.max &&
+  (!row.isWhole || Number.isInteger(value));
+
+/** "0 to 1000 mm", "more than 0, up to 1000 mm/s", "a whole number, 0 to 5". */
+export function rangeInWords({ min, max, minExcluded, isWhole, unit }: NumberSetting): string {
+  const upTo = max === Infinity ? "" : `, up to ${max}`;
+  const range = minExcluded ? `more than ${min}${upTo}` : `${min} to ${max}`;
+  return `${isWhole ? "a whole number, " : ""}${range}${unit === "" ? "" : ` ${unit}`}`;
+}

@@ -1,0 +1,43 @@
+/** All settings that have an option of their own, by where they stand in a job's settings. */
+import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
+import { PEN_TABLE } from "./pen.js";
+import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
+import { rangeInWords, type Setting, type SettingsTable } from "./setting.js";
+
+export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
+  prepare: PREPARE_TABLE,
+  "prepare.hatch": HATCH_TABLE,
+  motion: MOTION_TABLE,
+  "motion.draw": DRAW_TABLE,
+  "motion.travel": TRAVEL_TABLE,
+  pen: PEN_TABLE,
+};
+
+export interface SettingFlag {
+  /** Where in the settings: "prepare.marginMm". */
+  readonly path: string;
+  readonly flag: string;
+  readonly row: Setting;
+}
+
+export const SETTING_FLAGS: readonly SettingFlag[] = Object.entries(SETTINGS_TABLES).flatMap(([at, table]) =>
+  Object.entries(table).flatMap(([key, row]) =>
+    row.flag === undefined ? [] : [{ path: `${at}.${key}`, flag: row.flag, row }],
+  ),
+);
+
+/** "--margin <mm>", "--order <none|fast|best>", "--fit". */
+export function flagInWords({ flag, row }: SettingFlag): string {
+  if (row.kind === "switch") return flag;
+  if (row.kind === "choice") return `${flag} <${row.choices.join("|")}>`;
+  return `${flag} <${UNIT_WORDS[row.unit] ?? row.unit}>`;
+}
+
+/** "0 to 1000 mm, default 15"; of a choice or a switch, its default. */
+export function valuesInWords({ row }: SettingFlag): string {
+  if (row.kind === "switch") return `default ${row.default ? "on" : "off"}`;
+  if (row.kind === "choice") return `default ${row.default}`;
+  return `${rangeInWords(row)}, default ${row.default}`;
+}
+
+const UNIT_WORDS: Readonly<Record<string, string>> = { "": "count", "°": "degrees", "%": "percent" };
