@@ -12,3 +12,4 @@ export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./s
 export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
+export type { EbbController } from "./machines/profile.js";

@@ -38,7 +38,7 @@ export async function moveByHand(carriage: Carriage, move: HandMove, settings: P
     case "jog":
       return jog(carriage, move.dxMm, move.dyMm, settings);
     case "home":
-      if (machine.homing) return seekHome(carriage, settings, machine.homing);
+      if (machine.controller.homing) return seekHome(carriage, settings, machine.controller.homing);
       return carriage.walk(0, 0, settings);
     case "set-home":
       return carriage.setHome(machine, settings.pen);

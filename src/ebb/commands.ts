@@ -15,7 +15,7 @@ const STANDARD_PIN = 4;
 /** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
   const features = firmwareFeatures(firmware);
-  const lines = [`EM,${machine.microstepMode},${machine.microstepMode}`];
+  const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
   // Older boards keep their accumulators through EM: CS makes them known.
   if (!features.enableClearsAccumulators && features.hasStepQuery) lines.push("CS");
   return [...lines, ...penSetUpCommands(machine, pen)];
@@ -57,7 +57,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
 
 /** Height and speed of the SP of one direction; empty where S2 moves the pen. */
 export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
-  if (machine.servoPin !== STANDARD_PIN) return [];
+  if (machine.controller.servoPin !== STANDARD_PIN) return [];
   const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
   return [
     `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
@@ -68,9 +68,9 @@ export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
 /** One pen move, holding the queue for `waitMs`. Heights and speeds of SP come from the set-up commands. */
 export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
-  if (machine.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
+  if (machine.controller.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
   const position = servoPosFromPct(machine, way.heightPct);
-  return `S2,${position},${machine.servoPin},${servoRate(machine, way)},${delayMs}`;
+  return `S2,${position},${machine.controller.servoPin},${servoRate(machine, way)},${delayMs}`;
 }
 
 /** The longest delay that SP and S2 take. */
@@ -78,7 +78,7 @@ export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position a 24 ms frame: the rate asked for, or one that is done with the way in good time. */
 function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
-  const unitsPerPct = Math.abs(machine.servoPosAt100Pct - machine.servoPosAt0Pct) / 100;
+  const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
   const frames = ratePctPerS
     ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
     : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));

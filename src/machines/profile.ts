@@ -14,7 +14,16 @@ export interface MachineProfile {
   readonly flipY?: boolean | undefined;
   /** The motors are plugged in, or the machine stands, so that x and y have changed places. */
   readonly swapAxes?: boolean | undefined;
-  /** EM argument: 1 = 1/16 microsteps. */
+  readonly controller: Controller;
+}
+
+/** What drives the motors and the pen. `kind` names the driver: see src/drivers. */
+export type Controller = EbbController;
+
+/** EiBotBoard: AxiDraw, NextDraw, EggBot and others. */
+export interface EbbController {
+  readonly kind: "ebb";
+  /** 1 = 1/16 steps, 2 = 1/8, 3 = 1/4, 4 = 1/2, 5 = whole steps. */
   readonly microstepMode: 1 | 2 | 3 | 4 | 5;
   /** Servo positions at 0 % and 100 % height, units of 1/12 µs (83.3 ns). */
   readonly servoPosAt0Pct: number;
@@ -30,7 +39,7 @@ export interface HomingSwitches {
   readonly y: SwitchInput;
 }
 
-/** One input pin of the board, as its command PI names it. */
+/** One input pin of the board. */
 export interface SwitchInput {
   readonly port: (typeof INPUT_PORTS)[number];
   /** 0 … 7. */

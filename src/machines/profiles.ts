@@ -5,11 +5,23 @@
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
  */
 import { PlotwrightError } from "../errors.js";
-import type { MachineProfile } from "./profile.js";
+import type { EbbController, MachineProfile } from "./profile.js";
 
-const STANDARD_SERVO = { servoPosAt0Pct: 7_500, servoPosAt100Pct: 28_000, servoPin: 4 } as const;
-const BRUSHLESS_SERVO = { servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 } as const;
-const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed", microstepMode: 1 } as const;
+const STANDARD_SERVO: EbbController = {
+  kind: "ebb",
+  microstepMode: 1,
+  servoPosAt0Pct: 7_500,
+  servoPosAt100Pct: 28_000,
+  servoPin: 4,
+};
+const BRUSHLESS_SERVO: EbbController = {
+  kind: "ebb",
+  microstepMode: 1,
+  servoPosAt0Pct: 5_400,
+  servoPosAt100Pct: 12_600,
+  servoPin: 5,
+};
+const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed" } as const;
 
 const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
   id,
@@ -17,7 +29,7 @@ const axidraw = (id: string, name: string, widthMm: number, heightMm: number): M
   widthMm,
   heightMm,
   ...BELT_DRIVE,
-  ...STANDARD_SERVO,
+  controller: STANDARD_SERVO,
 });
 const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
   id,
@@ -25,7 +37,7 @@ const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): 
   widthMm,
   heightMm,
   ...BELT_DRIVE,
-  ...BRUSHLESS_SERVO,
+  controller: BRUSHLESS_SERVO,
 });
 
 /** A sphere of 40 mm turned by 3200 steps; the pen arm moves 1/4 of that either way. */
@@ -52,8 +64,7 @@ export const MACHINES: readonly MachineProfile[] = [
     heightMm: Number((EGG_TURN_MM / 4).toFixed(3)),
     stepsPerMm: EGG_STEPS_PER_TURN / EGG_TURN_MM,
     motors: "direct",
-    microstepMode: 1,
-    ...STANDARD_SERVO,
+    controller: STANDARD_SERVO,
   },
   {
     id: "watercolorbot",
@@ -62,8 +73,7 @@ export const MACHINES: readonly MachineProfile[] = [
     heightMm: 216,
     stepsPerMm: 80,
     motors: "direct",
-    microstepMode: 1,
-    ...STANDARD_SERVO,
+    controller: STANDARD_SERVO,
   },
 ];
 

@@ -11,18 +11,9 @@ const switchInputSchema = z.object({
 /** The board counts servo positions in 16 bits. */
 const servoPosSchema = z.int().min(1).max(65_535);
 
-export const machineProfileSchema = z
+const ebbControllerSchema = z
   .object({
-    /** A file's name too. */
-    id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "small letters, digits and -, 63 at most"),
-    name: z.string().trim().min(1).max(100),
-    widthMm: z.number().gt(0).max(5_000),
-    heightMm: z.number().gt(0).max(5_000),
-    stepsPerMm: z.number().min(0.1).max(10_000),
-    motors: z.enum(["mixed", "direct"]),
-    flipX: z.boolean().optional(),
-    flipY: z.boolean().optional(),
-    swapAxes: z.boolean().optional(),
+    kind: z.literal("ebb"),
     microstepMode: z.union([z.literal(1), z.literal(2), z.literal(3), z.literal(4), z.literal(5)]),
     servoPosAt0Pct: servoPosSchema,
     servoPosAt100Pct: servoPosSchema,
@@ -32,10 +23,41 @@ export const machineProfileSchema = z
   .refine(({ servoPosAt0Pct, servoPosAt100Pct }) => servoPosAt0Pct !== servoPosAt100Pct, {
     message: "the servo has no range: 0 % and 100 % are the same position",
     path: ["servoPosAt100Pct"],
-  }) satisfies z.ZodType<MachineProfile>;
+  });
+
+const profileShape = {
+  /** A file's name too. */
+  id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "small letters, digits and -, 63 at most"),
+  name: z.string().trim().min(1).max(100),
+  widthMm: z.number().gt(0).max(5_000),
+  heightMm: z.number().gt(0).max(5_000),
+  stepsPerMm: z.number().min(0.1).max(10_000),
+  motors: z.enum(["mixed", "direct"]),
+  flipX: z.boolean().optional(),
+  flipY: z.boolean().optional(),
+  swapAxes: z.boolean().optional(),
+  controller: ebbControllerSchema,
+};
+
+/** Profiles of format 1 have the fields of the only controller among those of the machine; format 2 has `controller`. */
+function upgrade(stored: unknown): unknown {
+  if (typeof stored !== "object" || stored === null || "controller" in stored) return stored;
+  const { microstepMode, servoPosAt0Pct, servoPosAt100Pct, servoPin, homing, ...machine } = stored as Record<
+    string,
+    unknown
+  >;
+  const controller = { kind: "ebb", microstepMode, servoPosAt0Pct, servoPosAt100Pct, servoPin, homing };
+  return { ...machine, controller };
+}
+
+export const machineProfileSchema = z.preprocess(
+  upgrade,
+  z.object(profileShape),
+) satisfies z.ZodType<MachineProfile>;
 
 /** One of GET /machines. */
-export const listedMachineSchema = machineProfileSchema.safeExtend({
+export const listedMachineSchema = z.object({
+  ...profileShape,
   /** Comes with plotwright; the others can be changed and removed. */
   builtIn: z.boolean(),
 });

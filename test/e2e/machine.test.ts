@@ -169,9 +169,13 @@ describe("setting a plotter up", () => {
       swapAxes: true,
       flipX: true,
       flipY: true,
-      servoPin: 5,
-      servoPosAt0Pct: 12_000,
-      servoPosAt100Pct: 20_000,
+      controller: {
+        kind: "ebb",
+        microstepMode: 1,
+        servoPin: 5,
+        servoPosAt0Pct: 12_000,
+        servoPosAt100Pct: 20_000,
+      },
       widthMm: 290,
     } satisfies Partial<MachineProfile>);
     await expect.poll(() => machinePanel().getByLabel("Model").inputValue()).toBe("old-friend");

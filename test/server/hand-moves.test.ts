@@ -221,7 +221,12 @@ describe("machines of the user's own", () => {
     });
     expect(await put("mine", { ...MINE, stepsPerMm: 0 })).toMatchObject({ status: 400 });
     expect(await put("mine", { ...MINE, id: "../mine" })).toMatchObject({ status: 400 });
-    expect(await put("mine", { ...MINE, servoPosAt100Pct: MINE.servoPosAt0Pct })).toMatchObject({
+    expect(
+      await put("mine", {
+        ...MINE,
+        controller: { ...MINE.controller, servoPosAt100Pct: MINE.controller.servoPosAt0Pct },
+      }),
+    ).toMatchObject({
       status: 400,
     });
   });

@@ -8,10 +8,11 @@ import { ManualClock } from "../support/manual-clock.js";
 const SWITCH_X_MM = -7.3;
 const SWITCH_Y_MM = -4.1;
 const HOMING = { port: "B", pin: 0, pressed: 0 } as const;
+const PLAIN = machineById("axidraw-v3");
 const MACHINE: MachineProfile = {
-  ...machineById("axidraw-v3"),
+  ...PLAIN,
   id: "switched",
-  homing: { x: HOMING, y: HOMING },
+  controller: { ...PLAIN.controller, homing: { x: HOMING, y: HOMING } },
 };
 const SETTINGS = { ...DEFAULT_PLOT_SETTINGS, machine: "switched", customMachine: MACHINE };
 

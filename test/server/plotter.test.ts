@@ -353,11 +353,12 @@ describe("another machine on the same board", () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(30, 0));
     expect(board.state()).toMatchObject({ steps1: 2_400, steps2: 2_400 });
+    const fine = machineById("axidraw-v3");
     const coarse: MachineProfile = {
-      ...machineById("axidraw-v3"),
+      ...fine,
       id: "coarse",
       stepsPerMm: 40,
-      microstepMode: 2,
+      controller: { ...fine.controller, microstepMode: 2 },
     };
     const settings = { ...SETTINGS, machine: "coarse", customMachine: coarse };
     await world.run(driver.walkTo(60, 0, settings));

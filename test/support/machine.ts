@@ -8,8 +8,11 @@ export const AXIDRAW_LIKE: MachineProfile = {
   heightMm: 218,
   stepsPerMm: 80,
   motors: "mixed",
-  microstepMode: 1,
-  servoPosAt0Pct: 9855,
-  servoPosAt100Pct: 27831,
-  servoPin: 4,
+  controller: {
+    kind: "ebb",
+    microstepMode: 1,
+    servoPosAt0Pct: 9855,
+    servoPosAt100Pct: 27831,
+    servoPin: 4,
+  },
 };

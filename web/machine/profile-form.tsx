@@ -1,8 +1,10 @@
 import type { MachineProfile } from "../../src/index.js";
+import type { EbbController } from "../../src/internal.js";
 import { later } from "../text/later.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
+import { withController } from "./profile.js";
 
 const words = later.profile;
 
@@ -80,10 +82,14 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
       />
       <Select
         label={words.microsteps}
-        value={String(profile.microstepMode)}
+        value={String(profile.controller.microstepMode)}
         options={MICROSTEP_MODES.map((mode) => ({ value: String(mode), label: `1/${2 ** (5 - mode)}` }))}
         onChange={(mode) =>
-          change({ microstepMode: MICROSTEP_MODES.find((one) => String(one) === mode) ?? 1 })
+          onChange(
+            withController(profile, {
+              microstepMode: MICROSTEP_MODES.find((one) => String(one) === mode) ?? 1,
+            }),
+          )
         }
       />
       <Switch label={words.flipX} isOn={profile.flipX ?? false} onChange={(flipX) => change({ flipX })} />
@@ -98,7 +104,7 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
 };
 
 const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
-  const change = (part: Partial<MachineProfile>): void => onChange({ ...profile, ...part });
+  const change = (part: Partial<EbbController>): void => onChange(withController(profile, part));
   return (
     <fieldset className="subgroup">
       <legend>{words.servo}</legend>
@@ -106,7 +112,7 @@ const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
       <div className="field-pair">
         <NumberField
           label={words.lowest}
-          value={profile.servoPosAt0Pct}
+          value={profile.controller.servoPosAt0Pct}
           unit=""
           min={1}
           max={65_535}
@@ -115,7 +121,7 @@ const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
         />
         <NumberField
           label={words.highest}
-          value={profile.servoPosAt100Pct}
+          value={profile.controller.servoPosAt100Pct}
           unit=""
           min={1}
           max={65_535}
@@ -131,31 +137,31 @@ const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
 export const ServoPin = ({ profile, onChange }: ProfileFormProps) => (
   <Segments
     label={words.servoPin}
-    value={String(profile.servoPin) as "4" | "5"}
+    value={String(profile.controller.servoPin) as "4" | "5"}
     options={[
       { value: "4", label: words.standardServo },
       { value: "5", label: words.brushlessServo },
     ]}
-    onChange={(pin) => onChange({ ...profile, servoPin: pin === "4" ? 4 : 5 })}
+    onChange={(pin) => onChange(withController(profile, { servoPin: pin === "4" ? 4 : 5 }))}
   />
 );
 
-type SwitchInput = NonNullable<MachineProfile["homing"]>["x"];
+type SwitchInput = NonNullable<EbbController["homing"]>["x"];
 const PORTS: readonly SwitchInput["port"][] = ["A", "B", "C", "D", "E"];
-const FIRST_SWITCHES: NonNullable<MachineProfile["homing"]> = {
+const FIRST_SWITCHES: NonNullable<EbbController["homing"]> = {
   x: { port: "B", pin: 0, pressed: 0 },
   y: { port: "B", pin: 2, pressed: 0 },
 };
 
 const HomingFields = ({ profile, onChange }: ProfileFormProps) => {
-  const { homing } = profile;
+  const { homing } = profile.controller;
   return (
     <fieldset className="subgroup">
       <legend>{words.homing}</legend>
       <Switch
         label={words.hasSwitches}
         isOn={Boolean(homing)}
-        onChange={(isOn) => onChange({ ...profile, homing: isOn ? FIRST_SWITCHES : null })}
+        onChange={(isOn) => onChange(withController(profile, { homing: isOn ? FIRST_SWITCHES : null }))}
       />
       {homing &&
         (["x", "y"] as const).map((axis) => (
@@ -163,7 +169,7 @@ const HomingFields = ({ profile, onChange }: ProfileFormProps) => {
             key={axis}
             label={words.switchAt(axis)}
             input={homing[axis]}
-            onChange={(input) => onChange({ ...profile, homing: { ...homing, [axis]: input } })}
+            onChange={(input) => onChange(withController(profile, { homing: { ...homing, [axis]: input } }))}
           />
         ))}
     </fieldset>

@@ -1,5 +1,6 @@
 /** Machines of the user's own: new ones, their ids, and what the schema says of them. */
 import type { MachineProfile } from "../../src/index.js";
+import type { EbbController } from "../../src/internal.js";
 import { machineProfileSchema } from "../../src/schema/index.js";
 
 const MAX_ID = 60;
@@ -23,6 +24,12 @@ export const copyOf = (profile: MachineProfile, name: string, taken: readonly st
   ...machineProfileSchema.parse(profile),
   id: freeId(name, taken),
   name,
+});
+
+/** The profile with parts of its controller changed. */
+export const withController = (profile: MachineProfile, part: Partial<EbbController>): MachineProfile => ({
+  ...profile,
+  controller: { ...profile.controller, ...part },
 });
 
 /** What is wrong with a profile, "field: what"; empty where it can be saved. */

@@ -1,5 +1,6 @@
 import { useId, useRef, useState } from "react";
 import { later } from "../text/later.js";
+import { withController } from "./profile.js";
 import { ServoPin } from "./profile-form.js";
 import { TakeOrSkip } from "./take-or-skip.js";
 import { useHand } from "./use-hand.js";
@@ -14,7 +15,7 @@ export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [draft, setDraft] = useState(profile);
   const moveTo = useServo(() => settingsWith(draft));
   const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {
-    setDraft({ ...draft, [which]: pos });
+    setDraft(withController(draft, { [which]: pos }));
     moveTo(pos);
   };
   return (
@@ -23,17 +24,17 @@ export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
       <ServoPin profile={draft} onChange={setDraft} />
       <ServoSlider
         label={words.highest}
-        value={draft.servoPosAt100Pct}
+        value={draft.controller.servoPosAt100Pct}
         onChange={(pos) => take("servoPosAt100Pct", pos)}
       />
       <ServoSlider
         label={words.lowest}
-        value={draft.servoPosAt0Pct}
+        value={draft.controller.servoPosAt0Pct}
         onChange={(pos) => take("servoPosAt0Pct", pos)}
       />
       <TakeOrSkip
         label={words.next}
-        isOff={draft.servoPosAt0Pct === draft.servoPosAt100Pct}
+        isOff={draft.controller.servoPosAt0Pct === draft.controller.servoPosAt100Pct}
         onTake={() => onNext(draft)}
         onSkip={() => onNext(profile)}
       />

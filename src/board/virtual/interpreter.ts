@@ -257,7 +257,7 @@ export class Interpreter {
       rate: up ? core.servoRateUp : core.servoRateDown,
       ticks: delayMs * TICKS_PER_MS,
       penUp: up,
-      movesPen: core.machine.servoPin === STANDARD_PIN,
+      movesPen: core.machine.controller.servoPin === STANDARD_PIN,
       isPen: true,
     };
   }
@@ -291,7 +291,7 @@ export class Interpreter {
           rate,
           ticks: delayMs * TICKS_PER_MS,
           penUp,
-          movesPen: pin === this.core.machine.servoPin,
+          movesPen: pin === this.core.machine.controller.servoPin,
           isPen: false,
         },
       ],

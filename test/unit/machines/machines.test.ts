@@ -20,8 +20,8 @@ describe("machine profiles", () => {
     for (const machine of MACHINES) {
       expect(machine.widthMm).toBeGreaterThan(0);
       expect(machine.heightMm).toBeGreaterThan(0);
-      expect(machine.servoPosAt100Pct).toBeGreaterThan(machine.servoPosAt0Pct);
-      expect(machine.servoPosAt100Pct).toBeLessThan(65_536);
+      expect(machine.controller.servoPosAt100Pct).toBeGreaterThan(machine.controller.servoPosAt0Pct);
+      expect(machine.controller.servoPosAt100Pct).toBeLessThan(65_536);
     }
   });
 

@@ -1,0 +1,61 @@
+/** Profiles and jobs as the first version stored them still open. */
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  machineProfileSchema,
+  plotSettingsSchema,
+} from "../../../src/schema/index.js";
+
+const FORMAT_1 = {
+  id: "old-friend",
+  name: "Old Friend",
+  widthMm: 840,
+  heightMm: 594,
+  stepsPerMm: 100,
+  motors: "mixed",
+  flipX: true,
+  microstepMode: 2,
+  servoPosAt0Pct: 8_000,
+  servoPosAt100Pct: 26_000,
+  servoPin: 5,
+  homing: { x: { port: "B", pin: 0, pressed: 0 }, y: { port: "B", pin: 2, pressed: 1 } },
+};
+const FORMAT_2 = {
+  id: "old-friend",
+  name: "Old Friend",
+  widthMm: 840,
+  heightMm: 594,
+  stepsPerMm: 100,
+  motors: "mixed",
+  flipX: true,
+  controller: {
+    kind: "ebb",
+    microstepMode: 2,
+    servoPosAt0Pct: 8_000,
+    servoPosAt100Pct: 26_000,
+    servoPin: 5,
+    homing: { x: { port: "B", pin: 0, pressed: 0 }, y: { port: "B", pin: 2, pressed: 1 } },
+  },
+};
+
+describe("a stored machine profile", () => {
+  it("of format 1 is read as one of today", () => {
+    expect(machineProfileSchema.parse(FORMAT_1)).toEqual(FORMAT_2);
+  });
+
+  it("of format 2 stays as it is", () => {
+    expect(machineProfileSchema.parse(FORMAT_2)).toEqual(FORMAT_2);
+  });
+
+  it("that is broken is refused with the field's name", () => {
+    const fault = machineProfileSchema.safeParse({ ...FORMAT_1, servoPin: 9 });
+    expect(fault.error?.issues[0]?.path).toEqual(["controller", "servoPin"]);
+  });
+});
+
+describe("a stored job's settings", () => {
+  it("carry their machine over", () => {
+    const stored = { ...DEFAULT_PLOT_SETTINGS, machine: "old-friend", customMachine: FORMAT_1 };
+    expect(plotSettingsSchema.parse(stored).customMachine).toEqual(FORMAT_2);
+  });
+});
