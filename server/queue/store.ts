@@ -165,22 +165,35 @@ export class Store {
     this.#run(`UPDATE jobs SET (${COLUMNS}) = (${PLACES}) WHERE id = ?`, [...rowFromJob(job), job.id]);
   }
 
+  /** What the queued jobs of a plotter are likely to take: their planned time times `ratio`. Returns what has changed, by id. */
+  saveExpected(plotterId: string, ratio: number): Record<string, number> {
+    const changed = this.#all(
+      `UPDATE jobs SET expected_s = json_extract(stats, '$.durationS') * ?1
+       WHERE plotter_id = ?2 AND state = 'queued' AND stats IS NOT NULL
+         AND expected_s IS NOT json_extract(stats, '$.durationS') * ?1
+       RETURNING id, expected_s`,
+      [ratio, plotterId],
+    );
+    return Object.fromEntries(changed.map((row) => [String(row["id"]), Number(row["expected_s"])]));
+  }
+
   /** To stand before another job of the queue, or last with null. */
   moveJob(id: string, beforeId: string | null): void {
     this.#transaction(() => this.#place(id, beforeId));
   }
 
   #place(id: string, beforeId: string | null): void {
-    const ids = this.#all(`SELECT id FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`)
-      .map((row) => String(row["id"]))
-      .filter((other) => other !== id);
-    const at = beforeId === null ? ids.length : ids.indexOf(beforeId);
-    if (at < 0) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
-    ids.splice(at, 0, id);
-    const top = this.#db.get("SELECT COALESCE(MAX(position), 0) + 1 AS p FROM jobs") as Row;
-    ids.forEach((one, index) =>
-      this.#run("UPDATE jobs SET position = ? WHERE id = ?", [Number(top["p"]) + index, one]),
-    );
+    const [at] =
+      beforeId === null
+        ? this.#all("SELECT COALESCE(MAX(position), 0) + 1 AS position FROM jobs")
+        : this.#all(`SELECT position FROM jobs WHERE id = ? AND id <> ? AND state NOT IN (${ENDED})`, [
+            beforeId,
+            id,
+          ]);
+    if (at === undefined) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
+    const position = Number(at["position"]);
+    this.#run("UPDATE jobs SET position = position + 1 WHERE position >= ?", [position]);
+    this.#run("UPDATE jobs SET position = ? WHERE id = ?", [position, id]);
   }
 
   /** Empty before the first start. */
