@@ -1,18 +1,12 @@
 /**
  * Jobs, their order, history and settings in one SQLite database. Every method that changes something
  * returns only after the change is on disk (WAL with synchronous=FULL), so callers may announce it.
- *
- * Locking: node-sqlite3-wasm locks with a folder `plotwright.db.lock`, which a killed process leaves behind.
- * The data folder's own lock (data-lock.ts) comes first and knows a stale one, so the folder is removed then.
  */
-import { rmSync } from "node:fs";
-import { join } from "node:path";
-import sqlite from "node-sqlite3-wasm";
 import type { Database } from "node-sqlite3-wasm";
 import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { lockDataDir } from "./data-lock.js";
-import { migrate } from "./migrations.js";
+import { openDatabase, type OpenedDatabase } from "./open-database.js";
 import { WebhookStore } from "../webhooks/webhook-store.js";
 import type { StoredDrawing } from "./drawing-files.js";
 
@@ -41,10 +35,13 @@ const PLACES = COLUMNS.split(", ")
 const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
 
 export class Store {
+  /** What was put right when the database was opened, and why it has not been copied. */
+  readonly opened: Pick<OpenedDatabase, "repair" | "copyFault">;
   readonly #db: Database;
   readonly #unlock: () => void;
 
-  private constructor(db: Database, unlock: () => void) {
+  private constructor({ db, ...opened }: OpenedDatabase, unlock: () => void) {
+    this.opened = opened;
     this.#db = db;
     this.#unlock = unlock;
   }
@@ -52,26 +49,11 @@ export class Store {
   /** Throws `conflict` when another server has the folder, `bad-setting` when the database can't be used. */
   static open(dataDir: string): Store {
     const unlock = lockDataDir(dataDir);
-    const path = join(dataDir, "plotwright.db");
-    let db: Database | undefined;
     try {
-      rmSync(`${path}.lock`, { recursive: true, force: true });
-      db = new sqlite.Database(path);
-      // No other process may open it, so WAL needs no shared memory (which this build does not have).
-      db.exec("PRAGMA locking_mode = EXCLUSIVE");
-      db.exec("PRAGMA journal_mode = WAL");
-      db.exec("PRAGMA synchronous = FULL");
-      migrate(db, path);
-      return new Store(db, unlock);
-    } catch (cause) {
-      db?.close();
+      return new Store(openDatabase(dataDir, readAll), unlock);
+    } catch (error) {
       unlock();
-      if (cause instanceof PlotwrightError) throw cause;
-      throw new PlotwrightError(
-        "bad-setting",
-        `The database ${path} can't be opened (${(cause as Error).message}). Choose another folder with --data, or move that file away.`,
-        { cause },
-      );
+      throw error;
     }
   }
 
@@ -296,6 +278,15 @@ export class Store {
       throw error;
     }
   }
+}
+
+/** Throws when there is something in the database that a server could not read. */
+function readAll(db: Database): void {
+  (db.all(`SELECT ${COLUMNS} FROM jobs`) as Row[]).forEach(jobFromRow);
+  db.all("SELECT id, name, device, machine FROM plotters");
+  new WebhookStore(db).list();
+  const texts = db.all("SELECT value FROM settings UNION ALL SELECT entry FROM journal");
+  for (const { value } of texts) JSON.parse(String(value));
 }
 
 const textOrNull = (value: Row[string] | undefined): string | null =>
