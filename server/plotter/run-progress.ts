@@ -1,5 +1,6 @@
 /** How far a plot is: translates the place of whatever stream is playing into the terms of the whole plot. */
 import {
+  PlaceTimes,
   stateAt,
   type BoardState,
   type CommandStream,
@@ -8,7 +9,7 @@ import {
   type StreamPlace,
   type Trajectory,
 } from "../../src/index.js";
-import { nextPlace, PlaceTimes } from "./plan-places.js";
+import { nextPlace } from "./plan-places.js";
 import type { PlotProgress } from "./types.js";
 
 /** A stretch of motion that is or will be streamed, and the plan that it came from. */
