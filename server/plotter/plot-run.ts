@@ -170,6 +170,8 @@ export class CarriageRun implements LivePlotRun {
     this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
+    const moved = this.progress.movedTo(this.holdPlace, this.standing());
+    if (moved) this.tell(moved);
     if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
     this.writeJournal(this.holdPlace);
     return this.holdPlace;

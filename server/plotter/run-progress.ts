@@ -102,6 +102,21 @@ export class RunProgress {
     return this.latest;
   }
 
+  /** While held: it goes on from another place. Null while the plan's times are not known. */
+  movedTo(place: Place, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
+    const doneS = this.times?.timeOf(place) ?? null;
+    if (doneS === null || !this.firstTrajectory) return null;
+    const { totalS } = this.firstTrajectory;
+    this.place = place;
+    this.part = null;
+    this.partS = 0;
+    this.doneS = doneS;
+    const { xMm, yMm, penUp } = at;
+    const times = { elapsedS: doneS, remainingS: totalS - doneS, planS: doneS };
+    this.latest = { progress: doneS / totalS, ...times, xMm, yMm, penUp };
+    return this.latest;
+  }
+
   private enter(part: Part, startS: number): void {
     this.doneS += this.partS;
     this.partS = 0;

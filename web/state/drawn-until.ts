@@ -7,7 +7,7 @@ const timesOf = new WeakMap<Trajectory, PlaceTimes>();
 
 /** The moment of the plan, s; null when its job has not begun or has ended, and the whole drawing is to be shown. */
 export const drawnUntilS = ({ jobs, drawing, planned, live }: PageState): number | null => {
-  const job = drawing?.jobId == null ? undefined : jobs.find(({ id }) => id === drawing.jobId);
+  const job = jobs.find(({ id }) => id === drawing?.jobId);
   if (!job || !planned || !ACTIVE_STATES.includes(job.state)) return null;
   const { trajectory } = planned;
   if (job.place) {
