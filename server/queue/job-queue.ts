@@ -171,7 +171,9 @@ export class JobQueue {
 
   /** Whether it is on a plotter now; false for one that there is not. */
   isRunning(id: string): boolean {
-    return this.list().some((job) => job.id === id && (job.state === "plotting" || job.state === "paused"));
+    if (!this.#book.has(id)) return false;
+    const { state } = this.get(id);
+    return state === "plotting" || state === "paused";
   }
 
   /** Jobs of a plotter that are not history. */
