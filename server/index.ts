@@ -101,6 +101,9 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     const store = Store.open(dataDir);
     closing.add("the database", () => store.close());
     book = new LogBook(dataDir);
+    const { repair, copyFault } = store.opened;
+    if (repair !== null) log(repair);
+    if (copyFault !== null) log(`the database could not be copied to a safe place: ${copyFault}`);
     const parts = await openParts(options, dataDir, store, log, closing);
     const { access, registry } = parts;
     const isTls = options.tls !== undefined;
@@ -148,7 +151,9 @@ async function openParts(
   closing: Closing,
 ): Promise<Omit<AppParts, "pairing" | "log" | "serverLog" | "localName">> {
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
-  await files.sweep((drawing) => store.isUsed(drawing));
+  const unclaimedCount = await files.sweep((drawing) => store.isUsed(drawing));
+  if (unclaimedCount > 0)
+    log(`${unclaimedCount} drawing(s) that no job names are now in ${files.unclaimedDir}`);
   const hub = new EventHub();
   const announce = (event: ServerEvent): void => hub.announce(event);
   const nowIso = (): string => new Date().toISOString();
@@ -190,6 +195,7 @@ async function openParts(
   closing.addUrgent("what plots", () => queue.close());
   webhooks.start();
   const notices = new Notices({ store, announce, nowIso });
+  if (store.opened.repair !== null) notices.add(store.opened.repair);
   if (options.watchDir !== undefined) {
     const folder = await WatchFolder.open(options.watchDir, {
       queue,

@@ -100,6 +100,7 @@ export {
   type RunColumns,
   type Trajectory,
 } from "./plan/trajectory.js";
+export { PlaceTimes } from "./plan/place-times.js";
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 export { drawLimitsOf } from "./plan/limits.js";

@@ -13,7 +13,7 @@ import { Player } from "./preview/player.js";
 import { readPresets, writePresets } from "./state/presets.js";
 import { listenForShortcuts, shortcutsFor } from "./state/shortcuts.js";
 import { applyServerEvent } from "./state/server-events.js";
-import { activeJob, createPageStore, type PageStore } from "./state/store.js";
+import { createPageStore, unfinishedJob, type PageStore } from "./state/store.js";
 import { PageContext } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { ErrorBoundary } from "./ui/error-boundary.js";
@@ -123,7 +123,7 @@ function keepPresets(pageStore: PageStore): void {
   });
 }
 
-/** Whoever opens the page with nothing sees what is being plotted, or else the first sample. */
+/** Whoever opens the page with nothing sees what is being plotted or was interrupted, or else the first sample. */
 async function greet(pageStore: PageStore): Promise<void> {
   await new Promise<void>((resolve) => {
     const stop = pageStore.subscribe(({ link }) => {
@@ -135,7 +135,7 @@ async function greet(pageStore: PageStore): Promise<void> {
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   const state = pageStore.getState();
   if (state.drawing !== null) return;
-  const job = activeJob(state);
+  const job = unfinishedJob(state);
   const sample = state.samples[0];
   if (job) await actions.openJob(job);
   else if (sample) await actions.openSample(sample.name, sample.title);

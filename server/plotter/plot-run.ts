@@ -12,6 +12,7 @@
  */
 import {
   machineOf,
+  PlaceTimes,
   PlotwrightError,
   strokeCount,
   type BoardState,
@@ -21,7 +22,7 @@ import {
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
 import { PenStops } from "./pen-stops.js";
-import { movedPlace, PlaceTimes, pointOfPlace } from "./plan-places.js";
+import { movedPlace, pointOfPlace } from "./plan-places.js";
 import { RunProgress } from "./run-progress.js";
 import { RunSettings } from "./run-settings.js";
 import { RunStream } from "./run-stream.js";
@@ -169,6 +170,8 @@ export class CarriageRun implements LivePlotRun {
     this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
+    const moved = this.progress.movedTo(this.holdPlace, this.standing());
+    if (moved) this.tell(moved);
     if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
     this.writeJournal(this.holdPlace);
     return this.holdPlace;

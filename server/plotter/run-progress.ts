@@ -1,5 +1,6 @@
 /** How far a plot is: translates the place of whatever stream is playing into the terms of the whole plot. */
 import {
+  PlaceTimes,
   stateAt,
   type BoardState,
   type CommandStream,
@@ -8,7 +9,7 @@ import {
   type StreamPlace,
   type Trajectory,
 } from "../../src/index.js";
-import { nextPlace, PlaceTimes } from "./plan-places.js";
+import { nextPlace } from "./plan-places.js";
 import type { PlotProgress } from "./types.js";
 
 /** A stretch of motion that is or will be streamed, and the plan that it came from. */
@@ -98,6 +99,21 @@ export class RunProgress {
       yMm: now.y,
       penUp: now.penUp,
     };
+    return this.latest;
+  }
+
+  /** While held: it goes on from another place. Null while the plan's times are not known. */
+  movedTo(place: Place, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
+    const doneS = this.times?.timeOf(place) ?? null;
+    if (doneS === null || !this.firstTrajectory) return null;
+    const { totalS } = this.firstTrajectory;
+    this.place = place;
+    this.part = null;
+    this.partS = 0;
+    this.doneS = doneS;
+    const { xMm, yMm, penUp } = at;
+    const times = { elapsedS: doneS, remainingS: totalS - doneS, planS: doneS };
+    this.latest = { progress: doneS / totalS, ...times, xMm, yMm, penUp };
     return this.latest;
   }
 

@@ -3,7 +3,8 @@
  * A file is complete and flushed before its name exists; a database row refers to it only after that.
  */
 import { randomBytes } from "node:crypto";
-import { open, readdir, rename, rm } from "node:fs/promises";
+import { existsSync } from "node:fs";
+import { mkdir, open, readdir, rename, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { unpackUpload } from "../planning/unpack.js";
@@ -15,10 +16,13 @@ export interface StoredDrawing {
 
 export class DrawingFiles {
   readonly #dir: string;
+  /** Where drawings are kept that no job names. */
+  readonly unclaimedDir: string;
   readonly #maxBytes: number;
 
   constructor(dataDir: string, maxBytes: number) {
     this.#dir = join(dataDir, "drawings");
+    this.unclaimedDir = join(dataDir, "unclaimed-drawings");
     this.#maxBytes = maxBytes;
   }
 
@@ -75,17 +79,30 @@ export class DrawingFiles {
     await rm(this.path(id), { force: true });
   }
 
-  /** Takes away what no job refers to: uploads cut off by a crash, drawings of removed jobs. */
-  async sweep(isUsed: (id: string) => boolean): Promise<void> {
+  /**
+   * Removes uploads that were cut off, and moves complete drawings that no job names out of the way; returns how many.
+   * They are not deleted: the database that should name them may have been damaged, or be an older copy. Drawings that
+   * are named again come back.
+   */
+  async sweep(isUsed: (id: string) => boolean): Promise<number> {
+    let movedCount = 0;
     for (const name of await readdir(this.#dir)) {
-      const id = /^([0-9a-f]{32})\.svg$/.exec(name)?.[1];
-      if (id === undefined ? name.startsWith("incoming-") : !isUsed(id)) {
-        await rm(join(this.#dir, name), { force: true });
-      }
+      const id = drawingId(name);
+      if (id === undefined && name.startsWith("incoming-")) await rm(join(this.#dir, name), { force: true });
+      if (id === undefined || isUsed(id)) continue;
+      await mkdir(this.unclaimedDir, { recursive: true, mode: 0o700 });
+      await rename(join(this.#dir, name), join(this.unclaimedDir, name));
+      movedCount++;
     }
+    for (const name of existsSync(this.unclaimedDir) ? await readdir(this.unclaimedDir) : []) {
+      const id = drawingId(name);
+      if (id !== undefined && isUsed(id)) await rename(join(this.unclaimedDir, name), join(this.#dir, name));
+    }
+    return movedCount;
   }
 }
 
+const drawingId = (fileName: string): string | undefined => /^([0-9a-f]{32})\.svg$/.exec(fileName)?.[1];
 const newId = (): string => randomBytes(16).toString("hex");
 
 function tooLarge(maxBytes: number): PlotwrightError {

@@ -38,6 +38,10 @@ export class JobBook {
     return this.#parts.store.order();
   }
 
+  has(id: string): boolean {
+    return this.#jobs.has(id);
+  }
+
   /** Throws `not-found`. */
   get(id: string): Job {
     const job = this.#jobs.get(id);
@@ -92,6 +96,17 @@ export class JobBook {
   note(id: string, message: string): Job {
     const job = this.get(id);
     return ENDED_STATES.includes(job.state) ? job : this.save({ ...job, message });
+  }
+
+  /**
+   * New expected times for all jobs that wait for a plotter: one statement and one event, however many they are, since
+   * other plotters plot while this is written.
+   */
+  expectAnew(plotterId: string, ratio: number): void {
+    const expectedS = this.#parts.store.saveExpected(plotterId, ratio);
+    const ids = Object.keys(expectedS);
+    for (const id of ids) this.#jobs.set(id, { ...this.get(id), expectedS: expectedS[id] ?? null });
+    if (ids.length > 0) this.#parts.announce({ type: "expected", expectedS });
   }
 
   /** In memory only. */

@@ -171,7 +171,9 @@ export class JobQueue {
 
   /** Whether it is on a plotter now; false for one that there is not. */
   isRunning(id: string): boolean {
-    return this.list().some((job) => job.id === id && (job.state === "plotting" || job.state === "paused"));
+    if (!this.#book.has(id)) return false;
+    const { state } = this.get(id);
+    return state === "plotting" || state === "paused";
   }
 
   /** Jobs of a plotter that are not history. */
@@ -262,11 +264,7 @@ export class JobQueue {
 
   #done(job: Job): void {
     const { plotterId } = job;
-    for (const waiting of this.list()) {
-      if (waiting.plotterId !== plotterId || waiting.state !== "queued") continue;
-      const expected = this.#expectedS(waiting);
-      if (expected !== waiting.expectedS) this.#book.save({ ...waiting, expectedS: expected });
-    }
+    this.#book.expectAnew(plotterId, timeRatio(this.list(), plotterId));
     if (this.settings(plotterId).runOn && !this.#runs.isClosing) void this.#startNext(plotterId);
   }
 
@@ -290,7 +288,7 @@ export class JobQueue {
 
   /** Of a job that may be gone by now, as may the disk. */
   #note(id: string, message: string): void {
-    if (!this.#runs.isClosing && this.list().some((job) => job.id === id)) this.#book.note(id, message);
+    if (!this.#runs.isClosing && this.#book.has(id)) this.#book.note(id, message);
   }
 
   #fresh(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {

@@ -12,7 +12,7 @@ import {
   type MovePlace,
   type PlotWait,
 } from "../../src/schema/index.js";
-import type { PlotProgress } from "../plotter/types.js";
+import type { JournalEntry, PlotProgress } from "../plotter/types.js";
 import type { JobBook } from "./job-book.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
@@ -157,7 +157,7 @@ export class PlotRuns {
         speedPct: job.speedPct,
       },
       {
-        journal: (entry) => this.#safely(() => this.#parts.store.saveJournal(job.id, entry)),
+        journal: (entry) => this.#safely(() => this.#saveJournal(job.id, entry)),
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
         held: (held, wait) => this.#safely(() => this.#held(job.id, held, wait)),
         refused: (message) => this.#safely(() => void this.#book.note(job.id, message)),
@@ -166,6 +166,12 @@ export class PlotRuns {
     );
     const timer = new MovingTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+  }
+
+  /** With the progress at that place, which is in memory only and gone after a kill. */
+  #saveJournal(id: string, entry: JournalEntry): void {
+    const { progress, elapsedS, remainingS } = this.#book.get(id);
+    this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
 
   /** A disk that is full must not stop the pen in mid-stroke, nor end the server: it may have room again soon. */
@@ -242,13 +248,11 @@ export class PlotRuns {
 
   /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
   #interrupt(id: string, message: string): void {
-    const entry = journalSchema.safeParse(this.#parts.store.journal(id));
-    const { place } = this.#book.get(id);
-    this.#book.apply(id, {
-      type: "interrupt",
-      message,
-      place: entry.success ? jobPlace(entry.data.place) : place,
-    });
+    const journal = this.#parts.store.journal(id);
+    const entry = journalSchema.safeParse(journal);
+    const progress = journalProgressSchema.safeParse(journal);
+    const place = entry.success ? jobPlace(entry.data.place) : this.#book.get(id).place;
+    this.#book.apply(id, { type: "interrupt", message, place }, progress.success ? progress.data : {});
   }
 
   #holdPlace(running: Running | undefined): JobPlace | null {
@@ -300,6 +304,11 @@ const canGoOn = (error: Error): boolean =>
 /** What Store.journal gives back: written by this program, but perhaps by another version of it. */
 const journalSchema = z.object({
   place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
+});
+const journalProgressSchema = z.object({
+  progress: z.number().min(0).max(1),
+  elapsedS: z.number().min(0),
+  remainingS: z.number().min(0).nullable(),
 });
 
 function mustBeThere(plotter: PlotterPort): void {

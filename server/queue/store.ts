@@ -1,18 +1,12 @@
 /**
  * Jobs, their order, history and settings in one SQLite database. Every method that changes something
  * returns only after the change is on disk (WAL with synchronous=FULL), so callers may announce it.
- *
- * Locking: node-sqlite3-wasm locks with a folder `plotwright.db.lock`, which a killed process leaves behind.
- * The data folder's own lock (data-lock.ts) comes first and knows a stale one, so the folder is removed then.
  */
-import { rmSync } from "node:fs";
-import { join } from "node:path";
-import sqlite from "node-sqlite3-wasm";
 import type { Database } from "node-sqlite3-wasm";
 import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { lockDataDir } from "./data-lock.js";
-import { migrate } from "./migrations.js";
+import { openDatabase, type OpenedDatabase } from "./open-database.js";
 import { WebhookStore } from "../webhooks/webhook-store.js";
 import type { StoredDrawing } from "./drawing-files.js";
 
@@ -41,10 +35,13 @@ const PLACES = COLUMNS.split(", ")
 const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
 
 export class Store {
+  /** What was put right when the database was opened, and why it has not been copied. */
+  readonly opened: Pick<OpenedDatabase, "repair" | "copyFault">;
   readonly #db: Database;
   readonly #unlock: () => void;
 
-  private constructor(db: Database, unlock: () => void) {
+  private constructor({ db, ...opened }: OpenedDatabase, unlock: () => void) {
+    this.opened = opened;
     this.#db = db;
     this.#unlock = unlock;
   }
@@ -52,26 +49,11 @@ export class Store {
   /** Throws `conflict` when another server has the folder, `bad-setting` when the database can't be used. */
   static open(dataDir: string): Store {
     const unlock = lockDataDir(dataDir);
-    const path = join(dataDir, "plotwright.db");
-    let db: Database | undefined;
     try {
-      rmSync(`${path}.lock`, { recursive: true, force: true });
-      db = new sqlite.Database(path);
-      // No other process may open it, so WAL needs no shared memory (which this build does not have).
-      db.exec("PRAGMA locking_mode = EXCLUSIVE");
-      db.exec("PRAGMA journal_mode = WAL");
-      db.exec("PRAGMA synchronous = FULL");
-      migrate(db, path);
-      return new Store(db, unlock);
-    } catch (cause) {
-      db?.close();
+      return new Store(openDatabase(dataDir, readAll), unlock);
+    } catch (error) {
       unlock();
-      if (cause instanceof PlotwrightError) throw cause;
-      throw new PlotwrightError(
-        "bad-setting",
-        `The database ${path} can't be opened (${(cause as Error).message}). Choose another folder with --data, or move that file away.`,
-        { cause },
-      );
+      throw error;
     }
   }
 
@@ -165,22 +147,35 @@ export class Store {
     this.#run(`UPDATE jobs SET (${COLUMNS}) = (${PLACES}) WHERE id = ?`, [...rowFromJob(job), job.id]);
   }
 
+  /** What the queued jobs of a plotter are likely to take: their planned time times `ratio`. Returns what has changed, by id. */
+  saveExpected(plotterId: string, ratio: number): Record<string, number> {
+    const changed = this.#all(
+      `UPDATE jobs SET expected_s = json_extract(stats, '$.durationS') * ?1
+       WHERE plotter_id = ?2 AND state = 'queued' AND stats IS NOT NULL
+         AND expected_s IS NOT json_extract(stats, '$.durationS') * ?1
+       RETURNING id, expected_s`,
+      [ratio, plotterId],
+    );
+    return Object.fromEntries(changed.map((row) => [String(row["id"]), Number(row["expected_s"])]));
+  }
+
   /** To stand before another job of the queue, or last with null. */
   moveJob(id: string, beforeId: string | null): void {
     this.#transaction(() => this.#place(id, beforeId));
   }
 
   #place(id: string, beforeId: string | null): void {
-    const ids = this.#all(`SELECT id FROM jobs WHERE state NOT IN (${ENDED}) ORDER BY position`)
-      .map((row) => String(row["id"]))
-      .filter((other) => other !== id);
-    const at = beforeId === null ? ids.length : ids.indexOf(beforeId);
-    if (at < 0) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
-    ids.splice(at, 0, id);
-    const top = this.#db.get("SELECT COALESCE(MAX(position), 0) + 1 AS p FROM jobs") as Row;
-    ids.forEach((one, index) =>
-      this.#run("UPDATE jobs SET position = ? WHERE id = ?", [Number(top["p"]) + index, one]),
-    );
+    const [at] =
+      beforeId === null
+        ? this.#all("SELECT COALESCE(MAX(position), 0) + 1 AS position FROM jobs")
+        : this.#all(`SELECT position FROM jobs WHERE id = ? AND id <> ? AND state NOT IN (${ENDED})`, [
+            beforeId,
+            id,
+          ]);
+    if (at === undefined) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
+    const position = Number(at["position"]);
+    this.#run("UPDATE jobs SET position = position + 1 WHERE position >= ?", [position]);
+    this.#run("UPDATE jobs SET position = ? WHERE id = ?", [position, id]);
   }
 
   /** Empty before the first start. */
@@ -283,6 +278,15 @@ export class Store {
       throw error;
     }
   }
+}
+
+/** Throws when there is something in the database that a server could not read. */
+function readAll(db: Database): void {
+  (db.all(`SELECT ${COLUMNS} FROM jobs`) as Row[]).forEach(jobFromRow);
+  db.all("SELECT id, name, device, machine FROM plotters");
+  new WebhookStore(db).list();
+  const texts = db.all("SELECT value FROM settings UNION ALL SELECT entry FROM journal");
+  for (const { value } of texts) JSON.parse(String(value));
 }
 
 const textOrNull = (value: Row[string] | undefined): string | null =>

@@ -169,6 +169,8 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("snapshot"), snapshot: snapshotSchema }),
   z.object({ type: z.literal("job"), job: jobSchema }),
   z.object({ type: z.literal("job-removed"), id: z.string() }),
+  /** Job.expectedS of waiting jobs, by id, where it has changed: a plot of the same plotter has ended. */
+  z.object({ type: z.literal("expected"), expectedS: z.record(z.string(), z.number()) }),
   /** Ids of all jobs, in the order of Snapshot.jobs. */
   z.object({ type: z.literal("order"), ids: z.array(z.string()) }),
   z.object({ type: z.literal("plotter"), plotter: plotterSchema }),

@@ -133,6 +133,43 @@ describe("a stop for a pen", () => {
   });
 });
 
+describe("the progress of a plot", () => {
+  const part = { progress: 0.25, elapsedS: 3, remainingS: 9 };
+
+  it("is what it was at its place, after a kill too, and stays when the job is taken up again", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.progress({ ...part, planS: 3, xMm: 0, yMm: 0, penUp: false });
+    run.record({ place: { stroke: 1, alongMm: 7 }, elapsedS: 3 });
+    crash();
+    expect(queue.get(id)).toMatchObject({
+      ...part,
+      state: "interrupted",
+      place: { strokeIndex: 1, alongMm: 7 },
+    });
+    expect(store.jobs()[0]).toMatchObject(part);
+    queue.recover(id);
+    await plotter.nextRun();
+    await settled();
+    crash();
+    expect(queue.get(id)).toMatchObject({
+      ...part,
+      state: "interrupted",
+      place: { strokeIndex: 1, alongMm: 7 },
+    });
+  });
+
+  it("stays as it is where the journal of an older version does not say it", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    store.saveJournal(id, { place: { stroke: 1, alongMm: 7 } });
+    crash();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", progress: 0, remainingS: STATS.durationS });
+  });
+});
+
 describe("the expected time", () => {
   it("is the plan's at first, then follows what the plotter's plots really took; that of ended jobs stays", async () => {
     const [first, second] = [await add("a"), await add("b")];

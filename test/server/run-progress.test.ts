@@ -52,6 +52,24 @@ describe("the progress of a plot", () => {
     }
   });
 
+  it("follows the place where a held plot goes on, back and on", async () => {
+    const { world, run, seen } = await begin();
+    await world.run(run.pause());
+    const held = seen.at(-1)!;
+    run.moveHoldPlace({ strokes: 5 });
+    const on = seen.at(-1)!;
+    expect(on.progress - held.progress).toBeGreaterThan(4 / 20);
+    expect(on.elapsedS + on.remainingS).toBeCloseTo(seen[0]!.elapsedS + seen[0]!.remainingS, 0);
+    run.moveHoldPlace({ strokes: -6 });
+    const back = seen.at(-1)!;
+    expect(back.progress).toBeLessThan(held.progress);
+    expect(back.remainingS).toBeGreaterThan(held.remainingS);
+    await world.run(run.resume());
+    await world.run(run.finished);
+    expectSteady(seen.slice(seen.indexOf(back)));
+    expect(seen.at(-1)).toMatchObject({ progress: 1, remainingS: 0 });
+  });
+
   it("stays where it was when the plot is cancelled", async () => {
     const { world, run, seen } = await begin();
     const cancelled = run.cancel();

@@ -194,13 +194,16 @@ describe("drawing files", () => {
     expect(readdirSync(join(dir, "drawings"))).toEqual([]);
   });
 
-  it("sweeps away what no job needs and nothing else", async () => {
+  it("moves away what no job needs, and nothing else", async () => {
     const files = new DrawingFiles(dir, 1_000);
     const kept = await files.add([Buffer.from("kept")]);
-    await files.add([Buffer.from("unused")]);
+    const unused = await files.add([Buffer.from("unused")]);
     writeFileSync(join(dir, "drawings", "incoming-1234"), "cut off");
     writeFileSync(join(dir, "drawings", "notes.txt"), "the user's own");
-    await files.sweep((id) => id === kept.id);
+    expect(await files.sweep((id) => id === kept.id)).toBe(1);
     expect(readdirSync(join(dir, "drawings")).sort()).toEqual([`${kept.id}.svg`, "notes.txt"].sort());
+    expect(readdirSync(files.unclaimedDir)).toEqual([`${unused.id}.svg`]);
+    expect(await files.sweep(() => true)).toBe(0);
+    expect(readdirSync(files.unclaimedDir)).toEqual([]);
   });
 });

@@ -83,6 +83,11 @@ describe("server events", () => {
     expect(after(start(), snapshot("a", "b"), { type: "job-removed", id: "a" }).jobs).toHaveLength(1);
   });
 
+  it("new expected times change the jobs that they name, and no others", () => {
+    const state = after(start(), snapshot("a", "b"), { type: "expected", expectedS: { b: 99 } });
+    expect(state.jobs.map(({ expectedS }) => expectedS)).toEqual([makeJob("a").expectedS, 99]);
+  });
+
   it("what is no event of ours is left out", () => {
     expect(parseServerEvent("not json")).toBeNull();
     expect(parseServerEvent('{"type":"weather"}')).toBeNull();

@@ -1,5 +1,5 @@
 import type { Job, Plotter } from "../../src/schema/index.js";
-import { activeJob, currentPlotter, type ServerLink } from "../state/store.js";
+import { currentPlotter, unfinishedJob, type ServerLink } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatPercent } from "../ui/format.js";
@@ -11,7 +11,7 @@ const words = text.machine;
 export const MachineState = () => {
   const link = usePageState((state) => state.link);
   const plotter = usePageState(currentPlotter);
-  const job = usePageState(activeJob);
+  const job = usePageState(unfinishedJob);
   const isKnown = link === "connected" && plotter !== null;
   return (
     <p

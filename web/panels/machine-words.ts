@@ -12,6 +12,7 @@ export const plotterWords = ({ connection }: Plotter, job: Job | null): string =
   if (connection === "fault" || connection === "absent") return words.connection[connection];
   if (job?.state === "paused" && job.wait) return waitWords(job.wait);
   if (job?.state === "paused") return words.held;
+  if (job?.state === "interrupted") return text.queue.states.interrupted;
   if (job?.state === "plotting") return words.connection.busy;
   return connection === "busy" ? words.moving : words.connection[connection];
 };
@@ -21,6 +22,7 @@ export const waitWords = ({ penName, layerName }: NonNullable<Job["wait"]>): str
 
 export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
   if (connection === "fault" || connection === "absent") return connection;
+  if (job?.state === "interrupted") return "held";
   if (job?.state !== "paused") return job?.state === "plotting" ? "busy" : connection;
   return job.wait === null ? "held" : "waiting";
 };

@@ -1,5 +1,6 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { findMachine, penOf, stateAt, type StrokeLayer } from "../../src/index.js";
+import { drawnUntilS } from "../state/drawn-until.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -103,6 +104,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
       state.settings.layerPens !== before.settings.layerPens ||
       state.planned !== before?.planned ||
       state.live !== before?.live ||
+      state.jobs !== before.jobs ||
       state.momentS !== before?.momentS ||
       state.drawing !== before?.drawing
     ) {
@@ -152,11 +154,8 @@ const lookOf = (state: PageState): FrameLook => ({
   layerWidthsMm:
     state.view.colorBy === "pen" && state.planned ? widthsOf(state, state.planned.drawnLayers) : null,
   // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
-  untilS: state.momentS ?? livePlanS(state),
+  untilS: state.momentS ?? drawnUntilS(state),
 });
-
-const livePlanS = ({ live, drawing }: PageState): number | null =>
-  live && live.jobId === drawing?.jobId ? live.planS : null;
 
 export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
   layers.map(({ color }, index) => color ?? layerColor(index));

@@ -1,4 +1,5 @@
 import { lazy, Suspense } from "react";
+import { drawnUntilS } from "../state/drawn-until.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatMoment } from "../ui/format.js";
@@ -43,11 +44,7 @@ const PlayButton = ({ player }: { player: Player }) => {
 };
 
 /** Where the plot is: the moment looked at, else how far the plotter is with this drawing, else the end. */
-const useMoment = (): number | null =>
-  usePageState(
-    (state) =>
-      state.momentS ?? (state.live && state.live.jobId === state.drawing?.jobId ? state.live.planS : null),
-  );
+const useMoment = (): number | null => usePageState((state) => state.momentS ?? drawnUntilS(state));
 
 const Scrubber = ({ player, totalS }: { player: Player; totalS: number }) => {
   const momentS = useMoment() ?? totalS;

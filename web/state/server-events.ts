@@ -12,6 +12,10 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return applyJob(state, event.job);
     case "job-removed":
       return { jobs: state.jobs.filter((job) => job.id !== event.id) };
+    case "expected":
+      return {
+        jobs: state.jobs.map((job) => ({ ...job, expectedS: event.expectedS[job.id] ?? job.expectedS })),
+      };
     case "order":
       return { jobs: ordered(state, event.ids) };
     case "plotter":

@@ -1,0 +1,83 @@
+/** What the queue does when a plot ends must not grow with the number of waiting jobs: other plotters plot meanwhile. */
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { JobQueue } from "../../server/queue/job-queue.js";
+import { Store } from "../../server/queue/store.js";
+import type { ServerEvent } from "../../src/schema/index.js";
+import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { STATS, drawingOf, makeJob } from "./support/jobs.js";
+
+const SLOWER = 1.25;
+
+afterEach(() => vi.restoreAllMocks());
+
+const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+
+/** Plots one job with `waitingCount` others behind it: what was asked of the store at its end, and announced. */
+async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; announced: string[] }> {
+  const dir = mkdtempSync(join(tmpdir(), "plotwright-many-"));
+  prepareDataDir(dir);
+  const store = Store.open(dir);
+  store.together(() => {
+    for (let i = 0; i <= waitingCount; i++) store.addJob(makeJob(`job-${i}`), drawingOf(`job-${i}`));
+  });
+  const plotter = new LedPlotter();
+  const events: ServerEvent[] = [];
+  let nowMs = Date.parse("2026-01-01T00:00:00Z");
+  const queue = new JobQueue({
+    store,
+    files: new DrawingFiles(dir, 1_000_000),
+    planning: LED_PLANNING,
+    plotters: new Map([[plotter.id, plotter]]),
+    announce: (event) => events.push(event),
+    nowIso: () => new Date(nowMs).toISOString(),
+  });
+  try {
+    await queue.start("job-0");
+    const run = await plotter.nextRun();
+    await settled();
+    events.length = 0;
+    nowMs += STATS.durationS * SLOWER * 1_000;
+    const asked = spyOnStore();
+    run.end({ kind: "done" });
+    await settled();
+    vi.restoreAllMocks();
+    const expected = queue.list().filter((job) => job.expectedS === STATS.durationS * SLOWER);
+    expect(expected).toHaveLength(waitingCount);
+    const stored = store.jobs().filter((job) => job.expectedS === STATS.durationS * SLOWER);
+    expect(stored).toHaveLength(waitingCount);
+    return { asked, announced: events.map(({ type }) => type) };
+  } finally {
+    await queue.close();
+    store.close();
+    rmSync(dir, { recursive: true, force: true });
+  }
+}
+
+/** The names of the store's methods, as they are called. */
+function spyOnStore(): string[] {
+  const calls: string[] = [];
+  const methods = Object.entries(Object.getOwnPropertyDescriptors(Store.prototype));
+  for (const [name, { value }] of methods) {
+    if (name === "constructor" || typeof value !== "function") continue;
+    const real = value as (...args: unknown[]) => unknown;
+    vi.spyOn(Store.prototype, name as "order").mockImplementation(function (this: Store, ...args: unknown[]) {
+      calls.push(name);
+      return real.apply(this, args) as string[];
+    });
+  }
+  return calls;
+}
+
+describe("the end of a plot", () => {
+  it("asks as much of the store with 1 000 waiting jobs as with 3, and announces as often", async () => {
+    const few = await endOfPlot(3);
+    const many = await endOfPlot(1_000);
+    expect(few.announced.filter((type) => type === "expected")).toHaveLength(1);
+    expect(many).toEqual(few);
+  }, 60_000);
+});
