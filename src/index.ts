@@ -123,10 +123,10 @@ export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 export { planJob, type JobOptions, type JobSettings, type MachineJob } from "./job/plan-job.js";
 
 // ebb
-export type { BoardState, CommandStream } from "./ebb/command-stream.js";
-export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
-export { firmwareLimitsMotion, motionForFirmware } from "./ebb/firmware-motion.js";
-export { plotLines } from "./ebb/plot-lines.js";
+export type { BoardState, CommandStream } from "./drivers/ebb/compile/command-stream.js";
+export { commandLine, compile, type CompileOptions } from "./drivers/ebb/compile/compile.js";
+export { firmwareLimitsMotion, motionForFirmware } from "./drivers/ebb/protocol/firmware-motion.js";
+export { plotLines } from "./drivers/ebb/compile/plot-lines.js";
 export {
   closingCommands,
   penCommand,
@@ -135,32 +135,37 @@ export {
   penSetUpCommands,
   setUpCommands,
   type PenWay,
-} from "./ebb/commands.js";
+} from "./drivers/ebb/protocol/commands.js";
 export {
   compareFirmware,
   firmwareFeatures,
   firmwareFromReply,
   type FirmwareFeatures,
-} from "./ebb/firmware.js";
-export { commandName, LineSplitter, replyShape, type ReplyShape } from "./ebb/replies.js";
+} from "./drivers/ebb/protocol/firmware.js";
+export { commandName, LineSplitter, replyShape, type ReplyShape } from "./drivers/ebb/protocol/replies.js";
 
 // board
-export type { Cancellation, Clock, Transport } from "./board/transport.js";
-export { AnswerQueue, type AwaitedAnswer } from "./board/answer-queue.js";
+export type { Cancellation, Clock, Transport } from "./drivers/transport.js";
+export { AnswerQueue, type AwaitedAnswer } from "./drivers/ebb/stream/answer-queue.js";
 export {
   VirtualBoard,
   type BoardStatistics,
   type DrawnPolyline,
   type VirtualBoardOptions,
   type VirtualBoardState,
-} from "./board/virtual-board.js";
-export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
-export { SessionLog } from "./board/session-log.js";
-export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
-export { streamCommands } from "./board/stream-commands.js";
-export { parseSteps } from "./ebb/replies.js";
-export { Streamer, type StreamOptions, type StreamReport } from "./board/streamer.js";
-export type { StreamPlace } from "./board/timeline.js";
+} from "./drivers/ebb/virtual/virtual-board.js";
+export {
+  BoardSession,
+  type BoardIdentity,
+  type Outgoing,
+  type SessionOptions,
+} from "./drivers/ebb/stream/session.js";
+export { SessionLog } from "./drivers/ebb/stream/session-log.js";
+export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
+export { streamCommands } from "./drivers/ebb/stream/stream-commands.js";
+export { parseSteps } from "./drivers/ebb/protocol/replies.js";
+export { Streamer, type StreamOptions, type StreamReport } from "./drivers/ebb/stream/streamer.js";
+export type { StreamPlace } from "./drivers/ebb/stream/timeline.js";
 
 // export
 export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";

@@ -1,0 +1,33 @@
+import type { CommandStream } from "../compile/command-stream.js";
+import type { BoardSession } from "./session.js";
+import { Streamer, type StreamOptions, type StreamReport } from "./streamer.js";
+import type { StreamPlace } from "./timeline.js";
+import type { Cancellation } from "../../transport.js";
+
+/** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */
+export async function streamCommands(
+  session: BoardSession,
+  stream: CommandStream,
+  options: StreamOptions & {
+    readonly cancel?: Cancellation;
+    readonly onProgress?: (place: StreamPlace) => void;
+    /** Board seconds between two calls of `onProgress`, and two looks at `cancel`. Default 0.06. */
+    readonly progressEveryS?: number;
+  },
+): Promise<StreamReport & { readonly underrunCount: number }> {
+  const streamer = new Streamer(session, options);
+  let stopTicking: (() => void) | null = null;
+  const tick = (): void => {
+    if (options.cancel?.aborted && streamer.playing) streamer.cut();
+    else options.onProgress?.(streamer.place());
+    stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
+  };
+  const played = streamer.play(stream);
+  tick();
+  try {
+    const report = await played;
+    return { ...report, underrunCount: streamer.underrunCount };
+  } finally {
+    (stopTicking as (() => void) | null)?.();
+  }
+}
