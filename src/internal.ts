@@ -13,3 +13,4 @@ export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/moti
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
 export type { EbbController } from "./machines/profile.js";
+export { isPenUpBefore, penMovesOf } from "./plan/pen-moves.js";

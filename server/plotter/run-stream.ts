@@ -21,11 +21,11 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
+import { isPenUpBefore } from "../../src/internal.js";
 import type { Carriage } from "./carriage.js";
 import {
   boardStateBefore,
   commandAfter,
-  isPenUpBefore,
   nextPlace,
   placeAt,
   restingStream,

@@ -14,6 +14,7 @@
  * Every piece runs from a place of the plan to a next one, a few ms or half a degree later, with v² linear in s, so on
  * straight blocks it is exact and on curved ones within a fraction of a micrometre.
  */
+import { isPenUpBefore, penMoveColumns } from "./pen-moves.js";
 import { liftTiming } from "./pen-times.js";
 import type { PenSettings } from "../settings/pen.js";
 import { blockLength, blockState, stateAt, type MotionState, type Trajectory } from "./trajectory.js";
@@ -208,7 +209,7 @@ function finish(
   for (let k = 1; k < count; k++) startS[k] = startS[k - 1]! + pieces.durationS[k - 1]!;
   const motionS = count > 0 ? startS[count - 1]! + pieces.durationS[count - 1]! : 0;
   const runCount = count > 0 ? 1 : 0;
-  const lifts = pen !== null && !penUpAt(original, planS);
+  const lifts = pen !== null && !isPenUpBefore(original, planS);
   const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
   const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, heightPct: pen?.upPct ?? 0 };
   const trajectory: Trajectory = {
@@ -230,21 +231,12 @@ function finish(
       stroke: runCount ? Int32Array.of(stroke) : new Int32Array(0),
       startS: new Float64Array(runCount),
     },
-    penMoves: lifts ? [lift] : [],
+    penMoves: penMoveColumns(lifts ? [lift] : []),
     totalS: motionS + waitS,
     endX: end.x,
     endY: end.y,
   };
   return { trajectory, planS };
-}
-
-function penUpAt(trajectory: Trajectory, tS: number): boolean {
-  let up = true;
-  for (const move of trajectory.penMoves) {
-    if (move.startS >= tS - 1e-7) break;
-    up = move.up;
-  }
-  return up;
 }
 
 /** The block under way at `tS`. */

@@ -15,6 +15,7 @@ import {
 import { SegmentGrid } from "../support/segment-grid.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { FastBoard } from "../support/virtual-plots.js";
+import { penMoveColumns } from "../../src/plan/pen-moves.js";
 
 const MACHINE = machineById("axidraw-v3");
 const FIRMWARE = ["2.4.4", "2.5.3", "2.6.5", "2.7.0", "2.8.1", "3.0.3"] as const;
@@ -161,7 +162,7 @@ function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
     return places;
   });
   return {
-    ...{ blockCount: count, jx: null, jy: null, penMoves: [], totalS: count * pieceS },
+    ...{ blockCount: count, jx: null, jy: null, penMoves: penMoveColumns([]), totalS: count * pieceS },
     ...{ x: column((k) => ends[0]![k]!), y: column((k) => ends[1]![k]!) },
     ...{ vx: column((k) => v[k]![0]), vy: column((k) => v[k]![1]) },
     ax: column((k) => (v[k + 1]![0] - v[k]![0]) / pieceS),

@@ -23,7 +23,6 @@ import {
 import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";
-import { penColumnsOf } from "./pen-columns.js";
 import type {
   DrawingText,
   ExportRequest,
@@ -106,13 +105,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
-    const pens = penColumnsOf(trajectory.penMoves);
-    return {
-      type: "planned",
-      id,
-      planned: { ...planned, trajectory: { ...trajectory, penMoves: [] } },
-      pens,
-    };
+    return { type: "planned", id, planned };
   } catch (error) {
     return { type: "fault", id, fault: faultOf(error, stage) };
   }
@@ -188,7 +181,7 @@ const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
 });
 
 /** The trajectory's columns and the scene's buffers, each once. */
-function transferables({ planned: { trajectory, scene, picture }, pens }: PlannedReply): Transferable[] {
+function transferables({ planned: { trajectory, scene, picture } }: PlannedReply): Transferable[] {
   const buffers = new Set<ArrayBufferLike>([
     scene.draw.bytes,
     scene.travel.bytes,
@@ -198,11 +191,10 @@ function transferables({ planned: { trajectory, scene, picture }, pens }: Planne
     scene.grid.items.buffer,
   ]);
   for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
-  for (const column of Object.values(pens ?? {}) as ArrayBufferView[]) buffers.add(column.buffer);
   return [...buffers] as ArrayBuffer[];
 }
 
 const columnsOf = (trajectory: Trajectory): ArrayBufferView[] =>
-  [...Object.values(trajectory), ...Object.values(trajectory.runs)].filter((value) =>
-    ArrayBuffer.isView(value),
-  );
+  [trajectory, trajectory.runs, trajectory.penMoves]
+    .flatMap((columns) => Object.values(columns) as unknown[])
+    .filter((value) => ArrayBuffer.isView(value));

@@ -10,13 +10,11 @@ import type {
   ExportFormat,
   PlanFault,
   Planned,
-  PlannedReply,
   PlanSettings,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
 import { markMoment } from "../ui/moments.js";
-import { penMovesOf } from "./pen-columns.js";
 
 const PATIENCE_MS = 1_500;
 
@@ -127,7 +125,7 @@ export class Planner {
     this.#isBusy = false;
     if (reply.type === "planned") {
       markMoment("plotwright-planned");
-      this.#listener.onPlanned(unpacked(reply));
+      this.#listener.onPlanned(reply.planned);
     } else this.#listener.onFault(reply.fault);
   }
 
@@ -136,6 +134,3 @@ export class Planner {
     if (this.#latest) this.#send(this.#latest);
   }
 }
-
-const unpacked = ({ planned, pens }: PlannedReply): Planned =>
-  pens ? { ...planned, trajectory: { ...planned.trajectory, penMoves: penMovesOf(pens) } } : planned;

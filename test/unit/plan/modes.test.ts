@@ -15,6 +15,7 @@ import { blockLength } from "../../../src/plan/trajectory.js";
 import { AXIDRAW_LIKE } from "../../support/machine.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { worstOf } from "../../support/trajectory-checks.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const square: Point[] = [
   [10, 10],
@@ -50,7 +51,7 @@ describe("fitting", () => {
     for (const mode of MOTION_MODES) {
       const t = plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN);
       const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
-      const drawS = t.penMoves[1]!.startS - t.runs.startS[1]!;
+      const drawS = t.penMoves.startS[1]! - t.runs.startS[1]!;
       expect(drawS / (end - first)).toBeGreaterThan(0.08);
       expect(worstOf(t, strokes, draw, draw, 0).distance).toBeLessThan(
         0.02 + sagitta(20, 0.05) + draw.cornerMm,
@@ -198,7 +199,7 @@ describe("settings beyond speed and acceleration", () => {
     const t = plan(strokes, motion, pen);
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
-    expect(t.penMoves.map((m) => [m.heightPct, m.waitS])).toEqual([
+    expect(penMovesOf(t).map((m) => [m.heightPct, m.waitS])).toEqual([
       [30, 0.3],
       [60, 0.25],
       [10, 0.9],
@@ -209,7 +210,7 @@ describe("settings beyond speed and acceleration", () => {
   it("lift the pen less for short hops, and start moving once it is clear", () => {
     const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]], [[100, 100], [90, 90]]]); // prettier-ignore
     const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
-    const lifts = plan(strokes, base, pen).penMoves.filter((m) => m.up);
+    const lifts = penMovesOf(plan(strokes, base, pen)).filter((m) => m.up);
     expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
     expect(lifts[0]!.waitS).toBeCloseTo(0.25 / 3 / 2, 9);
     expect(lifts[1]!.waitS).toBeCloseTo(0.125, 9);
@@ -218,8 +219,8 @@ describe("settings beyond speed and acceleration", () => {
   it("time the pen by its rate and delay", () => {
     const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
     const t = plan(strokeSetOf([square]), base, pen);
-    expect(t.penMoves[0]!.waitS).toBeCloseTo(0.05 + 1, 9);
-    expect(t.penMoves[1]!.waitS).toBeCloseTo(0.02 + 0.1, 9);
+    expect(t.penMoves.waitS[0]!).toBeCloseTo(0.05 + 1, 9);
+    expect(t.penMoves.waitS[1]!).toBeCloseTo(0.02 + 0.1, 9);
   });
 
   it("keep every motor below the board's step rate, diagonals too", () => {

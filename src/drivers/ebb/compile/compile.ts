@@ -7,6 +7,7 @@
  */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
+import { penMoveAt } from "../../../plan/pen-moves.js";
 import type { PenMove, Trajectory } from "../../../plan/trajectory.js";
 import { TICKS_PER_MS } from "../../../units.js";
 import {
@@ -83,10 +84,11 @@ class Compiler {
     const { trajectory } = this;
     const { penMoves, runs } = trajectory;
     if (!Number.isFinite(trajectory.totalS)) throw new RangeError("the trajectory's time is not finite");
-    if (penMoves.length > 0) this.setUpPen();
+    if (penMoves.count > 0) this.setUpPen();
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {
-      while (next < penMoves.length && penMoves[next]!.beforeRun <= r) this.penMove(penMoves[next++]!);
+      while (next < penMoves.count && penMoves.beforeRun[next]! <= r)
+        this.penMove(penMoveAt(penMoves, next++));
       if (r < runs.count) this.runs.write(r);
     }
     return this.columns.finish(trajectory.totalS);
