@@ -1,5 +1,5 @@
-/** `plotwright plan FILE.svg`: what a plot would be, without a board. */
-import { readFileSync, writeFileSync } from "node:fs";
+/** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
+import { writeFileSync } from "node:fs";
 import {
   PlotwrightError,
   importDrawing,
@@ -20,9 +20,9 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { withOnlyLayers } from "../planning/only-layers.js";
+import { readDrawing } from "../planning/read-drawing.js";
 import { BOARD_AT_HOME, prepareDrawing, type PreparedJob } from "../planning/stages.js";
-import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -65,11 +65,20 @@ interface Planned {
   readonly lines: readonly string[];
 }
 
-export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
+/** What it needs of the thread that it runs in. */
+export interface PlanOutput {
+  out(text: string): void;
+  /** A step has begun. */
+  begin(step: PlanStep): void;
+}
+
+export type PlanStep = "prepare" | "plan";
+
+export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
   if (options.json === true && options.ebb === "-") {
     throw new PlotwrightError("bad-setting", "--json and --ebb - both write to stdout: give --ebb a file.");
   }
-  const planned = planFile(file, base, options);
+  const planned = planFile(file, base, options, io);
   if (options.ebb !== undefined) {
     const text = `${planned.lines.join("\n")}\n`;
     if (options.ebb === "-") io.out(text);
@@ -91,21 +100,12 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   else if (options.ebb !== "-") io.out(words(planned.report));
 }
 
-export function readDrawing(file: string): string {
-  try {
-    return readFileSync(file, "utf8");
-  } catch (cause) {
-    const { code, message } = cause as NodeJS.ErrnoException;
-    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
-    throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`, { cause });
-  }
-}
-
-function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
+function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
   const drawing = importDrawing(file, readDrawing(file));
   const importMs = clock();
+  io.begin("prepare");
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
@@ -116,6 +116,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
+  io.begin("plan");
   const { motion, pen } = withLayerCodes(settings, job.prepared.strokes.layers);
   const followed = motionForFirmware(motion, options.firmware);
   const trajectory = plan(job.prepared.strokes, followed, pen, { machine, liftFirst: true });

@@ -7,11 +7,11 @@ import {
   BOARD_AT_HOME,
   OLDEST_PLANNED_FIRMWARE,
   planAndCompile,
-  prepareText,
+  prepareDrawing,
 } from "../../../server/planning/stages.js";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importDrawing } from "../../../src/import/import-drawing.js";
-import { machineOf } from "../../../src/index.js";
+import { machineOf, type Drawing } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
@@ -77,9 +77,11 @@ it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES
   for (let i = FIRST; i < FIRST + CASES; i++) {
     const [name, file] = FILES[i % FILES.length];
     const text = mutate(file, PIECES, generator(i));
+    let drawing: Drawing;
     try {
       const mark = process.cpuUsage();
-      const { paths, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importDrawing(name, text));
+      drawing = endWhenOver(HANGS_MS, () => importDrawing(name, text));
+      const { paths, widthMm, heightMm } = drawing;
       expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
       expect([...paths.coords, ...paths.strokeWidth].every(Number.isFinite), text).toBe(true);
       expect(widthMm > 0 && heightMm > 0 && Number.isFinite(widthMm + heightMm), text).toBe(true);
@@ -92,7 +94,7 @@ it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES
     if (Math.floor(i / FILES.length) % PLANNED_EACH !== 0) continue;
     try {
       endWhenOver(HANGS_MS, () => {
-        const { prepared } = prepareText(text, DEFAULT_PLOT_SETTINGS, machine);
+        const { prepared } = prepareDrawing(drawing, DEFAULT_PLOT_SETTINGS, machine);
         planAndCompile(prepared, PLAN_ALL, machine);
       });
     } catch (error) {
