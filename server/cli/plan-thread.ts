@@ -7,7 +7,7 @@ import {
   importLimit,
   planLimit,
   prepareLimit,
-  PLANNING_LIMITS,
+  OWN_PLANNING_LIMITS,
   type PlanningLimits,
 } from "../planning/planning-limits.js";
 import type { CliIo } from "./io.js";
@@ -28,11 +28,12 @@ export type FromPlanThread =
 export function runPlanInThread(
   input: PlanThreadInput,
   io: Pick<CliIo, "out">,
-  limits: PlanningLimits = PLANNING_LIMITS,
+  limits: PlanningLimits = OWN_PLANNING_LIMITS,
 ): Promise<void> {
   return new Promise((resolve, reject) => {
     const name = "plan-command-worker";
-    const start = { name, starterUrl: import.meta.url, workerData: input, heapMb: limits.heapMb };
+    const { heapMb, growthMb } = limits;
+    const start = { name, starterUrl: import.meta.url, workerData: input, heapMb, growthMb };
     const thread = new BoundedThread<FromPlanThread>(start, {
       message: (message) => {
         if (message.type === "out") io.out(message.text);

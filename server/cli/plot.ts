@@ -7,6 +7,7 @@ import { resolve } from "node:path";
 import { PlotwrightError, machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "../planning/planner.js";
+import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { PlotProgress, PlotRun } from "../plotter/types.js";
 import type { CliIo } from "./io.js";
 import { withPlotter, type DeviceOptions } from "./machine-commands.js";
@@ -27,7 +28,13 @@ export async function runPlot(
   const forget = io.onInterrupt(() => stop.abort());
   try {
     const planner = await WorkerPlanner.open(
-      { path: resolve(file), settings, machine: machineOf(settings), only: options.only },
+      {
+        path: resolve(file),
+        settings,
+        machine: machineOf(settings),
+        only: options.only,
+        limits: OWN_PLANNING_LIMITS,
+      },
       stop.signal,
     );
     try {

@@ -6,6 +6,8 @@ import type { Worker } from "node:worker_threads";
 import { PlotwrightError } from "../../src/index.js";
 import { startWorker } from "./worker-entry.js";
 
+const LOOK_EACH_MS = 200;
+
 export interface TimeLimit {
   readonly s: number;
   /** What to say when it has passed. */
@@ -19,6 +21,8 @@ export interface ThreadStart {
   readonly workerData: unknown;
   /** JavaScript heap that it may have. */
   readonly heapMb: number;
+  /** By which the process may grow while it works. */
+  readonly growthMb: number;
 }
 
 export interface ThreadListener<Message> {
@@ -30,10 +34,14 @@ export interface ThreadListener<Message> {
 export class BoundedThread<Message> {
   readonly #worker: Worker;
   readonly #listener: ThreadListener<Message>;
+  readonly #memoryTimer: NodeJS.Timeout;
   #timer: NodeJS.Timeout | undefined;
   #isEnded = false;
 
-  constructor({ name, starterUrl, workerData, heapMb }: ThreadStart, listener: ThreadListener<Message>) {
+  constructor(
+    { name, starterUrl, workerData, heapMb, growthMb }: ThreadStart,
+    listener: ThreadListener<Message>,
+  ) {
     this.#listener = listener;
     this.#worker = startWorker(name, starterUrl, {
       workerData,
@@ -42,6 +50,10 @@ export class BoundedThread<Message> {
       stdout: true,
     });
     this.#worker.stdout.resume();
+    const mostBytes = process.memoryUsage.rss() + growthMb * 1e6;
+    this.#memoryTimer = setInterval(() => {
+      if (process.memoryUsage.rss() > mostBytes) void this.stop(tooLarge());
+    }, LOOK_EACH_MS);
     this.#worker.on("message", (message: Message) => {
       if (!this.#isEnded) listener.message(message);
     });
@@ -70,17 +82,21 @@ export class BoundedThread<Message> {
     if (this.#isEnded) return;
     this.#isEnded = true;
     clearTimeout(this.#timer);
+    clearInterval(this.#memoryTimer);
     this.#listener.ended(reason);
   }
 }
 
 function endOf(error: Error): PlotwrightError {
   if ((error as NodeJS.ErrnoException).code === "ERR_WORKER_OUT_OF_MEMORY") {
-    return new PlotwrightError(
-      "too-large",
-      "The drawing needs more memory than there is for planning. Simplify it, or plot it in parts.",
-      { cause: error },
-    );
+    return tooLarge(error);
   }
   return new PlotwrightError("internal", `The planning thread failed: ${error.message}`, { cause: error });
 }
+
+const tooLarge = (cause?: Error): PlotwrightError =>
+  new PlotwrightError(
+    "too-large",
+    "The drawing needs more memory than there is for planning. Simplify it, or plot it in parts.",
+    { cause },
+  );

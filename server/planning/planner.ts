@@ -101,12 +101,8 @@ class PlannerThread {
     this.#ready = this.#wait(null);
     // Whoever opened it may have gone before it is ready; ready() still rejects for those who ask.
     this.#ready.catch(() => undefined);
-    const start = {
-      name: "plan-worker",
-      starterUrl: import.meta.url,
-      workerData: input,
-      heapMb: limits.heapMb,
-    };
+    const { heapMb, growthMb } = limits;
+    const start = { name: "plan-worker", starterUrl: import.meta.url, workerData: input, heapMb, growthMb };
     this.#thread = new BoundedThread<FromWorker>(start, {
       message: (message) => {
         if (message.type === "imported") this.#thread.allow(prepareLimit(limits, input.settings.prepare));

@@ -14,15 +14,21 @@ export interface PlanningLimits {
   readonly planS: number;
   /** Of JavaScript heap; typed arrays come on top of it. */
   readonly heapMb: number;
+  /** By which the whole process may grow meanwhile: nothing less can be measured of a thread's typed arrays. */
+  readonly growthMb: number;
 }
 
 export const PLANNING_LIMITS: PlanningLimits = {
   importS: 120,
   prepareS: 300,
   planS: 300,
-  // A quarter of a small computer's memory: the thread must end before the system ends the server.
+  // A part of a small computer's memory: the thread must end before the system ends the server.
   heapMb: Math.round(Math.min(1_024, Math.max(256, totalmem() / 4e6))),
+  growthMb: Math.min(1_500, totalmem() / 2e6),
 };
+
+/** For what is planned for its user alone, or was planned before and is on the plotter now: it must not fail for others. */
+export const OWN_PLANNING_LIMITS: PlanningLimits = { ...PLANNING_LIMITS, growthMb: Infinity };
 
 /** The search counts its work, not its time: a small computer takes this many times longer for it than a desk machine. */
 const SLOWEST_SEARCH = 5;

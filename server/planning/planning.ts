@@ -5,6 +5,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { Planning } from "../queue/queue-parts.js";
 import { lane } from "./lane.js";
+import { OWN_PLANNING_LIMITS } from "./planning-limits.js";
 import { WorkerPlanner, measureDrawing } from "./planner.js";
 
 /** Uploads measured at once in each lane; the board's own planner never waits behind them. */
@@ -29,6 +30,7 @@ export function createPlanning(files: DrawingFiles): Planning {
       const turn = (await isLong(wanted.path, settings.prepare)) ? longWork : shortWork;
       return turn(asker, () => measureDrawing(wanted, firmware, asker.signal));
     },
-    open: (drawing, settings, signal) => WorkerPlanner.open(input(drawing, settings), signal),
+    open: (drawing, settings, signal) =>
+      WorkerPlanner.open({ ...input(drawing, settings), limits: OWN_PLANNING_LIMITS }, signal),
   };
 }

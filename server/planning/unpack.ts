@@ -28,7 +28,8 @@ export async function unpackUpload(
   files: Omit<UnpackInput, "maxRestChars">,
 ): Promise<{ rest: unknown; drawingBytes: number }> {
   const workerData: UnpackInput = { ...files, maxRestChars: MAX_PARSED_BYTES };
-  const start = { name: "unpack-worker", starterUrl: import.meta.url, heapMb: PLANNING_LIMITS.heapMb };
+  const { heapMb, growthMb } = PLANNING_LIMITS;
+  const start = { name: "unpack-worker", starterUrl: import.meta.url, heapMb, growthMb };
   const answer = await new Promise<Unpacked>((resolve, reject) => {
     const thread = new BoundedThread<Unpacked>({ ...start, workerData }, { message: resolve, ended: reject });
     const error = new PlotwrightError("too-large", `The request takes longer than ${UNPACK_S} s to read.`);

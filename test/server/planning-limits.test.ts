@@ -46,6 +46,9 @@ async function failure(work: Promise<unknown>): Promise<PlotwrightError> {
   return error as PlotwrightError;
 }
 
+/** As heap, or in typed arrays. */
+const TOO_MUCH = ["too-large", expect.stringContaining("more memory than there is") as string];
+
 describe("a planner", () => {
   it("ends reading a file that takes too long", async () => {
     const limits = { ...PLANNING_LIMITS, importS: 1 };
@@ -91,10 +94,13 @@ describe("a planner", () => {
     const limits = { ...PLANNING_LIMITS, heapMb: 64 };
     const groups = `0\nSECTION\n2\nENTITIES\n0\nMTEXT\n${"3\nabc\n".repeat(2_000_000)}0\nENDSEC\n0\nEOF\n`;
     const error = await failure(WorkerPlanner.open({ ...input(groups), limits }));
-    expect([error.code, error.message]).toEqual([
-      "too-large",
-      expect.stringContaining("more memory than there is") as string,
-    ]);
+    expect([error.code, error.message]).toEqual(TOO_MUCH);
+  }, 60_000);
+
+  it("gives up where the process grows too far", async () => {
+    const limits = { ...PLANNING_LIMITS, growthMb: 20 };
+    const error = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
+    expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
 });
 
