@@ -121,7 +121,7 @@ export class WatchFolder {
     }
     return queue.add(
       { name: name.slice(0, 200), settings, drawing, watched: { name, sha256 } },
-      this.#abort.signal,
+      { signal: this.#abort.signal },
     );
   }
 }

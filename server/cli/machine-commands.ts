@@ -1,6 +1,5 @@
 /** One-off commands to the machine: pen, moves by hand, devices, machines, info. */
 import { resolve } from "node:path";
-import { importDrawing } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles } from "../machines/machine-files.js";
@@ -10,8 +9,6 @@ import { openPlotter } from "../plotters.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
-import { readDrawing } from "./plan.js";
 
 export interface DeviceOptions {
   readonly device?: string;
@@ -37,13 +34,10 @@ export async function runMove(move: HandMove, settings: PlotSettings, options: D
 /** Walks around where a drawing would come to lie. */
 export async function runFrame(
   file: string,
-  base: PlotSettings,
+  settings: PlotSettings,
   options: DeviceOptions & { readonly only?: readonly string[] },
 ): Promise<void> {
-  const text = readDrawing(file);
-  const settings =
-    options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
-  const boxMm = await drawingBoxMm(resolve(file), settings);
+  const boxMm = await drawingBoxMm(resolve(file), settings, options.only);
   await runMove({ kind: "frame", boxMm }, settings, options);
 }
 

@@ -1,5 +1,5 @@
-/** `plotwright plan FILE.svg`: what a plot would be, without a board. */
-import { readFileSync, writeFileSync } from "node:fs";
+/** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
+import { writeFileSync } from "node:fs";
 import {
   PlotwrightError,
   importDrawing,
@@ -17,9 +17,9 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { withOnlyLayers } from "../planning/only-layers.js";
+import { readDrawing } from "../planning/read-drawing.js";
 import { prepareDrawing, type PreparedJob } from "../planning/stages.js";
-import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -62,11 +62,20 @@ interface Planned {
   readonly lines: readonly string[];
 }
 
-export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
+/** What it needs of the thread that it runs in. */
+export interface PlanOutput {
+  out(text: string): void;
+  /** A step has begun. */
+  begin(step: PlanStep): void;
+}
+
+export type PlanStep = "prepare" | "plan";
+
+export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
   if (options.json === true && options.ebb === "-") {
     throw new PlotwrightError("bad-setting", "--json and --ebb - both write to stdout: give --ebb a file.");
   }
-  const planned = planFile(file, base, options);
+  const planned = planFile(file, base, options, io);
   if (options.ebb !== undefined) {
     const text = `${planned.lines.join("\n")}\n`;
     if (options.ebb === "-") io.out(text);
@@ -88,21 +97,12 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   else if (options.ebb !== "-") io.out(words(planned.report));
 }
 
-export function readDrawing(file: string): string {
-  try {
-    return readFileSync(file, "utf8");
-  } catch (cause) {
-    const { code, message } = cause as NodeJS.ErrnoException;
-    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
-    throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`, { cause });
-  }
-}
-
-function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
+function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
   const drawing = importDrawing(file, readDrawing(file));
   const importMs = clock();
+  io.begin("prepare");
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
@@ -113,6 +113,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
+  io.begin("plan");
   const { firmware } = options;
   const planned = planJob(job.prepared, settings, machine, { firmware, liftFirst: true });
   const { trajectory } = planned;

@@ -4,14 +4,14 @@
  */
 import { SingleBar } from "cli-progress";
 import { resolve } from "node:path";
-import { PlotwrightError, importDrawing, machineOf } from "../../src/index.js";
+import { PlotwrightError, machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "../planning/planner.js";
+import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { PlotProgress, PlotRun } from "../plotter/types.js";
 import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
 import { withPlotter, type DeviceOptions } from "./machine-commands.js";
-import { minutes, readDrawing } from "./plan.js";
+import { minutes } from "./plan.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
@@ -20,18 +20,21 @@ export interface PlotCommandOptions extends DeviceOptions {
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
 export async function runPlot(
   file: string,
-  base: PlotSettings,
+  settings: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
-  const text = readDrawing(file);
-  const settings =
-    options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
     const planner = await WorkerPlanner.open(
-      { path: resolve(file), settings, machine: machineOf(settings) },
+      {
+        path: resolve(file),
+        settings,
+        machine: machineOf(settings),
+        only: options.only,
+        limits: OWN_PLANNING_LIMITS,
+      },
       stop.signal,
     );
     try {

@@ -14,7 +14,8 @@ import {
   runPen,
   type DeviceOptions,
 } from "./machine-commands.js";
-import { runPlan, type PlanCommandOptions } from "./plan.js";
+import type { PlanCommandOptions } from "./plan.js";
+import { runPlanInThread } from "./plan-thread.js";
 import { runPlot, type PlotCommandOptions } from "./plot.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import { runServe, type ServeCommandOptions } from "./serve.js";
@@ -73,7 +74,7 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--svg <out.svg>", "write the prepared drawing, its layers' settings as codes in their names")
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm")
     .action((file: string, options: PlanCommandOptions & OptionValues) =>
-      runPlan(file, settingsFromOptions(options), options, io),
+      runPlanInThread({ file, settings: settingsFromOptions(options), options }, io),
     );
 
   addDevice(addSettingOptions(sub("plot", "plot a drawing").argument("<file>", "SVG file"))).action(

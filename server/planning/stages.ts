@@ -5,7 +5,6 @@
 import {
   PlotwrightError,
   checkBounds,
-  importDrawing,
   planJob,
   prepare,
   prepareSettingsOf,
@@ -25,15 +24,11 @@ export interface PreparedJob {
 }
 
 /**
- * The format is told from the content. No clock goes in: the same text and settings give the same strokes in
- * every process, so that a place in a job stays valid after a restart.
+ * No clock goes in: the same drawing and settings give the same strokes in every process, so that a place in a job stays
+ * valid after a restart.
  *
- * Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`.
+ * Throws `bad-file` (when nothing is left to draw), `out-of-bounds`, `bad-setting`.
  */
-export function prepareText(text: string, settings: PlotSettings, machine: MachineProfile): PreparedJob {
-  return prepareDrawing(importDrawing("", text), settings, machine);
-}
-
 export function prepareDrawing(
   drawing: Drawing,
   settings: PlotSettings,

@@ -4,9 +4,12 @@
  *
  * What is reserved beyond the need costs address space only: the system gives memory to pages that are written.
  */
+import { PlotwrightError } from "../errors.js";
 import { boxOfPoints, type Box } from "../geometry/box.js";
 
 const FIRST_LENGTH = 1 << 12;
+/** 400 MB. A file of 200 MB seldom has more; blocks and copies in a few bytes may come to any number. */
+const MAX_LENGTH = 50_000_000;
 /** From this share of the file on, what it has brought so far tells what is to come. */
 const TELLING_SHARE = 0.01;
 /** The rest of the file may be denser than what has been seen. */
@@ -28,8 +31,15 @@ export class CoordColumn {
   reserve(count: number): void {
     const needed = this.length + count;
     if (needed <= this.data.length) return;
+    if (needed > MAX_LENGTH) {
+      throw new PlotwrightError(
+        "bad-file",
+        `The drawing comes to more than ${MAX_LENGTH / 2_000_000} million points. Simplify it, or plot it in parts.`,
+      );
+    }
     const expected = expectedLength(this.length, this.share);
-    const grown = new Float64Array(Math.max(needed, 2 * this.data.length, expected));
+    const wanted = Math.max(needed, 2 * this.data.length, expected);
+    const grown = new Float64Array(Math.min(MAX_LENGTH, wanted));
     grown.set(this.data.subarray(0, this.length));
     this.data = grown;
   }

@@ -103,7 +103,7 @@ export class DrawingBuilder {
     shapes.stroke[i] = this.lookStroke;
     shapes.fill[i] = this.lookFill;
     shapes.fillRule[i] = look.evenOdd ? RULE_EVENODD : RULE_NONZERO;
-    shapes.strokeWidth[i] = look.strokeWidth;
+    shapes.strokeWidth[i] = finiteWidth(look.strokeWidth);
     shapes.dash[i] = this.lookDash;
     shapes.clip[i] = clip === null ? -1 : clipIndexFor(clip, this.boxOfShapes(i, i + 1), this.clips);
     return true;
@@ -157,7 +157,7 @@ export class DrawingBuilder {
     shapes.stroke.fill(this.lookStroke, first, shapes.count);
     shapes.fill.fill(this.lookFill, first, shapes.count);
     shapes.fillRule.fill(look.evenOdd ? RULE_EVENODD : RULE_NONZERO, first, shapes.count);
-    shapes.strokeWidth.fill(look.strokeWidth, first, shapes.count);
+    shapes.strokeWidth.fill(finiteWidth(look.strokeWidth), first, shapes.count);
     shapes.dash.fill(this.lookDash, first, shapes.count);
     shapes.clip.fill(-1, first, shapes.count);
     return added;
@@ -252,6 +252,9 @@ export class DrawingBuilder {
     return index;
   }
 }
+
+/** A width that is beyond all numbers, or none, would be infinite or NaN in whatever is computed from it. */
+const finiteWidth = (mm: number): number => (mm >= 0 ? Math.min(mm, MAX_COORDINATE_MM) : 0);
 
 /** Writes the mapped pairs into `to` from `at` on. False where one is out of range or no number. */
 function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number): boolean {

@@ -1,7 +1,8 @@
 /**
- * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH; and LWPOLYLINE,
- * of which it loses vertices, or never ends, where other groups stand between them. Read group by group (AutoCAD DXF
- * reference, ENTITIES) and registered with the parser, in whose form they come out.
+ * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH; LWPOLYLINE, of
+ * which it loses vertices, or never ends, where other groups stand between them; and POLYLINE, which it never ends where
+ * another entity stands in place of a VERTEX or SEQEND. Read group by group (AutoCAD DXF reference, ENTITIES) and
+ * registered with the parser, in whose form they come out.
  */
 import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
 import { aciColor } from "./aci-color.js";
@@ -15,6 +16,18 @@ export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
       const groups = groupsOf(scanner);
       const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
       return { ...commonOf("LWPOLYLINE", groups), shape: isClosed, vertices: bulgedVertices(groups) };
+    }
+  },
+  class {
+    readonly ForEntityName = "POLYLINE";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      const groups = groupsOf(scanner);
+      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
+      const vertices: DxfPoint[] = [];
+      while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
+      // Without its SEQEND the line ends where another entity begins.
+      if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
+      return { ...commonOf("POLYLINE", groups), shape: isClosed, vertices };
     }
   },
   class {
@@ -75,6 +88,13 @@ function pointIn(groups: readonly DxfGroup[], code: number): DxfPoint | undefine
   const y = numberIn(groups, code + 10);
   return x === undefined || y === undefined ? undefined : { x, y };
 }
+
+const vertexOf = (groups: readonly DxfGroup[]): DxfPoint => ({
+  x: numberIn(groups, 10) ?? 0,
+  y: numberIn(groups, 20) ?? 0,
+  bulge: numberIn(groups, 42) ?? 0,
+  splineControlPoint: ((numberIn(groups, 70) ?? 0) & 16) !== 0,
+});
 
 /** What every entity may have, under the parser's own names. */
 function commonOf(type: string, groups: readonly DxfGroup[]): DxfEntity {

@@ -12,6 +12,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
   }
   export interface DxfScanner {
     next(): DxfGroup;
+    readonly lastReadGroup: DxfGroup;
     isEOF(): boolean;
   }
   export interface DxfHandler {

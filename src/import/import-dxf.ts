@@ -47,6 +47,8 @@ const MM_OF_UNIT: Readonly<Record<number, number>> = {
   13: 0.001,
   14: 100,
 };
+/** Tables in which the parser waits for their end without reading on. */
+const ENDLESS_TABLES: readonly string[] = ["LAYER", "VPORT"];
 const MAX_BLOCK_DEPTH = 16;
 const MAX_ENTITIES = 1_000_000;
 /** mm: what an arc may be off in a drawing of unknown size; far under any pen. */
@@ -70,28 +72,42 @@ export function importDxf(text: string, options: ImportOptions): Drawing {
 
 /**
  * A DXF is groups of two lines, the first of them a number. Where a line is lost or added the parser would take
- * values for numbers and the other way round, to the end of the file.
+ * values for numbers and the other way round, to the end of the file. In the tables of layers and of views it waits for
+ * ever where anything but the next record stands.
  */
 function checkGroups(text: string): void {
-  const lineBreak = text.includes("\n") ? "\n" : "\r";
-  const lineEnd = (at: number): number => {
-    const end = text.indexOf(lineBreak, at);
-    return end < 0 ? text.length : end;
-  };
-  for (let at = 0, line = 1; at < text.length; line += 2) {
-    const endOfCode = lineEnd(at);
-    const code = text.slice(at, endOfCode).trim();
-    const endOfValue = lineEnd(endOfCode + 1);
-    if (code === "0" && text.slice(endOfCode + 1, endOfValue).trim() === "EOF") return;
-    if (!/^-?\d{1,4}$/.test(code) && text.slice(at).trim() !== "") {
-      throw new PlotwrightError(
-        "bad-file",
-        `The DXF is damaged at line ${line}: "${code.slice(0, 20)}" is no group code. Save it again, best as DXF R12 or 2000.`,
-      );
+  // Split as the parser does it: it must not see other groups than those that are checked here.
+  const lines = text.split(/\r\n|\r|\n/);
+  let previous = "";
+  /** Kind of the records of the table that this is in. */
+  let records: string | null = null;
+  for (let at = 0; at < lines.length; at += 2) {
+    const code = lines[at].trim();
+    const value = (lines[at + 1] ?? "").trim();
+    if (!/^-?\d{1,4}$/.test(code)) {
+      if (code === "" && isBlankFrom(lines, at)) return;
+      throw damagedAt(at, `"${code.slice(0, 20)}" is no group code`);
     }
-    at = endOfValue + 1;
+    const isStart = Number(code) === 0;
+    if (records !== null && isStart) {
+      if (value === "ENDTAB") records = null;
+      else if (value !== records) throw damagedAt(at, `the table of ${records}s has no end`);
+    } else if (previous === "TABLE" && ENDLESS_TABLES.includes(value)) records = value;
+    if (isStart && value === "EOF") return;
+    previous = isStart ? value : "";
   }
 }
+
+function isBlankFrom(lines: readonly string[], from: number): boolean {
+  for (let at = from; at < lines.length; at++) if (lines[at].trim() !== "") return false;
+  return true;
+}
+
+const damagedAt = (line: number, what: string): PlotwrightError =>
+  new PlotwrightError(
+    "bad-file",
+    `The DXF is damaged at line ${line + 1}: ${what}. Save it again, best as DXF R12 or 2000.`,
+  );
 
 function parse(text: string): Dxf {
   let dxf: Dxf | null = null;
@@ -173,13 +189,18 @@ class DxfImport {
     return mm;
   }
 
+  /** Copies of blocks count too: many of an empty one take memory as well. */
+  private count(added: number): void {
+    this.entityCount += added;
+    if (this.entityCount <= MAX_ENTITIES) return;
+    throw new PlotwrightError(
+      "bad-file",
+      `The blocks in this DXF come to more than ${MAX_ENTITIES} objects. Explode and thin them out first.`,
+    );
+  }
+
   private visit(entity: DxfEntity, from: Pending, stack: Pending[]): void {
-    if (++this.entityCount > MAX_ENTITIES) {
-      throw new PlotwrightError(
-        "bad-file",
-        `The blocks in this DXF come to more than ${MAX_ENTITIES} objects. Explode and thin them out first.`,
-      );
-    }
+    this.count(1);
     if (entity.visible === false) return;
     const layerName = this.layerOf(entity, from);
     const layer = this.layers[layerName];
@@ -289,8 +310,9 @@ class DxfImport {
     const at = (isInsert ? entity.position : undefined) ?? { x: 0, y: 0 };
     const base = block.position ?? { x: 0, y: 0 };
     const turn = rotation(((isInsert ? (entity.rotation ?? 0) : 0) * Math.PI) / 180);
-    const columns = isInsert ? Math.max(1, Math.min(1000, entity.columnCount ?? 1)) : 1;
-    const rows = isInsert ? Math.max(1, Math.min(1000, entity.rowCount ?? 1)) : 1;
+    const columns = isInsert ? copiesOf(entity.columnCount) : 1;
+    const rows = isInsert ? copiesOf(entity.rowCount) : 1;
+    this.count(columns * rows - 1);
     for (let i = 0; i < columns * rows; i++) {
       const dx = (i % columns) * (entity.columnSpacing ?? 0);
       const dy = Math.floor(i / columns) * (entity.rowSpacing ?? 0);
@@ -346,4 +368,6 @@ class DxfImport {
   }
 }
 
+/** Written so that NaN is one. */
+const copiesOf = (count = 1): number => (count >= 1 ? Math.min(1000, count) : 1);
 const hexColor = (color: number): string => `#${(color & 0xffffff).toString(16).padStart(6, "0")}`;

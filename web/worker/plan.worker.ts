@@ -74,6 +74,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   try {
     const t0 = performance.now();
     const drawing = await drawingOf(request);
+    scope.postMessage({ type: "imported", id }, []);
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";

@@ -94,6 +94,8 @@ export interface PlannedReply {
 
 export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
+  /** The file has been read. */
+  | { readonly type: "imported"; readonly id: number }
   | PlannedReply
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }

@@ -41,6 +41,7 @@ describe("importSvg on damaged files", () => {
         const { paths, clips, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importSvg(text));
         expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
         expect(paths.coords.every(Number.isFinite), text).toBe(true);
+        expect(paths.strokeWidth.every(Number.isFinite), text).toBe(true);
         expect(
           clips.every((clip) => clip.coords.every(Number.isFinite)),
           text,
