@@ -32,6 +32,9 @@ const hatchSchema = z.object({
   cross: z.boolean(),
 });
 
+/** For the page's field too, so that it offers nothing that is refused. */
+export const MOST_SMOOTH_ROUNDS = 5;
+
 // Fields that came after the first release have defaults, so that stored jobs and presets stay readable.
 export const prepareSettingsSchema = z.object({
   paper: paperSizeSchema,
@@ -81,7 +84,7 @@ export const prepareSettingsSchema = z.object({
   outlineFills: z.boolean().default(DEFAULT_PREPARE.outlineFills),
   hideCovered: z.boolean().default(DEFAULT_PREPARE.hideCovered),
   dropRepeatsMm: nonNegative(5).default(DEFAULT_PREPARE.dropRepeatsMm),
-  smoothRounds: z.int().min(0).max(5).default(DEFAULT_PREPARE.smoothRounds),
+  smoothRounds: z.int().min(0).max(MOST_SMOOTH_ROUNDS).default(DEFAULT_PREPARE.smoothRounds),
   reloop: z.boolean().default(DEFAULT_PREPARE.reloop),
   spread: z.enum(SPREAD_MODES).default(DEFAULT_PREPARE.spread),
   reinkMm: nonNegative(1_000_000).default(DEFAULT_PREPARE.reinkMm),

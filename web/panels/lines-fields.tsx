@@ -1,4 +1,4 @@
-import type { PlotSettings } from "../../src/schema/index.js";
+import { MOST_SMOOTH_ROUNDS, type PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Segments, Switch } from "../ui/choice.js";
@@ -72,7 +72,7 @@ export const LinesFields = () => {
         value={prepare.smoothRounds}
         unit=""
         min={0}
-        max={6}
+        max={MOST_SMOOTH_ROUNDS}
         step={1}
         digits={0}
         onChange={(rounds) => change("smooth", { smoothRounds: Math.round(rounds) })}
