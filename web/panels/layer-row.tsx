@@ -108,7 +108,14 @@ const Facts = ({ row, isShown }: { readonly row: PreparedLayer; readonly isShown
           ...(times > 1 ? [words.times(times)] : []),
           ...(hasOwn || isCoded ? [words.own] : []),
         ];
-  return <span className="layer-count">{facts.join(" · ")}</span>;
+  return (
+    <span className="layer-count">
+      {row.colorCount > 1 && (
+        <strong className="layer-mixed">{words.colors(formatCount(row.colorCount))}</strong>
+      )}
+      {facts.join(" · ")}
+    </span>
+  );
 };
 
 /** The colour that the layer is drawn in, its pen's or its own; where there are pens, a press chooses one. */
