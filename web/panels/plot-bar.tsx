@@ -15,6 +15,7 @@ export const PlotBar = () => {
   const planned = usePageState((state) => state.planned);
   const isPlanning = usePageState((state) => state.isPlanning);
   const hasJob = usePageState((state) => activeJob(state) !== null);
+  const drawingKey = usePageState((state) => state.drawing?.key);
   return (
     <section className="card plot-bar" aria-label={words.plot} data-active={hasJob || undefined}>
       <div className="plot-time">
@@ -26,7 +27,8 @@ export const PlotBar = () => {
         </span>
       </div>
       <Figures />
-      <Buttons />
+      {/* Another drawing begins with one copy again. */}
+      <Buttons key={drawingKey} />
       <RunningJob />
     </section>
   );

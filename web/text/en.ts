@@ -4,6 +4,8 @@
  */
 export const en = {
   appName: "plotwright",
+  /** In which the names of days and months are written. */
+  language: "en-GB",
   history: { undo: "Undo", redo: "Redo" },
   tabs: { label: "Panels", setup: "Set up", queue: "Queue", machine: "Plotter" },
   studio: "Sharing, plotters, camera",
@@ -201,8 +203,8 @@ export const en = {
     removeNamed: (name: string) => `Remove ${name}`,
     openNamed: (name: string) => `Lay ${name} on the paper`,
     progress: (name: string) => `Progress of ${name}`,
-    total: (count: number, duration: string, clock: string) =>
-      `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}: done at ${clock}`,
+    total: (count: number, duration: string) => `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}`,
+    totalDoneAt: (total: string, clock: string) => `${total}: done at ${clock}`,
     waitsForPen: "Pen change",
     states: {
       queued: "Waiting",
