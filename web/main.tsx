@@ -7,13 +7,14 @@ import { App } from "./app.js";
 import { keepPage, lookForUpdate } from "./pwa/register.js";
 import { createActions } from "./state/actions.js";
 import { replanForBoard } from "./state/board-watch.js";
+import { browserDrawings, keepDrawing, readKeptDrawing } from "./state/kept-drawing.js";
 import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
 import { watchJobs } from "./state/notify.js";
 import { Player } from "./preview/player.js";
 import { readPresets, writePresets } from "./state/presets.js";
 import { listenForShortcuts, shortcutsFor } from "./state/shortcuts.js";
 import { applyServerEvent } from "./state/server-events.js";
-import { activeJob, createPageStore, type PageStore } from "./state/store.js";
+import { ACTIVE_STATES, createPageStore, currentPlotter, type PageStore } from "./state/store.js";
 import { PageContext } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { ErrorBoundary } from "./ui/error-boundary.js";
@@ -66,7 +67,9 @@ const actions = createActions({
   after: (delayMs, callback) => void setTimeout(callback, delayMs),
 });
 
+const drawings = browserDrawings();
 keepRemembered(store);
+keepDrawing(store, drawings);
 keepPresets(store);
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
@@ -123,20 +126,27 @@ function keepPresets(pageStore: PageStore): void {
   });
 }
 
-/** Whoever opens the page with nothing sees what is being plotted, or else the first sample. */
+/** The last drawing comes back. A browser without one sees the plot that is under way, or an empty sheet. */
 async function greet(pageStore: PageStore): Promise<void> {
-  await new Promise<void>((resolve) => {
-    const stop = pageStore.subscribe(({ link }) => {
-      if (link !== "connected") return;
-      stop();
-      resolve();
-    });
-  });
+  const kept = await readKeptDrawing(drawings);
+  if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
+  pageStore.setState({ isStarting: false });
+  await connected(pageStore);
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   const state = pageStore.getState();
   if (state.drawing !== null) return;
-  const job = activeJob(state);
-  const sample = state.samples[0];
+  const plotterId = currentPlotter(state)?.id;
+  const job = state.jobs.find((one) => ACTIVE_STATES.includes(one.state) && one.plotterId === plotterId);
   if (job) await actions.openJob(job);
-  else if (sample) await actions.openSample(sample.name, sample.title);
 }
+
+const connected = (pageStore: PageStore): Promise<void> =>
+  new Promise((resolve) => {
+    const look = (): void => {
+      if (pageStore.getState().link !== "connected") return;
+      stop();
+      resolve();
+    };
+    const stop = pageStore.subscribe(look);
+    look();
+  });

@@ -50,6 +50,12 @@ export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
+/** What a first visit begins with: one click on a sample. Waits for its plan. */
+export async function chooseSample(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Flower meadow" }).click();
+  await waitForPlan(page);
+}
+
 /** How many pixels of each colour (0xrrggbb) the screen shows at an element or in a box, decoded by the browser itself. */
 export async function colorCounts(
   ...[target, clip]: [Locator] | [Page, { x: number; y: number; width: number; height: number }]

@@ -31,14 +31,14 @@ describe("what the page remembers", () => {
     expect(readRemembered(store)).toEqual(kept);
   });
 
-  it("forgets layer switches, which belong to one drawing", () => {
+  it("keeps layer switches, for the drawing that comes back with them", () => {
     const store = memoryStore();
     const settings = {
       ...DEFAULT_PLOT_SETTINGS,
       prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, hiddenLayers: ["sky"] },
     };
     writeRemembered(store, { settings, view: DEFAULT_VIEW });
-    expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual([]);
+    expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual(["sky"]);
   });
 
   it("is the defaults on a first visit", () => {

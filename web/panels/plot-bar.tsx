@@ -111,6 +111,7 @@ interface WordsProps {
 /** Why "Plot" can't be pressed, or what becomes of the press. */
 const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
   const link = usePageState((state) => state.link);
+  const hasDrawing = usePageState((state) => state.drawing !== null);
   if (link === "lost") return <p className="note note-error">{words.needsServer}</p>;
   if (isSending) {
     return (
@@ -119,6 +120,7 @@ const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
       </p>
     );
   }
+  if (!hasDrawing) return <p className="note">{words.needsDrawing}</p>;
   if (isBusy) return <p className="note">{words.queueBusy}</p>;
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };

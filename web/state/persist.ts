@@ -124,11 +124,10 @@ export const readRemembered = (store: TextStore | null): Remembered => {
   }
 };
 
-/** Layer switches belong to one drawing, so they are not kept. */
+/** Layer switches too: the drawing that they belong to comes back with them (see kept-drawing.ts). */
 export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
-  const kept = { settings: { ...settings, prepare: { ...settings.prepare, hiddenLayers: [] } }, view };
   try {
-    store?.setItem(KEY, JSON.stringify(kept));
+    store?.setItem(KEY, JSON.stringify({ settings, view }));
   } catch {
     // A full or refused store only means that the next visit begins with the defaults.
   }
