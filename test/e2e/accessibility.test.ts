@@ -3,7 +3,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
-import { chooseSample, dropFile, plotBar, queuePanel } from "../support/page-actions.js";
+import { chooseSample, dropFile, plotBar, queuePanel, waitForSamples } from "../support/page-actions.js";
 import { DESK, PAGE_STATES, PHONE, inStates, type Look } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
@@ -30,7 +30,7 @@ async function firstVisit({ width, height }: Look = DESK): Promise<Page> {
   });
   const page = await context.newPage();
   await page.goto(server.url);
-  await page.locator(".sample img").nth(5).waitFor();
+  await waitForSamples(page);
   return page;
 }
 

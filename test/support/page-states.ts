@@ -12,6 +12,7 @@ import {
   plotBar,
   queuePanel,
   waitForPlan,
+  waitForSamples,
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
@@ -102,7 +103,7 @@ export const PAGE_STATES: readonly PageState[] = [
     name: "01-first-visit",
     isPassing: true,
     isFirstVisit: true,
-    reach: async ({ page }) => page.locator(".sample img").nth(5).waitFor(),
+    reach: ({ page }) => waitForSamples(page),
   },
   {
     name: "02-loaded",

@@ -52,9 +52,14 @@ export const LayerRow = (props: LayerRowProps) => {
           onClick={props.onToggle}
         >
           <span className="layer-words">
-            <span className="layer-name">
-              <span className="visually-hidden">{words.detailsOf} </span>
-              {name}
+            <span className="layer-title">
+              <span className="layer-name">
+                <span className="visually-hidden">{words.detailsOf} </span>
+                {name}
+              </span>
+              {row.colorCount > 1 && (
+                <strong className="layer-mixed">{words.colors(formatCount(row.colorCount))}</strong>
+              )}
             </span>
             <Facts row={row} isShown={isShown} />
           </span>
@@ -108,14 +113,7 @@ const Facts = ({ row, isShown }: { readonly row: PreparedLayer; readonly isShown
           ...(times > 1 ? [words.times(times)] : []),
           ...(hasOwn || isCoded ? [words.own] : []),
         ];
-  return (
-    <span className="layer-count">
-      {row.colorCount > 1 && (
-        <strong className="layer-mixed">{words.colors(formatCount(row.colorCount))}</strong>
-      )}
-      {facts.join(" · ")}
-    </span>
-  );
+  return <span className="layer-count">{facts.join(" · ")}</span>;
 };
 
 /** The colour that the layer is drawn in, its pen's or its own; where there are pens, a press chooses one. */
