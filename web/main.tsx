@@ -14,7 +14,7 @@ import { Player } from "./preview/player.js";
 import { readPresets, writePresets } from "./state/presets.js";
 import { listenForShortcuts, shortcutsFor } from "./state/shortcuts.js";
 import { applyServerEvent } from "./state/server-events.js";
-import { ACTIVE_STATES, createPageStore, currentPlotter, type PageStore } from "./state/store.js";
+import { createPageStore, unfinishedJob, type PageStore } from "./state/store.js";
 import { PageContext } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { ErrorBoundary } from "./ui/error-boundary.js";
@@ -115,7 +115,14 @@ function keepRemembered(pageStore: PageStore): void {
     if (state.view.theme !== before.view.theme) showTheme();
     if (state.settings === before.settings && state.view === before.view) return;
     if (kept !== null) clearTimeout(kept);
-    kept = setTimeout(() => writeRemembered(storage, pageStore.getState()), 300);
+    kept = setTimeout(write, 300);
+  });
+  const write = (): void => {
+    kept = null;
+    writeRemembered(storage, pageStore.getState());
+  };
+  window.addEventListener("pagehide", () => {
+    if (kept !== null) write();
   });
 }
 
@@ -133,10 +140,10 @@ async function greet(pageStore: PageStore): Promise<void> {
   pageStore.setState({ isStarting: false });
   await connected(pageStore);
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
+  actions.takeJobSettings();
   const state = pageStore.getState();
   if (state.drawing !== null) return;
-  const plotterId = currentPlotter(state)?.id;
-  const job = state.jobs.find((one) => ACTIVE_STATES.includes(one.state) && one.plotterId === plotterId);
+  const job = unfinishedJob(state);
   if (job) await actions.openJob(job);
 }
 

@@ -3,7 +3,14 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
-import { chooseSample, dropFile, plotBar, queuePanel, waitForSamples } from "../support/page-actions.js";
+import {
+  chooseSample,
+  dropFile,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+  waitForSamples,
+} from "../support/page-actions.js";
 import { DESK, PAGE_STATES, PHONE, inStates, type Look } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
@@ -51,6 +58,9 @@ async function unfold(page: Page): Promise<void> {
 describe("someone without a mouse", () => {
   it("reaches every control by Tab, and each says what it is", async () => {
     const page = await openPage();
+    // From the top, not from where the sample was pressed.
+    await page.reload();
+    await waitForPlan(page);
     const names = new Set<string>();
     for (let press = 0; press < 120; press++) {
       await page.keyboard.press("Tab");

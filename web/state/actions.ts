@@ -138,6 +138,18 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
+  /** A drawing that came back as a job's has that job's settings, whatever another tab has kept meanwhile. */
+  const takeJobSettings = (): void => {
+    const { drawing, jobs, settings } = store.getState();
+    if (!drawing || drawing.jobId === null) return;
+    const job = jobs.find(({ id }) => id === drawing.jobId);
+    if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
+    else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) {
+      store.setState({ settings: job.settings });
+      replan();
+    }
+  };
+
   const openFile = async (file: File): Promise<void> => {
     const read = file.size >= LARGE_BYTES ? file.arrayBuffer() : file.text();
     const svg = await read.catch(() => null);
@@ -194,6 +206,7 @@ export const createActions = (deps: ActionDeps) => {
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
     openDrawing,
     restoreDrawing,
+    takeJobSettings,
     openFile,
     openPasted,
     openSample,

@@ -168,6 +168,13 @@ export const activeJob = (state: PageState): Job | null => {
   );
 };
 
+/** That job, else one of the current plotter that was interrupted and can go on. */
+export const unfinishedJob = (state: PageState): Job | null => {
+  const plotterId = currentPlotter(state)?.id;
+  const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
+  return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
+};
+
 /** Watchers see everything and may stop a plot; they change nothing else. */
 export const mayOperate = ({ me }: PageState): boolean => me?.role !== "watch";
 
