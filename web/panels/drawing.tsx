@@ -20,7 +20,7 @@ export const DrawingPanel = () => {
           {size && <span className="note">{size}</span>}
         </p>
       )}
-      <ChooseFile />
+      <ChooseFile label={words.choose} />
       <p className="note">{words.chooseHint}</p>
       <Samples />
       <Report />
@@ -28,7 +28,7 @@ export const DrawingPanel = () => {
   );
 };
 
-const ChooseFile = () => {
+export const ChooseFile = ({ label }: { label: string }) => {
   const id = useId();
   const { openFile } = useActions();
   return (
@@ -46,7 +46,7 @@ const ChooseFile = () => {
       />
       <label htmlFor={id} className="button">
         <Icon name="file" />
-        {words.choose}
+        {label}
       </label>
     </div>
   );

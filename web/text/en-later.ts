@@ -3,6 +3,13 @@
  * A translation is a second file of this shape.
  */
 export const enLater = {
+  emptyPaper: {
+    title: "Drop a drawing here",
+    hint: "SVG, DXF, HPGL or JSON. You can also paste it.",
+    choose: "Choose a file",
+    samples: "Or try a sample",
+  },
+
   queue: {
     start: "Start",
     about: (duration: string) => `about ${duration}`,

@@ -247,12 +247,12 @@ describe("layers", () => {
     { groups: ["first", "second", "empty"] },
   );
 
-  it("are the groups that hold something, with their counts and their colour where it is one", () => {
+  it("are the groups that hold something, with their counts and the colour that most of them is drawn in", () => {
     const { layers } = prepare(drawing, TRUE_SIZE);
     expect(layers.map(({ id, name, color, strokeCount: n, drawMm }) => [id, name, color, n, drawMm])).toEqual(
       [
         ["g0", "first", "#ff0000", 1, 10],
-        ["g1", "second", null, 2, 50],
+        ["g1", "second", "#ff0000", 2, 50],
       ],
     );
   });
