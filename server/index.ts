@@ -118,7 +118,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       serverLog: () => readLog(dataDir),
       localName: () => localName?.name ?? null,
     });
-    const http = httpServer(options.tls, app, log);
+    const http = httpServer(options.tls, app, access, log);
     await listen(
       http,
       options.port ?? DEFAULT_PORT,
