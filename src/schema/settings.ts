@@ -24,8 +24,13 @@ const nonNegative = (max: number) => z.number().min(0).max(max);
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object({ widthMm: positive(5_000), heightMm: positive(5_000) });
 const layerId = z.string().max(500);
-const layerIds = z.array(layerId).max(10_000);
-const byLayer = <T extends z.ZodType>(value: T) => z.record(layerId, value);
+/** A drawing with more layers than that is none that somebody could plot. */
+const MOST_LAYERS = 10_000;
+const layerIds = z.array(layerId).max(MOST_LAYERS);
+const byLayer = <T extends z.ZodType>(value: T) =>
+  z
+    .record(layerId, value)
+    .refine((record) => Object.keys(record).length <= MOST_LAYERS, `at most ${MOST_LAYERS} layers`);
 const hatchSchema = z.object({
   spacingMm: nonNegative(100),
   angleDeg: z.number().min(-360).max(360),
@@ -75,8 +80,8 @@ export const prepareSettingsSchema = z.object({
   reach: paperSizeSchema.nullable().default(null),
   hatch: hatchSchema.default(DEFAULT_PREPARE.hatch),
   layerHatches: z
-    .array(hatchSchema.extend({ layer: z.string().max(500) }))
-    .max(10_000)
+    .array(hatchSchema.extend({ layer: layerId }))
+    .max(MOST_LAYERS)
     .default([]),
   outlineFills: z.boolean().default(DEFAULT_PREPARE.outlineFills),
   hideCovered: z.boolean().default(DEFAULT_PREPARE.hideCovered),
@@ -107,7 +112,7 @@ export const motionSettingsSchema = z.object({
     .nullable()
     .optional(),
   motorAccelStepsPerS2: positive(100_000_000).nullable().optional(),
-  layers: z.record(z.string().max(500), motionLimitsSchema.partial()).optional(),
+  layers: byLayer(motionLimitsSchema.partial()).optional(),
 }) satisfies z.ZodType<MotionSettings>;
 
 const layerPenSchema = z
@@ -132,7 +137,7 @@ export const penSettingsSchema = z.object({
     .object({ longestMm: positive(1_000), upPct: nonNegative(100) })
     .nullable()
     .optional(),
-  layers: z.record(z.string().max(500), layerPenSchema).optional(),
+  layers: byLayer(layerPenSchema).optional(),
 }) satisfies z.ZodType<PenSettings>;
 
 export const plotPenSchema = z.object({
