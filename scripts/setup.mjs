@@ -4,7 +4,15 @@
  */
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import {
+  accessSync,
+  constants,
+  existsSync,
+  mkdirSync,
+  readFileSync,
+  readdirSync,
+  writeFileSync,
+} from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -59,8 +67,21 @@ function installedIsCurrent() {
   );
 }
 
+/** Packages and the build are kept beside the sources. */
+function mustBeWritable() {
+  try {
+    accessSync(ROOT, constants.W_OK);
+  } catch {
+    giveUp(
+      `${ROOT} can't be written to, so packages and the build have no place.\n` +
+        "Change who may write there, or copy the folder to a place of your own.",
+    );
+  }
+}
+
 export function ensureDependencies() {
   if (installedIsCurrent()) return;
+  mustBeWritable();
   console.log("plotwright: installing packages (npm ci) …");
   if (runNpm(["ci", "--no-audit", "--no-fund"]) !== 0) {
     giveUp(
@@ -101,6 +122,7 @@ export function ensureBuild() {
   const stampFile = inRoot("dist", ".stamp");
   const stamp = sourceStamp();
   if (existsSync(stampFile) && readFileSync(stampFile, "utf8") === stamp) return;
+  mustBeWritable();
   console.log("plotwright: building …");
   // A test runner's NODE_ENV would bring React's development version.
   if (runNpm(["run", "--silent", "build"], { env: { ...process.env, NODE_ENV: "production" } }) !== 0) {

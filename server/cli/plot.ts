@@ -1,6 +1,6 @@
 /**
  * `plotwright plot FILE.svg`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
- * cancels: the pen lifts and the carriage goes home.
+ * cancels: the pen lifts and the carriage goes home. Without a keyboard to go on with, the first one cancels.
  */
 import { SingleBar } from "cli-progress";
 import { resolve } from "node:path";
@@ -90,7 +90,7 @@ class Control {
 
   interrupt(isFinal: boolean): void {
     if (this.#cancelling) return;
-    if (this.#held || isFinal) {
+    if (this.#held || isFinal || !this.#io.hasKeyboard) {
       this.#cancelling = true;
       this.#io.err("\nCancelling: the pen lifts and goes home.\n");
       this.#run.cancel().catch(this.#fail);
