@@ -36,7 +36,7 @@ export async function runPlot(
     );
     try {
       planner.warnings.forEach((warning) => io.err(`note: ${warning}\n`));
-      return await withPlotter(options, async (plotter) => {
+      return await withPlotter(options, settings, async (plotter) => {
         forget();
         const code = await watch(await plotter.plot(planner, settings), io);
         await plotter.motorsOff();

@@ -19,7 +19,12 @@ import { runPlot, type PlotCommandOptions } from "./plot.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import { runServe, type ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
-import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+import {
+  addSettingOptions,
+  handSettingsFromOptions,
+  settingsFromOptions,
+  type OptionValues,
+} from "./settings-options.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -81,14 +86,16 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
       setExitCode(await runPlot(file, settingsFromOptions(options), options, io)),
   );
 
-  addDevice(
+  addHandOptions(
     sub("pen", "lift or lower the pen").addArgument(
       program.createArgument("<where>").choices(["up", "down"]),
     ),
   )
     .option("--pen-up <percent>", "height when up", percent)
     .option("--pen-down <percent>", "height when down", percent)
-    .action((where: "up" | "down", options: OptionValues & { device?: string }) => runPen(where, options));
+    .action((where: "up" | "down", options: OptionValues & DeviceOptions) =>
+      runPen(where, handSettingsFromOptions(options), options),
+    );
   addMoves(sub);
   addService(program, io, setExitCode);
   sub("logs", "print what happened, to be sent to whoever helps")
@@ -107,8 +114,8 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--data <folder>", "folder for jobs and settings")
     .action((options: { data?: string }) => runMachines(options, io));
   sub("devices", "list the boards that are plugged in").action(() => runDevices(io));
-  addDevice(sub("info", "tell what the board says of itself")).action((options: { device?: string }) =>
-    runInfo(options, io),
+  addHandOptions(sub("info", "tell what the board says of itself")).action(
+    (options: OptionValues & DeviceOptions) => runInfo(handSettingsFromOptions(options), options, io),
   );
   return program;
 }
@@ -121,11 +128,11 @@ function addMoves(sub: (name: string, about: string) => Command): void {
     moveOf: (...at: number[]) => HandMove,
     names: string[] = [],
   ): void => {
-    const command = addDevice(addSettingOptions(sub(name, about)));
+    const command = addData(addDevice(addSettingOptions(sub(name, about))));
     for (const one of names) command.argument(`<${one}>`, "mm", mm);
     command.action((...given: unknown[]) => {
       const options = given[names.length] as DeviceOptions & OptionValues;
-      return runMove(moveOf(...(given as number[])), settingsFromOptions(options), options);
+      return runMove(moveOf(...(given as number[])), handSettingsFromOptions(options), options);
     });
   };
   move("home", "lift the pen and walk home", () => ({ kind: "home" }));
@@ -140,13 +147,13 @@ function addMoves(sub: (name: string, about: string) => Command): void {
   move("set-home", "make home where the carriage stands", () => ({ kind: "set-home" }));
   move("cycle-pen", "lower the pen and lift it again", () => ({ kind: "cycle-pen" }));
   move("test-patch", "draw a small pattern where the carriage stands", () => ({ kind: "test-patch" }));
-  addDevice(
+  addHandOptions(
     sub("align", "lift the pen and switch the motors off, to put the carriage to home by hand"),
-  ).action((options: DeviceOptions) => runAlign(options));
-  addDevice(
-    addSettingOptions(sub("frame", "go around a drawing, pen up").argument("<file>", "drawing")),
+  ).action((options: OptionValues & DeviceOptions) => runAlign(handSettingsFromOptions(options), options));
+  addData(
+    addDevice(addSettingOptions(sub("frame", "go around a drawing, pen up").argument("<file>", "drawing"))),
   ).action((file: string, options: DeviceOptions & OptionValues & { only?: readonly string[] }) =>
-    runFrame(file, settingsFromOptions(options), options),
+    runFrame(file, handSettingsFromOptions(options), options),
   );
 }
 
@@ -198,6 +205,16 @@ function addServe(command: Command): Command {
     .option("--max-upload-mb <number>", "largest drawing taken", positive, 200)
     .option("--open", "open the page in the browser");
 }
+
+/** Whose servo and steps these are: told, or as a server has kept them in its data folder. */
+function addHandOptions(command: Command): Command {
+  return addData(addDevice(command))
+    .option("--machine <id>", "plotter model; without it the one that the server's plotter has")
+    .option("--machine-file <file>", "JSON file with the profile of your own plotter");
+}
+
+const addData = (command: Command): Command =>
+  command.option("--data <folder>", "folder for jobs and settings");
 
 function addDevice(command: Command): Command {
   return command
