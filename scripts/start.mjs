@@ -15,7 +15,7 @@ const end = () => server.connected && server.disconnect();
 for (const signal of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(signal, end);
 server.on("exit", (code) => process.exit(code ?? 1));
 
-// npm may be killed without telling us, and then we belong to another process.
+// npm tells its shell to end, not us: then we belong to another process. (Of a SIGKILL, its shell tells nobody.)
 const npm = process.ppid;
 if (process.env.npm_lifecycle_event === "start") {
   setInterval(() => process.ppid !== npm && end(), 500).unref();
