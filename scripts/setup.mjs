@@ -40,6 +40,9 @@ export function checkNode() {
 export function run(command, args, options = {}) {
   const result = spawnSync(command, args, { cwd: ROOT, stdio: "inherit", ...options });
   if (result.error) throw result.error;
+  // What was caught is worth reading only when it went wrong.
+  if (result.status !== 0)
+    for (const text of [result.stdout, result.stderr]) process.stderr.write(text ?? "");
   return result.status ?? 1;
 }
 
@@ -125,7 +128,8 @@ export function ensureBuild() {
   mustBeWritable();
   console.log("plotwright: building …");
   // A test runner's NODE_ENV would bring React's development version.
-  if (runNpm(["run", "--silent", "build"], { env: { ...process.env, NODE_ENV: "production" } }) !== 0) {
+  const env = { ...process.env, NODE_ENV: "production" };
+  if (runNpm(["run", "--silent", "build"], { env, stdio: "pipe", maxBuffer: 100e6 }) !== 0) {
     giveUp(
       "the build failed; its message is above. In a checkout that you have not changed this is a fault of ours.",
     );

@@ -7,7 +7,7 @@ ensureDependencies();
 ensureBuild();
 
 // The channel tells the server when this process is gone, however it ended: it lifts the pen then, and ends too.
-const server = spawn(process.execPath, ["dist/server/main.js", "serve", ...process.argv.slice(2)], {
+const server = spawn(process.execPath, ["dist/server/main.js", ...process.argv.slice(2)], {
   cwd: ROOT,
   stdio: ["inherit", "inherit", "inherit", "ipc"],
 });

@@ -3,7 +3,9 @@ import { Command, CommanderError, InvalidArgumentError, Option } from "commander
 import { ERROR_TABLE, PlotwrightError } from "../../src/index.js";
 import type { HandMove } from "../plotter/hand-moves.js";
 import { runBoard, type BoardCommandOptions } from "./board.js";
+import { mustBeCommand } from "./first-word.js";
 import type { CliIo } from "./io.js";
+import { length } from "./lengths.js";
 import {
   runAlign,
   runDevices,
@@ -35,6 +37,7 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   let exitCode = 0;
   const program = buildProgram(io, version, (code) => (exitCode = code));
   try {
+    mustBeCommand(args[0], program.commands.map((command) => command.name()).concat("help"));
     await program.parseAsync([...args], { from: "user" });
     return exitCode;
   } catch (error) {
@@ -129,7 +132,7 @@ function addMoves(sub: (name: string, about: string) => Command): void {
     names: string[] = [],
   ): void => {
     const command = addData(addDevice(addSettingOptions(sub(name, about))));
-    for (const one of names) command.argument(`<${one}>`, "mm", mm);
+    for (const one of names) command.argument(`<${one}>`, "mm, or with a unit as in 2cm", length);
     command.action((...given: unknown[]) => {
       const options = given[names.length] as DeviceOptions & OptionValues;
       return runMove(moveOf(...(given as number[])), handSettingsFromOptions(options), options);
@@ -231,12 +234,6 @@ function port(text: string): number {
 function positive(text: string): number {
   const value = Number(text);
   if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
-  return value;
-}
-
-function mm(text: string): number {
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!Number.isFinite(value)) throw new InvalidArgumentError("It must be a number of mm.");
   return value;
 }
 

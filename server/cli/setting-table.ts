@@ -11,6 +11,7 @@ import {
   type PaperSize,
   type PlacedBox,
 } from "../../src/index.js";
+import { length, sizeMm } from "./lengths.js";
 
 export interface SettingOption {
   readonly flags: string;
@@ -35,12 +36,17 @@ const row = (
 const amount = (flags: string, path: string, about: string): SettingOption =>
   row(flags, path, about, { parse: number });
 
+const lengthOf = (flags: string, path: string, about: string): SettingOption =>
+  row(flags, path, about, { parse: length });
+
 export const SETTING_OPTIONS: readonly SettingOption[] = [
   row("--machine <id>", "machine", "plotter model, for example axidraw-v3"),
-  row("--paper <size>", "prepare.paper", "A4, A3, Letter, … or WIDTHxHEIGHT in mm", { parse: paper }),
+  row("--paper <size>", "prepare.paper", "A4, A3, Letter, … or WIDTHxHEIGHT in mm, or as in 8.5x11in", {
+    parse: paper,
+  }),
   row("--landscape", "prepare.landscape", "a named paper lies on its long side (default)"),
   row("--no-landscape", "prepare.landscape", "a named paper stands upright"),
-  amount("--margin <mm>", "prepare.marginMm", "free edge around the drawing"),
+  lengthOf("--margin <mm>", "prepare.marginMm", "free edge around the drawing"),
   row("--margins <mm,mm,mm,mm>", "prepare.margins", "top, right, bottom, left", { parse: fourMargins }),
   row("--fit", "prepare.fit", "scale the drawing to the paper inside the margins (default)"),
   row("--no-fit", "prepare.fit", "draw in true size"),
@@ -52,27 +58,27 @@ export const SETTING_OPTIONS: readonly SettingOption[] = [
   row("--clip", "prepare.clipToMargins", "cut off what lies outside the margins (default)"),
   row("--no-clip", "prepare.clipToMargins", "draw over the margins"),
   row("--crop-to-page", "prepare.cropToPage", "cut off what lies outside the file's own page"),
-  amount("--hatch <mm>", "prepare.hatch.spacingMm", "fill areas with lines so far apart"),
+  lengthOf("--hatch <mm>", "prepare.hatch.spacingMm", "fill areas with lines so far apart"),
   amount("--hatch-angle <deg>", "prepare.hatch.angleDeg", "direction of the hatch lines"),
   row("--hatch-cross", "prepare.hatch.cross", "hatch both ways"),
   row("--no-outline-fills", "prepare.outlineFills", "leave out the outline of shapes that are only filled"),
   row("--hide-covered", "prepare.hideCovered", "leave out what lies under filled shapes"),
-  amount("--drop-repeats <mm>", "prepare.dropRepeatsMm", "leave out what is drawn already, this near"),
-  amount("--drop-shorter <mm>", "prepare.dropShorterMm", "leave out strokes shorter than this"),
-  amount("--join <mm>", "prepare.joinMm", "join ends that are closer than this"),
-  amount("--simplify <mm>", "prepare.simplifyMm", "drop points closer than this to the line"),
+  lengthOf("--drop-repeats <mm>", "prepare.dropRepeatsMm", "leave out what is drawn already, this near"),
+  lengthOf("--drop-shorter <mm>", "prepare.dropShorterMm", "leave out strokes shorter than this"),
+  lengthOf("--join <mm>", "prepare.joinMm", "join ends that are closer than this"),
+  lengthOf("--simplify <mm>", "prepare.simplifyMm", "drop points closer than this to the line"),
   amount("--smooth <rounds>", "prepare.smoothRounds", "round off corners, 0 to 5 times"),
-  amount("--flatten <mm>", "prepare.flattenMm", "largest gap between a curve and its chords"),
+  lengthOf("--flatten <mm>", "prepare.flattenMm", "largest gap between a curve and its chords"),
   row("--reloop", "prepare.reloop", "begin closed strokes at a random point"),
   row("--order <how>", "prepare.order", "order of strokes", { choices: ORDER_MODES }),
   amount("--order-s <s>", "prepare.orderS", "how long --order best may search"),
   row("--spread <how>", "prepare.spread", "draw neighbours apart in time", { choices: SPREAD_MODES }),
-  amount("--reink <mm>", "prepare.reinkMm", "split layers after so much drawing, to take up ink"),
+  lengthOf("--reink <mm>", "prepare.reinkMm", "split layers after so much drawing, to take up ink"),
   row("--layers <by>", "prepare.layers", "what makes a layer", { choices: LAYER_MODES }),
   row("--mode <how>", "motion.mode", "how corners are taken", { choices: MOTION_MODES }),
   amount("--speed <mm/s>", "motion.draw.speedMmPerS", "largest speed, pen down"),
   amount("--accel <mm/s²>", "motion.draw.accelMmPerS2", "acceleration, pen down"),
-  amount("--corner <mm>", "motion.draw.cornerMm", "how far corners and tight curves may be left, pen down"),
+  lengthOf("--corner <mm>", "motion.draw.cornerMm", "how far corners and tight curves may be left, pen down"),
   amount("--jerk <mm/s³>", "motion.draw.jerkMmPerS3", "largest change of acceleration, pen down (scurve)"),
   amount("--travel-speed <mm/s>", "motion.travel.speedMmPerS", "largest speed, pen up"),
   amount("--travel-accel <mm/s²>", "motion.travel.accelMmPerS2", "acceleration, pen up"),
@@ -102,9 +108,9 @@ function number(text: string): number {
 function numbers(text: string, counts: readonly number[]): number[] {
   const parts = text.split(",");
   if (!counts.includes(parts.length)) {
-    throw new InvalidArgumentError(`It must be ${counts.join(" or ")} numbers with commas between.`);
+    throw new InvalidArgumentError(`It must be ${counts.join(" or ")} lengths with commas between.`);
   }
-  return parts.map(number);
+  return parts.map(length);
 }
 
 function fourMargins(text: string): FourMargins {
@@ -117,14 +123,14 @@ function place(text: string): PlacedBox {
   return { xMm, yMm, widthMm: widthMm ?? null, heightMm: heightMm ?? null };
 }
 
-/** A name, or WIDTHxHEIGHT in mm. */
+/** A name, or WIDTHxHEIGHT. */
 function paper(text: string): PaperSize {
   const name = Object.keys(PAPER_SIZES).find((one) => one.toLowerCase() === text.toLowerCase());
   if (name !== undefined) return PAPER_SIZES[name as keyof typeof PAPER_SIZES];
-  const match = /^(\d+(?:\.\d+)?)\s*[x×]\s*(\d+(?:\.\d+)?)(?:\s*mm)?$/i.exec(text);
-  if (match === null) {
-    const names = Object.keys(PAPER_SIZES).join(", ");
-    throw new InvalidArgumentError(`It must be one of ${names} or WIDTHxHEIGHT in mm.`);
-  }
-  return { widthMm: Number(match[1]), heightMm: Number(match[2]) };
+  const size = sizeMm(text);
+  if (size !== null) return size;
+  const names = Object.keys(PAPER_SIZES).join(", ");
+  throw new InvalidArgumentError(
+    `It must be one of ${names} or WIDTHxHEIGHT in mm, or as in 8.5x11in or 20x20cm.`,
+  );
 }
