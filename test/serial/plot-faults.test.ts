@@ -70,9 +70,10 @@ describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
         const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
         const result = await plotWithFault(fault, firmware, afterS, random);
         const { gapMm, overlapMm, awayMm, outcomes } = result;
+        const { sleptS } = result.report;
         const isDone = outcomes[outcomes.length - 1] === "done";
         if (!isDone || gapMm > MOST_MM || overlapMm > MOST_MM || awayMm > MOST_AWAY_MM) {
-          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes });
+          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes, sleptS });
         }
       }
       expect(wrong).toEqual([]);
