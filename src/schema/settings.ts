@@ -157,6 +157,12 @@ export const plotSettingsSchema = z.object({
   layerPens: byLayer(z.string().max(100)).default({}),
   penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
   layerStops: byLayer(z.boolean()).default({}),
+  /**
+   * Motion that the board is sent ahead of the pen. A board with a queue of one (before firmware 3) plays all of it
+   * after an emergency stop; less than 300 ms stops sooner, but then the pen stands still where the computer is busy
+   * for longer than that.
+   */
+  sendAheadMs: z.int().min(100).max(1_000).default(300),
   /** The whole profile of a machine that plotwright does not know by itself; counts when `machine` is its id. */
   customMachine: machineProfileSchema.nullable().default(null),
 });
@@ -178,5 +184,6 @@ export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   pens: [],
   layerPens: {},
   layerStops: {},
+  sendAheadMs: 300,
   customMachine: null,
 };

@@ -3,7 +3,7 @@
  * in the end, once. PLOTWRIGHT_FAULTS=20 for the long run: so many random instants of each, on both firmwares.
  */
 import { describe, expect, it } from "vitest";
-import { plotWithFault, waitS, type Fault } from "../support/faulty-plots.js";
+import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";
 
 const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
@@ -15,6 +15,8 @@ const LATEST_S = 7;
 const MOST_MM = 0.05;
 /** Beside the drawing: a rounded corner. */
 const MOST_AWAY_MM = 0.1;
+const MOST_SLEPT_S = 1;
+const MOST_TRIES = 3;
 
 const GARBAGE_BYTES = 300;
 
@@ -58,19 +60,26 @@ const FAULTS: readonly Fault[] = [
   },
 ];
 
+/** Plots again where the machine had so little time that the board seemed to have died. */
+async function undisturbed(plot: () => Promise<FaultyPlotResult>): Promise<FaultyPlotResult> {
+  for (let tries = 1; ; tries++) {
+    const result = await plot();
+    if (result.sleptS < MOST_SLEPT_S || tries === MOST_TRIES) return result;
+  }
+}
+
 // Mostly they wait for the board, so some go side by side.
 describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
   it.each(FAULTS)(
     "$name leaves no gap and draws nothing twice",
-    { timeout: 60_000 + 60_000 * COUNT },
+    { timeout: 120_000 + 90_000 * COUNT },
     async (fault) => {
       const random = seeded(1_000_003 * (1 + FAULTS.indexOf(fault)));
       const wrong: unknown[] = [];
       for (let i = 0; i < COUNT; i++) {
         const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
-        const result = await plotWithFault(fault, firmware, afterS, random);
-        const { gapMm, overlapMm, awayMm, outcomes } = result;
-        const { sleptS } = result.report;
+        const result = await undisturbed(() => plotWithFault(fault, firmware, afterS, random));
+        const { gapMm, overlapMm, awayMm, outcomes, sleptS } = result;
         const isDone = outcomes[outcomes.length - 1] === "done";
         if (!isDone || gapMm > MOST_MM || overlapMm > MOST_MM || awayMm > MOST_AWAY_MM) {
           wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes, sleptS });

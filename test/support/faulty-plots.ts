@@ -39,6 +39,8 @@ export interface FaultyPlotResult extends DrawnTruth {
   /** How each run of the plot ended: "done", or the error's code and message. */
   readonly outcomes: readonly string[];
   readonly report: BoardReport;
+  /** For how long the machine did not run the board's process meanwhile: a real board never stands still. */
+  readonly sleptS: number;
 }
 
 export const waitS = (s: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, 1_000 * s));
@@ -61,6 +63,7 @@ export async function plotWithFault(
         from: journal[journal.length - 1]?.place,
         journal: { record: (entry) => journal.push(entry) },
       });
+    const { sleptS: sleptBeforeS } = await board.report();
     let run = await start();
     await new Promise<void>((resolve) => run.onProgress(() => resolve()));
     const happened = waitS(afterS).then(() => fault.happen(board, random));
@@ -77,7 +80,8 @@ export async function plotWithFault(
     }
     await happened;
     const report = await board.report();
-    return { outcomes, report, ...compareDrawn(strokes, report.drawn) };
+    const sleptS = report.sleptS - sleptBeforeS;
+    return { outcomes, report, sleptS, ...compareDrawn(strokes, report.drawn) };
   } finally {
     await driver.close();
     await board.close();

@@ -37,6 +37,7 @@ export const MotionPanel = () => {
       <ModeChoice mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
       <Refinements motion={motion} />
+      <SendAhead />
     </SettingsGroup>
   );
 };
@@ -130,6 +131,25 @@ const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
         />
       )}
     </fieldset>
+  );
+};
+
+const SendAhead = () => {
+  const sendAheadMs = usePageState((state) => state.settings.sendAheadMs);
+  const { changeSettings } = useActions();
+  return (
+    <NumberField
+      label={words.sendAhead}
+      value={sendAheadMs}
+      unit="ms"
+      min={100}
+      max={1_000}
+      step={50}
+      hint={words.sendAheadHint}
+      onChange={(value) =>
+        changeSettings("send ahead", (settings) => ({ ...settings, sendAheadMs: Math.round(value) }))
+      }
+    />
   );
 };
 

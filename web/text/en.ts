@@ -105,6 +105,9 @@ export const en = {
     easeSpeed: "No faster than",
     fit: "Draw dense curves in long sweeps",
     fitTolerance: "Within",
+    sendAhead: "Sent ahead",
+    sendAheadHint:
+      "Before firmware 3 the board still plays this after an emergency stop. Less stops sooner, but then the pen may pause where this computer is busy.",
     fitHint: "Fewer, longer commands to the board, so that long curves run without stutter.",
   },
 
