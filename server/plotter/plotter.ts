@@ -58,7 +58,7 @@ export class PlotterDriver {
   /** Once a real board was there, the virtual one never takes its place. */
   private hadSerial = false;
   private powerIsLow = false;
-  private isConfirmingSupply = false;
+  private lastSupplyLow = false;
   private cancelSupply: (() => void) | null = null;
   private virtual: VirtualBoard | null = null;
 
@@ -317,17 +317,10 @@ export class PlotterDriver {
     if (line === "QC") this.supplyRead(isPowerLow(line, reply));
   }
 
-  /** One low reading may be another question's answer: asked again, it has to be low again. */
+  /** Twice in a row: a second program's answers may make one of ours be taken for another. */
   private supplyRead(isLow: boolean): void {
-    const { carriage } = this;
-    if (!isLow || !carriage || this.isConfirmingSupply) return;
-    this.isConfirmingSupply = true;
-    carriage
-      .supplyReading()
-      .then((reply) => isPowerLow("QC", reply) && this.carriage === carriage && this.powerLost())
-      // A lost board has its own way to be told of.
-      .catch(() => undefined)
-      .finally(() => (this.isConfirmingSupply = false));
+    if (isLow && this.lastSupplyLow) this.powerLost();
+    this.lastSupplyLow = isLow;
   }
 
   /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */

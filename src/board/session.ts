@@ -133,15 +133,9 @@ export class BoardSession {
    * One command whose answer is a value; resolves with the value without name and line ends. A question whose answer
    * is lost on the line is asked again.
    */
-  async query(line: string, waitS = 0): Promise<string> {
-    for (let tries = 1; ; tries++) {
-      try {
-        return await this.ask(line, waitS, false);
-      } catch (error) {
-        const isQuestion = /^(Q|PI|V)/.test(commandName(line));
-        if (!(error instanceof LostAnswer && isQuestion) || tries === QUESTION_TRIES) throw error;
-      }
-    }
+  query(line: string, waitS = 0): Promise<string> {
+    const isQuestion = /^(Q|PI|V)/.test(commandName(line));
+    return this.ask(line, waitS, false, isQuestion ? QUESTION_TRIES : 1);
   }
 
   /** One command that is answered by OK. Resolves at the answer: queued or done, see the board's protocol. */
@@ -177,16 +171,25 @@ export class BoardSession {
     await this.transport.close();
   }
 
-  private ask(line: string, waitS: number, alone: boolean): Promise<string> {
+  private ask(line: string, waitS: number, alone: boolean, tries = 1): Promise<string> {
     return new Promise((resolve, reject) => {
-      if (this.fault || this.closed) {
-        reject(this.fault ?? closedError());
-        return;
-      }
-      this.log.add("sent", line);
-      if (hasNoReply(line)) resolve("");
-      else this.expect(line, waitS, alone, (error, value) => (error ? reject(error) : resolve(value)));
-      this.put(`${line}\r`);
+      const askOnce = (triesLeft: number): void => {
+        if (this.fault || this.closed) {
+          reject(this.fault ?? closedError());
+          return;
+        }
+        this.log.add("sent", line);
+        if (hasNoReply(line)) resolve("");
+        else {
+          this.expect(line, waitS, alone, (error, value) => {
+            if (!error) resolve(value);
+            else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
+            else reject(error);
+          });
+        }
+        this.put(`${line}\r`);
+      };
+      askOnce(tries);
     });
   }
 
