@@ -164,7 +164,7 @@ export { SessionLog } from "./drivers/ebb/stream/session-log.js";
 export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
 export { streamCommands } from "./drivers/ebb/stream/stream-commands.js";
 export { parseSteps } from "./drivers/ebb/protocol/replies.js";
-export { Streamer, type StreamOptions, type StreamReport } from "./drivers/ebb/stream/streamer.js";
+export { mostAheadS, Streamer, type StreamOptions, type StreamReport } from "./drivers/ebb/stream/streamer.js";
 export type { StreamPlace } from "./drivers/ebb/stream/timeline.js";
 
 // export

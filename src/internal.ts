@@ -14,3 +14,4 @@ export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./s
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
 export type { EbbController } from "./machines/profile.js";
 export { isPenUpBefore, penMovesOf } from "./plan/pen-moves.js";
+export { STREAM_TABLE } from "./settings/stream.js";

@@ -7,6 +7,7 @@
  */
 import {
   machineOf,
+  mostAheadS,
   parseSteps,
   planJob,
   PlotwrightError,
@@ -29,8 +30,10 @@ import type { Connection } from "./connection.js";
 import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
 
-/** Motion kept ahead of the pen, seconds of ours. */
-const WINDOW_S = 0.3;
+/** Of a command of motion, see `slice-search`. */
+const LONGEST_COMMAND_S = 0.15;
+/** The line, the board and this computer. */
+const ANSWER_MS = 30;
 /** How often the board is asked for button and queue while it plays. */
 const POLL_S = 0.25;
 /** Overrun of the planned time that still is no fault, seconds of ours. */
@@ -194,12 +197,28 @@ export class Carriage {
     return this.state;
   }
 
-  streamer(): Streamer {
+  /**
+   * How long the motors may still run after an emergency stop. A queue of one is always full while something waits to
+   * be sent, and the board reads nothing before it has room: it plays all that was sent ahead.
+   */
+  emergencyStopMs({ sendAheadMs }: PlotSettings): number {
+    if (this.queueDepth > 1) return ANSWER_MS;
+    return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
+  }
+
+  /** For the log that users send along. */
+  noteEmergencyStop(settings: PlotSettings): void {
+    const { session, features } = this.connection;
+    const takesMs = this.emergencyStopMs(settings);
+    session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
+  }
+
+  streamer({ sendAheadMs }: PlotSettings): Streamer {
     const { session, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const streamer = new Streamer(session, {
       clock: boardClock,
-      windowS: WINDOW_S * speed,
+      windowS: (sendAheadMs / 1_000) * speed,
       queueDepth: this.queueDepth,
       poll: { lines: this.pollLines(), everyS: POLL_S * speed },
       stuckS: STUCK_S * waitSpeed,
@@ -258,7 +277,7 @@ export class Carriage {
       firmware: this.connection.features.version,
       board: this.state!,
     });
-    if (job.trajectory.blockCount > 0) await this.playJob(job);
+    if (job.trajectory.blockCount > 0) await this.playJob(job, settings);
   }
 
   /** Draws strokes given in mm from where the carriage stands, and comes back there. */
@@ -276,12 +295,12 @@ export class Carriage {
       firmware: this.connection.features.version,
       board: this.state!,
     });
-    await this.playJob(job);
+    await this.playJob(job, settings);
   }
 
-  private async playJob(job: MachineJob): Promise<void> {
+  private async playJob(job: MachineJob, settings: PlotSettings): Promise<void> {
     try {
-      await this.play(this.streamer(), { trajectory: job.trajectory, commands: job.commands() });
+      await this.play(this.streamer(settings), { trajectory: job.trajectory, commands: job.commands() });
     } catch (error) {
       if (error instanceof PlotwrightError && error.code === "conflict") await this.findPlace();
       throw error;

@@ -75,6 +75,7 @@ export class PlotterDriver {
       boardName: null,
       activity: "none",
       firmware: null,
+      emergencyStopMs: null,
       message: null,
       penUp: null,
       motorsOn: null,
@@ -117,6 +118,7 @@ export class PlotterDriver {
     await this.connecting;
     const carriage = this.idleCarriage();
     this.settings = settings;
+    this.carriageChanged();
     const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
     this.tell({ connection: "busy", activity: "plotting" });
@@ -384,6 +386,7 @@ export class PlotterDriver {
     if (!carriage) return;
     const place = carriage.place(machineOf(this.settings));
     this.tell({
+      emergencyStopMs: carriage.emergencyStopMs(this.settings),
       penUp: carriage.penUp,
       motorsOn: carriage.motorsOn,
       xMm: place?.x ?? null,

@@ -109,7 +109,7 @@ export class RunStream {
     if (this.failure) throw this.failure;
     this.boardPen = this.settings.current.pen;
     this.progress.add({ ...plot, start: carriage.boardState!, afterS });
-    const streamer = carriage.streamer();
+    const streamer = carriage.streamer(this.settings.current);
     const played = carriage.play(streamer, plot);
     this.streamer = streamer;
     begun();
@@ -152,6 +152,7 @@ export class RunStream {
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency = true;
+    this.carriage.noteEmergencyStop(this.settings.current);
     this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 

@@ -29,6 +29,8 @@ import {
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
+import { defaultsOf } from "../settings/setting.js";
+import { STREAM_TABLE } from "../settings/stream.js";
 import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
 import { machineProfileSchema } from "./machine.js";
 import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";
@@ -123,6 +125,12 @@ export const plotSettingsSchema = z.object({
   layerPens: byLayer(z.string().max(100)).default({}),
   penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
   layerStops: byLayer(z.boolean()).default({}),
+  /**
+   * Motion that the board is sent ahead of the pen. A board with a queue of one (before firmware 3) plays all of it
+   * after an emergency stop; less than 300 ms stops sooner, but then the pen stands still where the computer is busy
+   * for longer than that.
+   */
+  ...shapeWithDefaults(STREAM_TABLE),
   /** The whole profile of a machine that plotwright does not know by itself; counts when `machine` is its id. */
   customMachine: machineProfileSchema.nullable().default(null),
 });
@@ -144,5 +152,6 @@ export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   pens: [],
   layerPens: {},
   layerStops: {},
+  ...defaultsOf(STREAM_TABLE),
   customMachine: null,
 };

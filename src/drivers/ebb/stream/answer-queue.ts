@@ -6,12 +6,18 @@
  * So every waiting command knows the shape of its answer, and a line is given to the first command that it
  * can belong to. A value that only a later command can have asked for proves that the answers before it were
  * lost: a plot goes on over that, and the count of lost answers says so.
+ *
+ * A line that fits nothing is put aside. An `OK` where a value is due is one too many, unless the value was lost:
+ * then a second one follows. Either way the order is in doubt until the answer to `V` comes, which looks like no
+ * other; values asked for before it may be another command's and are not believed.
  */
 import { commandName, replyShape, type ReplyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 
 const NUMBER = /^\d+$/;
 const TWO_NUMBERS = /^-?\d+,-?\d+$/;
+/** Two readings of the converter, 10 bits each. */
+const TWO_READINGS = /^(0*\d{1,3}|0*10[01]\d|0*102[0-3]),(0*\d{1,3}|0*10[01]\d|0*102[0-3])$/;
 
 /** What a value looks like, by command, without the name: tells a command's own answer from another's. */
 const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
@@ -20,8 +26,8 @@ const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
   QG: /^[0-9A-F]{2}$/i,
   PI: NUMBER,
   QS: TWO_NUMBERS,
-  QC: TWO_NUMBERS,
-  QE: TWO_NUMBERS,
+  QC: TWO_READINGS,
+  QE: /^\d{1,2},\d{1,2}$/,
   QP: NUMBER,
   QB: NUMBER,
   QR: NUMBER,
@@ -29,7 +35,7 @@ const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
   QL: NUMBER,
   QU: /^(\d+,)?-?\d+$/,
   QT: /^.{1,16}$/,
-  ES: /^\d(,\d+){0,4}$/,
+  ES: /^[01](,\d+,\d+,-?\d+,-?\d+)?$/,
 };
 const NO_VALUE = /^$/;
 
@@ -45,15 +51,27 @@ interface Waiting {
   readonly shape: ReplyShape;
   readonly pattern: RegExp;
   value: string | null;
+  /** An OK came while its value was due. */
+  hadOk: boolean;
 }
 
-const ERROR_LINE = /!(\d+)\s*(?:Err:)?\s*(.*)$/;
+/** After noise too, which may have no line end of its own. */
+const ERROR_LINE = /!(\d+)\s*Err:\s*(.*)$/;
+
+/** The answer did not come, or cannot be told from another's. A question may be asked again. */
+export class LostAnswer extends PlotwrightError {
+  constructor(line: string) {
+    super("board-error", `The board's answer to ${line} was lost on the line.`);
+  }
+}
 
 export class AnswerQueue {
   /** Lines that belong to no command: garbage, a late answer, or another program's conversation. */
   strayCount = 0;
   /** Answers that never came, proved by the answer to a later command. */
   lostCount = 0;
+  /** The order of answers is in doubt: set by whoever then asks for `V`, whose answer ends it. */
+  inDoubt = false;
   /** A ring would save nothing: the queue is a few commands long. `head` avoids shifting the array. */
   private waiting: Waiting[] = [];
   private head = 0;
@@ -74,7 +92,7 @@ export class AnswerQueue {
   add(awaited: AwaitedAnswer): void {
     const name = commandName(awaited.line);
     const pattern = VALUE_PATTERNS[name] ?? NO_VALUE;
-    this.waiting.push({ awaited, name, shape: replyShape(name), pattern, value: null });
+    this.waiting.push({ awaited, name, shape: replyShape(name), pattern, value: null, hadOk: false });
   }
 
   /** One reply line without its line end; empty lines carry nothing in any syntax. */
@@ -127,8 +145,14 @@ export class AnswerQueue {
       this.forgivesOk = false;
       return;
     }
+    if (!first.hadOk) {
+      first.hadOk = true;
+      this.stray("OK");
+      return;
+    }
+    // Two, and no value: it was lost, and this OK belongs to the next.
     this.loseFirst();
-    if (!first.shape.ok && this.count > 0) this.takeOk();
+    if (this.count > 0) this.takeOk();
   }
 
   /** False when no waiting command can have asked for this. */
@@ -137,7 +161,10 @@ export class AnswerQueue {
       const candidate = this.waiting[i]!;
       const named = line === candidate.name || line.startsWith(`${candidate.name},`);
       const value = named ? line.slice(candidate.name.length + 1) : line;
-      if (candidate.value !== null || !candidate.pattern.test(value) || (value === "" && !named)) continue;
+      if (!candidate.pattern.test(value)) continue;
+      if (!named && (value === "" || candidate.shape.isNamed)) continue;
+      // A second value for the same question: one of the two is not its answer.
+      if (candidate.value !== null) return false;
       // A plain name is also what any later command of that name would send: never skip others for it.
       if (isPlain(candidate.shape) && i > this.head) return false;
       for (let before = i - this.head; before > 0; before--) this.loseFirst();
@@ -153,19 +180,18 @@ export class AnswerQueue {
     const lost = this.shift();
     this.lostCount++;
     // What got its value and lacks its OK was answered all the same; an OK says nothing but "taken".
-    if (lost.value !== null || isPlain(lost.shape)) {
+    if (isPlain(lost.shape) || (lost.value !== null && !this.inDoubt)) {
       lost.awaited.settle(null, lost.value ?? "");
       return;
     }
-    lost.awaited.settle(
-      new PlotwrightError("board-error", `The board's answer to ${lost.awaited.line} was lost on the line.`),
-      "",
-    );
+    lost.awaited.settle(new LostAnswer(lost.awaited.line), "");
   }
 
   private finish(done: Waiting, value: string): void {
     this.lastLine = done.awaited.line;
-    done.awaited.settle(null, value);
+    if (done.name === "V") this.inDoubt = false;
+    if (this.inDoubt && !isPlain(done.shape)) done.awaited.settle(new LostAnswer(done.awaited.line), "");
+    else done.awaited.settle(null, value);
   }
 
   private shift(): Waiting {

@@ -9,7 +9,7 @@
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
 import { commandName, LineSplitter, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
-import { AnswerQueue, type AwaitedAnswer } from "./answer-queue.js";
+import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
 import { SessionLog } from "./session-log.js";
 import type { Clock, Transport } from "../../transport.js";
 
@@ -45,6 +45,8 @@ interface SentCommand extends AwaitedAnswer {
 const IDENTIFY_TRIES = 3;
 const IDENTIFY_PATIENCE_S = 0.7;
 const OVERSLEPT_S = 0.25;
+/** How often a question is asked whose answers are lost. */
+const QUESTION_TRIES = 3;
 
 export class BoardSession {
   readonly log: SessionLog;
@@ -61,6 +63,8 @@ export class BoardSession {
   private firstSinceS = 0;
   private cancelWatch: (() => void) | null = null;
   private watchDueS = 0;
+  /** `V` was asked only to know which answer is which, and has not been answered yet. */
+  private isFindingOrder = false;
 
   constructor(
     private readonly transport: Transport,
@@ -69,7 +73,10 @@ export class BoardSession {
     this.clock = options.clock;
     this.patienceS = options.patienceS ?? 1.5;
     this.log = new SessionLog(options.clock, options.logLines);
-    this.answers = new AnswerQueue((line) => this.log.add("note", `belongs to no command: ${line}`));
+    this.answers = new AnswerQueue((line) => {
+      this.log.add("note", `belongs to no command: ${line}`);
+      this.findOrder();
+    });
     transport.onData((bytes) => this.take(bytes));
     transport.onClose((error) => this.lineClosed(error));
   }
@@ -122,9 +129,13 @@ export class BoardSession {
     return this.identity;
   }
 
-  /** One command whose answer is a value; resolves with the value without name and line ends. */
+  /**
+   * One command whose answer is a value; resolves with the value without name and line ends. A question whose answer
+   * is lost on the line is asked again.
+   */
   query(line: string, waitS = 0): Promise<string> {
-    return this.ask(line, waitS, false);
+    const isQuestion = /^(Q|PI|V)/.test(commandName(line));
+    return this.ask(line, waitS, false, isQuestion ? QUESTION_TRIES : 1);
   }
 
   /** One command that is answered by OK. Resolves at the answer: queued or done, see the board's protocol. */
@@ -160,17 +171,42 @@ export class BoardSession {
     await this.transport.close();
   }
 
-  private ask(line: string, waitS: number, alone: boolean): Promise<string> {
+  private ask(line: string, waitS: number, alone: boolean, tries = 1): Promise<string> {
     return new Promise((resolve, reject) => {
-      if (this.fault || this.closed) {
-        reject(this.fault ?? closedError());
-        return;
-      }
-      this.log.add("sent", line);
-      if (hasNoReply(line)) resolve("");
-      else this.expect(line, waitS, alone, (error, value) => (error ? reject(error) : resolve(value)));
-      this.put(`${line}\r`);
+      const askOnce = (triesLeft: number): void => {
+        if (this.fault || this.closed) {
+          reject(this.fault ?? closedError());
+          return;
+        }
+        this.log.add("sent", line);
+        if (hasNoReply(line)) resolve("");
+        else {
+          this.expect(line, waitS, alone, (error, value) => {
+            if (!error) resolve(value);
+            else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
+            else reject(error);
+          });
+        }
+        this.put(`${line}\r`);
+      };
+      askOnce(tries);
     });
+  }
+
+  /**
+   * A line came that belongs to no command: answers may have been lost or be one too many. `V` has an answer of a
+   * shape of its own, so with it everything before is answered.
+   */
+  private findOrder(): void {
+    if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
+    this.isFindingOrder = true;
+    this.answers.inDoubt = true;
+    this.log.add("sent", "V");
+    this.expect("V", this.patienceS, true, () => {
+      this.isFindingOrder = false;
+      this.answers.inDoubt = false;
+    });
+    this.put("V\r");
   }
 
   private expect(line: string, waitS: number, alone: boolean, onReply: Outgoing["onReply"]): void {

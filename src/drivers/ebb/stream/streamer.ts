@@ -62,6 +62,13 @@ const IDLE_POLL_S = 0.02;
 /** Of the window: so much motion is always ahead, also where the next command is longer than the rest of it. */
 const RESERVE_SHARE = 0.8;
 
+/**
+ * Seconds of motion that are ahead of the pen at most, with commands of up to `commandS`: the window, or its reserve
+ * and one command, or one command that runs and one that waits.
+ */
+export const mostAheadS = (windowS: number, commandS: number): number =>
+  Math.max(windowS, RESERVE_SHARE * windowS + commandS, 2 * commandS);
+
 export class Streamer {
   /** Times that the board ran dry in the middle of a run. */
   underrunCount = 0;
