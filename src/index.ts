@@ -106,7 +106,7 @@ export {
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 export { drawLimitsOf } from "./plan/limits.js";
-export { penOfLayer } from "./plan/pen-times.js";
+export { penOfLayer, reseatWaitS } from "./plan/pen-times.js";
 export { codeOfSpeed, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 
 // machines

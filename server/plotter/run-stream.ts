@@ -12,6 +12,7 @@ import {
   penMoveOf,
   penSetUpCommands,
   PlotwrightError,
+  reseatWaitS,
   stateAt,
   type BoardState,
   type CommandStream,
@@ -41,8 +42,6 @@ import type { PlannedPlot, PlotProgress } from "./types.js";
 const SNAP_MM = 0.5;
 /** Nearer to the end of a stroke, a place counts as its end. */
 const EDGE_MM = 0.05;
-/** A pen that is down already changes its height in this time. */
-const RESEAT_MS = 60;
 
 /** A way to rest, and what follows from it. */
 interface Rest {
@@ -239,7 +238,7 @@ export class RunStream {
     const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
     if (isDown && byPct > 0) {
       const { heightPct, ratePctPerS } = penMoveOf(pen, false);
-      const timeMs = ratePctPerS ? RESEAT_MS + (1_000 * byPct) / ratePctPerS : RESEAT_MS;
+      const timeMs = 1_000 * reseatWaitS(pen, byPct);
       const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
       lines.push([penCommand(machine, reseat), timeMs / 1000]);
     }
