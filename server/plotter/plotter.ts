@@ -117,7 +117,8 @@ export class PlotterDriver {
     this.settings = settings;
     const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
-    this.tell({ connection: "busy", activity: "plotting" });
+    const beginsHeld = start.held ?? (start.from ?? null) !== null;
+    this.tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
     run.onHeld((held) => this.tell({ activity: held ? "held" : "plotting" }));
     run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));
     run.finished.then(

@@ -87,7 +87,7 @@ export class PlotRuns {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#book.get(id);
     const job = this.#book.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
-    this.#begin(plotter, job);
+    this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
       ? "The board has lost its place: push the carriage to home by hand before you go on."
@@ -146,7 +146,7 @@ export class PlotRuns {
     await Promise.all(running.map(({ runner }) => runner.finished));
   }
 
-  #begin(plotter: PlotterPort, job: Job): void {
+  #begin(plotter: PlotterPort, job: Job): MovingTimer {
     const drawing = this.#parts.store.drawingOf(job.id);
     const runner = new Runner(
       {
@@ -166,6 +166,7 @@ export class PlotRuns {
     );
     const timer = new MovingTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+    return timer;
   }
 
   /** A disk that is full must not stop the pen in mid-stroke, nor end the server: it may have room again soon. */
@@ -207,11 +208,13 @@ export class PlotRuns {
     if (held && job.state === "plotting") {
       running?.timer.hold(this.#parts.nowIso());
       const waitsFor = wait ?? job.wait;
-      const isTakenUp = job.place !== null;
-      const message = isTakenUp ? job.message : waitsFor === null ? null : penWords(waitsFor);
+      const message = waitsFor === null ? null : penWords(waitsFor);
       this.#book.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
-    } else if (held && job.state === "paused" && wait !== null) {
-      this.#book.save({ ...job, wait, message: penWords(wait) });
+    } else if (held && job.state === "paused") {
+      // Taken up: only now the board has said where it came to.
+      const place = this.#holdPlace(running);
+      const isNewWait = wait !== null && wait.layerName !== job.wait?.layerName;
+      this.#book.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.#parts.nowIso());
       this.#book.apply(id, { type: "release" }, { place: null });

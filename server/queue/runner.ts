@@ -61,7 +61,7 @@ export class Runner {
 
   resume(): void {
     this.#pauseWanted = false;
-    if (this.#run !== null) this.#ask(this.#run.resume());
+    if (this.#run !== null) this.#ask(this.#resume(this.#run));
   }
 
   cancel(): void {
@@ -89,6 +89,12 @@ export class Runner {
     if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
+  /** A run that is resumed before it was ever held reports nothing of it by itself. */
+  async #resume(run: LivePlotRun): Promise<void> {
+    await run.resume();
+    if (!this.#pauseWanted) this.#reports.held(false, null);
+  }
+
   async #go(): Promise<void> {
     const end = await this.#plot().catch((error: unknown): RunEnd => {
       const wanted = this.isCancelling && error instanceof PlotwrightError && error.code === "cancelled";
@@ -112,6 +118,7 @@ export class Runner {
       // Wishes from the time when there was only a planner.
       if (this.isCancelling) this.#ask(run.cancel());
       else if (this.#pauseWanted) this.#ask(this.#hold(run));
+      else if (from !== null) this.#ask(this.#resume(run));
       if (speedPct !== 100) this.#ask(run.change({ speedPct }));
       return await run.finished;
     } finally {
