@@ -94,7 +94,7 @@ export class CarriageRun implements LivePlotRun {
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
     this.stream = new RunStream(carriage, this.strokes, this.settings, this.progress, {
       tell: (progress) => this.tell(progress),
-      ended: () => this.streamEnded(),
+      ended: (place) => this.streamEnded(place),
     });
     this.holdPlace = start.from ? this.placeLeft(start.from) : null;
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
@@ -365,9 +365,9 @@ export class CarriageRun implements LivePlotRun {
     this.stopTicking = this.tick();
   }
 
-  private streamEnded(): void {
+  private streamEnded(place: Place | null): void {
     this.stopTicking();
-    this.writeJournal(this.stream.stopped?.place ?? this.progress.place);
+    this.writeJournal(place ?? this.progress.place);
   }
 
   private tick(): () => void {

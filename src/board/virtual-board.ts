@@ -26,6 +26,9 @@ import { factoryInputs, inputsAfterReset, supplyReading } from "./virtual/querie
 export type { BoardStatistics } from "./virtual/core.js";
 export type { DrawnPolyline } from "./virtual/drawn-line.js";
 
+/** Below this the motors do not turn. */
+const LEAST_MOTOR_VOLTS = 7;
+
 export interface VirtualBoardOptions {
   readonly clock: Clock;
   /** Default "2.8.1". */
@@ -189,9 +192,14 @@ export class VirtualBoard {
     if (isDown) this.inputs.buttonLatched = true;
   }
 
-  /** 0 = switched off, about 5 = fed by USB alone. Below the threshold set by CU,60 the board remembers it. */
+  /**
+   * 0 = switched off, about 5 = fed by USB alone: the board counts its steps, and the motors stand. Below the threshold
+   * set by CU,60 the board remembers it.
+   */
   setMotorVolts(volts: number): void {
     const { inputs } = this;
+    this.run();
+    this.core.setTurnsMotors(volts >= LEAST_MOTOR_VOLTS);
     inputs.motorVolts = volts;
     if (inputs.powerThreshold > 0 && supplyReading(volts) < inputs.powerThreshold) {
       inputs.powerLostLatched = true;
@@ -241,6 +249,13 @@ export class VirtualBoard {
   resetByPower(): void {
     this.boot();
     this.dropLine("The virtual board was reset.");
+  }
+
+  /** It starts anew (its logic's supply fails for a moment): counters, queue and settings are lost, the line stays. */
+  restart(): void {
+    this.run();
+    this.boot();
+    this.run();
   }
 
   /** For good: its time stands still, and no timer is left that would keep a process alive. */
