@@ -1,0 +1,81 @@
+/**
+ * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the line, the whole drawing is on the paper
+ * in the end, once. PLOTWRIGHT_FAULTS=20 for the long run: so many random instants of each, on both firmwares.
+ */
+import { describe, expect, it } from "vitest";
+import { plotWithFault, waitS, type Fault } from "../support/faulty-plots.js";
+import { seeded } from "../support/live-plot.js";
+
+const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
+const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
+const EARLIEST_S = 0.3;
+const LATEST_S = 7;
+
+/** Not drawn in one piece, and drawn twice in all. */
+const MOST_MM = 0.05;
+/** Beside the drawing: a rounded corner. */
+const MOST_AWAY_MM = 0.1;
+
+const GARBAGE_BYTES = 300;
+
+const FAULTS: readonly Fault[] = [
+  { name: "nothing", happen: () => undefined },
+  {
+    name: "bytes lost while the line is mute",
+    happen: async (board, random) => {
+      board.tell({ type: "deaf", deaf: true, afterBytes: Math.floor(60 * random()) });
+      await waitS(6);
+      board.tell({ type: "deaf", deaf: false });
+    },
+  },
+  {
+    name: "a stray reply",
+    happen: (board) => board.tell({ type: "garbage", bytes: [...Buffer.from("OK\r\n")] }),
+  },
+  { name: "a refused command", happen: (board) => board.tell({ type: "refuse" }) },
+  {
+    name: "the cable pulled",
+    happen: async (board) => {
+      board.tell({ type: "unplug" });
+      await waitS(2);
+      board.tell({ type: "replug" });
+    },
+  },
+  {
+    name: "silence",
+    happen: async (board) => {
+      board.tell({ type: "mute", mute: true });
+      await waitS(4);
+      board.tell({ type: "mute", mute: false });
+    },
+  },
+  {
+    name: "garbage",
+    happen: (board, random) => {
+      const bytes = Array.from({ length: GARBAGE_BYTES }, () => Math.floor(256 * random()));
+      board.tell({ type: "garbage", bytes });
+    },
+  },
+];
+
+// Mostly they wait for the board, so some go side by side.
+describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
+  it.each(FAULTS)(
+    "$name leaves no gap and draws nothing twice",
+    { timeout: 60_000 + 60_000 * COUNT },
+    async (fault) => {
+      const random = seeded(1_000_003 * (1 + FAULTS.indexOf(fault)));
+      const wrong: unknown[] = [];
+      for (let i = 0; i < COUNT; i++) {
+        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+        const result = await plotWithFault(fault, firmware, afterS, random);
+        const { gapMm, overlapMm, awayMm, outcomes } = result;
+        const isDone = outcomes[outcomes.length - 1] === "done";
+        if (!isDone || gapMm > MOST_MM || overlapMm > MOST_MM || awayMm > MOST_AWAY_MM) {
+          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes });
+        }
+      }
+      expect(wrong).toEqual([]);
+    },
+  );
+});
