@@ -91,10 +91,21 @@ export function placeOfCounters(
   boardS: number,
 ): StreamPlace | null {
   const nearest = new NearestTick(features, steps1, steps2, boardS);
-  for (const command of commands) nearest.lookIn(command, stateBefore(command, commands), NO_STEPS);
+  for (const command of commands) {
+    const before = stateBefore(command, commands);
+    if (before && passes(command, before, steps1, steps2)) nearest.lookIn(command, before, NO_STEPS);
+  }
   return nearest.command && nearest.offSteps <= SAME_STEPS
     ? placeIn(nearest.command, nearest.boardS)
     : null;
+}
+
+/** Whether a command's ends have the counters between them: most of them need no closer look. */
+function passes({ stream, index }: InFlight, before: BoardState, steps1: number, steps2: number): boolean {
+  const isBetween = (from: number, to: number, steps: number): boolean =>
+    steps >= Math.min(from, to) - SAME_STEPS && steps <= Math.max(from, to) + SAME_STEPS;
+  const [end1, end2] = [stream.steps1[index]!, stream.steps2[index]!];
+  return isBetween(before.steps1, end1, steps1) && isBetween(before.steps2, end2, steps2);
 }
 
 /** What a command adds to the counters. */

@@ -86,6 +86,7 @@ export class VirtualBoard {
   private ticksPerByte = 0;
   private isMute = false;
   private repliesToLose = 0;
+  private refusesNext = false;
   private readonly sendListeners: ((bytes: Uint8Array) => void)[] = [];
   private readonly drainListeners: (() => void)[] = [];
   private readonly changeListeners: (() => void)[] = [];
@@ -235,6 +236,11 @@ export class VirtualBoard {
     this.repliesToLose += count;
   }
 
+  /** One letter of the next command is changed on the line, so the board refuses it. */
+  refuseNext(): void {
+    this.refusesNext = true;
+  }
+
   /** Infinity: as fast as USB. */
   setUsbBytesPerS(bytesPerS: number): void {
     this.ticksPerByte = Number.isFinite(bytesPerS) ? TICKS_PER_S / bytesPerS : 0;
@@ -346,7 +352,7 @@ export class VirtualBoard {
       core.finishRunning();
     } else {
       this.parserFreeTick = core.nowTick + this.parseTicks;
-      this.interpreter.run(this.input.take());
+      this.interpreter.run(this.takeLine());
     }
     if (this.interpreter.isBlocked) {
       this.interpreter.resume();
@@ -357,6 +363,13 @@ export class VirtualBoard {
       this.link?.pump();
       for (const listener of this.drainListeners) listener();
     }
+  }
+
+  private takeLine(): string {
+    const line = this.input.take();
+    if (!this.refusesNext || line === "") return line;
+    this.refusesNext = false;
+    return `#${line.slice(1)}`;
   }
 
   private setTimer(): void {
