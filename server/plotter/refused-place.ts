@@ -43,7 +43,8 @@ export function placeAfterRefusal(
   const stand = placeOfSteps(machine, steps1, steps2);
   const isAfter = at !== null && refused.command !== null && at.number > refused.command.number;
   const dropsPen =
-    isPenUpBefore(trajectory, commands.planS[index]!) && !isPenUpBefore(trajectory, commands.planS[index + 1]!);
+    isPenUpBefore(trajectory, commands.planS[index]!) &&
+    !isPenUpBefore(trajectory, commands.planS[index + 1]!);
   const isMove = from.x !== to.x || from.y !== to.y;
   if (at && (!isAfter || (!isMove && !dropsPen))) return placeOf(at, stand.x, stand.y);
 

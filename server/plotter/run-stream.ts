@@ -106,6 +106,14 @@ export class RunStream {
     return this.streamer?.isGoingOver ?? false;
   }
 
+  /** What the board will be given next is from there on. */
+  get sentPlace(): Place | undefined {
+    const { streamer } = this;
+    if (!streamer?.playing) return undefined;
+    const { trajectory, commands, next } = this.progress.partOf(streamer.nextStream);
+    return placeAt(trajectory, commands.planS[streamer.nextIndex]!) ?? next ?? undefined;
+  }
+
   /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { carriage } = this;

@@ -90,7 +90,7 @@ export class PlotRuns {
     this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
-      ? "The board has lost its place: push the carriage to home by hand before you go on."
+      ? "The board has lost its place: push the carriage to home by hand before you go on. The line may overlap a little there."
       : "The board still knows its place. Check it with the pen up, then go on.";
     return this.#book.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }
@@ -148,12 +148,16 @@ export class PlotRuns {
 
   #begin(plotter: PlotterPort, job: Job): MovingTimer {
     const drawing = this.#parts.store.drawingOf(job.id);
+    const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
+    const entry = this.#journal(job.id);
+    const isOfEntry = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
         plotter,
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
-        from: job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm },
+        from,
+        sent: isOfEntry ? entry?.sent : undefined,
         speedPct: job.speedPct,
       },
       {
@@ -245,13 +249,13 @@ export class PlotRuns {
 
   /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
   #interrupt(id: string, message: string): void {
-    const entry = journalSchema.safeParse(this.#parts.store.journal(id));
+    const entry = this.#journal(id);
     const { place } = this.#book.get(id);
-    this.#book.apply(id, {
-      type: "interrupt",
-      message,
-      place: entry.success ? jobPlace(entry.data.place) : place,
-    });
+    this.#book.apply(id, { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place });
+  }
+
+  #journal(id: string): z.infer<typeof journalSchema> | null {
+    return journalSchema.safeParse(this.#parts.store.journal(id)).data ?? null;
   }
 
   #holdPlace(running: Running | undefined): JobPlace | null {
@@ -301,9 +305,8 @@ const canGoOn = (error: Error): boolean =>
   error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
 
 /** What Store.journal gives back: written by this program, but perhaps by another version of it. */
-const journalSchema = z.object({
-  place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
-});
+const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
+const journalSchema = z.object({ place: placeSchema, sent: placeSchema.optional() });
 
 function mustBeThere(plotter: PlotterPort): void {
   const { connection, message, name } = plotter.snapshot();

@@ -34,6 +34,8 @@ export interface RunPlan {
   readonly open: OpenPlanner;
   /** Where to begin; null for the drawing's beginning. A run that begins in the middle begins held. */
   readonly from: Place | null;
+  /** What the board had been given when that place was written down. */
+  readonly sent: Place | undefined;
   /** Percent of the set speeds, as it was before an interruption. */
   readonly speedPct: number;
 }
@@ -107,11 +109,11 @@ export class Runner {
   }
 
   async #plot(): Promise<PlotOutcome> {
-    const { plotter, settings, open, from, speedPct } = this.#plan;
+    const { plotter, settings, open, from, sent, speedPct } = this.#plan;
     const planner = await open(this.#abort.signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
-      const run = await plotter.plot(planner, settings, { from, journal });
+      const run = await plotter.plot(planner, settings, { from, sent, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));

@@ -95,9 +95,7 @@ export function placeOfCounters(
     const before = stateBefore(command, commands);
     if (before && passes(command, before, steps1, steps2)) nearest.lookIn(command, before, NO_STEPS);
   }
-  return nearest.command && nearest.offSteps <= SAME_STEPS
-    ? placeIn(nearest.command, nearest.boardS)
-    : null;
+  return nearest.command && nearest.offSteps <= SAME_STEPS ? placeIn(nearest.command, nearest.boardS) : null;
 }
 
 /** Whether a command's ends have the counters between them: most of them need no closer look. */

@@ -308,7 +308,11 @@ export class Streamer {
     const place = { stream, commandIndex: index, planS: stream.planS[index]! };
     if (endS === startS) {
       this.lastWritten = place;
-      return { line, waitS: this.timeline.longestS(), onReply: (error) => this.answered(error, place, false) };
+      return {
+        line,
+        waitS: this.timeline.longestS(),
+        onReply: (error) => this.answered(error, place, false),
+      };
     }
     const waitS = this.timeline.longestS();
     const dryS = this.timeline.written(stream, index, startS, endS);
