@@ -8,15 +8,23 @@
  *   origin   host clock at the board's time 0, seconds; board time now = clock − origin
  *   proof    "command beginning at board time t has begun", heard at host time h:  origin ≤ h − t
  *
- * A proof is late by the line's delay and the host's own stalls, never early. So the estimate follows a proof
- * downward at once and upward slowly: one late answer does not make the host believe that the board is behind,
- * many in a row (a board whose seconds are longer than ours) do.
+ * A proof is late by the line's delay and the host's own stalls. So the estimate follows it upward slowly: one late
+ * answer does not make the host believe that the board is behind, many in a row (a board whose seconds are longer
+ * than ours) do.
+ *
+ * An answer can also be counted one command too early or too late: a stray OK, or one lost on the line. A single
+ * acknowledgement therefore moves the estimate by no more than the two clocks can have drifted apart. What the board
+ * says when it is asked how many commands wait is sure, and is believed at once.
  */
 const UPWARD_SHARE = 0.1;
+/** What one acknowledgement can move the estimate by: this and a share of the time since the one before. */
+const STEP_S = 0.005;
+const DRIFT_SHARE = 0.01;
 
 export class BoardPace {
   private originS = 0;
   private running = false;
+  private lastBegunS = 0;
 
   /** Estimated board time. Below 0 before the first command. */
   boardS(nowS: number): number {
@@ -30,6 +38,7 @@ export class BoardPace {
   written(startS: number, nowS: number): number {
     if (!this.running) {
       this.running = true;
+      this.lastBegunS = nowS;
       this.originS = nowS - startS;
       return 0;
     }
@@ -38,11 +47,18 @@ export class BoardPace {
     return Math.max(0, dryS);
   }
 
-  /** Proof that the command beginning at `startS` has begun. `waited`: the answer came when it had just begun. */
-  begun(startS: number, nowS: number, waited: boolean): void {
-    const originS = nowS - startS;
-    if (originS < this.originS) this.originS = originS;
-    else if (waited) this.originS += UPWARD_SHARE * (originS - this.originS);
+  /** An acknowledgement: the command beginning at `startS` has begun. `waited`: it came when that had just begun. */
+  acknowledged(startS: number, nowS: number, waited: boolean): void {
+    const mostS = STEP_S + DRIFT_SHARE * (nowS - this.lastBegunS);
+    const byS = Math.min(mostS, Math.max(-mostS, nowS - startS - this.originS));
+    if (byS < 0) this.originS += byS;
+    else if (waited) this.originS += UPWARD_SHARE * byS;
+    this.lastBegunS = nowS;
+  }
+
+  /** Proof that the command beginning at `startS` has begun. */
+  begun(startS: number, nowS: number): void {
+    this.originS = Math.min(this.originS, nowS - startS);
   }
 
   /** Proof that the command ending at `endS` had not ended when the board answered. */

@@ -57,15 +57,19 @@ export class BoardTimeline {
     private readonly stuckS: number,
   ) {}
 
-  /** Estimated board time, held back where the board has not acknowledged as far. */
+  /**
+   * Estimated board time. Where an answer is overdue, the board may not have got that command at all: then it plays
+   * what it has acknowledged and stops there.
+   */
   boardS(): number {
     const nowS = this.clock.nowS();
     const estimateS = Math.min(this.pace.boardS(nowS), this.endS);
-    // Unacknowledged number n means that the queue before it is full: n − depth has not begun.
     const unacked = this.entry(this.ackedCount);
+    if (!unacked || nowS - unacked.writtenS < WAITED_S) return estimateS;
+    // Number n without an answer may also mean that the queue before it is full: n − depth has not begun.
     const blocked = this.entry(this.ackedCount - this.queueDepth);
-    if (!unacked || !blocked || nowS - unacked.writtenS < WAITED_S) return estimateS;
-    return Math.min(estimateS, blocked.startS + ACK_SLACK_S);
+    const begunS = blocked ? blocked.startS + ACK_SLACK_S : Infinity;
+    return Math.min(estimateS, begunS, unacked.startS);
   }
 
   /** Commands written and not known to be over. */
@@ -79,7 +83,8 @@ export class BoardTimeline {
 
   /** The command under way at a board time; undefined after the last one. */
   at(boardS: number): InFlight | undefined {
-    return this.flight.find((entry) => boardS < entry.endS);
+    // An overdue answer takes the estimate back: what seemed to be over may not be.
+    return this.recent().find((entry) => boardS < entry.endS);
   }
 
   /** The longest that the board can rightly keep silent: its queue frees a place when a command ends. */
@@ -105,7 +110,7 @@ export class BoardTimeline {
     const entry = this.entry(this.ackedCount);
     const begun = this.entry(this.ackedCount - this.queueDepth);
     this.ackedCount++;
-    if (entry && begun) this.pace.begun(begun.startS, nowS, nowS - entry.writtenS > WAITED_S);
+    if (entry && begun) this.pace.acknowledged(begun.startS, nowS, nowS - entry.writtenS > WAITED_S);
   }
 
   /** The board says how many commands wait: that puts the time line right from both sides. True: it is stuck. */
@@ -113,7 +118,7 @@ export class BoardTimeline {
     const nowS = this.clock.nowS();
     const executing = this.entry(this.ackedCount - 1 - count);
     if (!executing) return false;
-    this.pace.begun(executing.startS, nowS, false);
+    this.pace.begun(executing.startS, nowS);
     if (count === 0) return false;
     this.pace.notEnded(executing.endS, nowS);
     if (executing.number !== this.executing) {
@@ -136,8 +141,11 @@ export class BoardTimeline {
     return [...this.over, ...this.flight];
   }
 
+  /** One of the commands written last, by its number. */
   private entry(number: number): InFlight | undefined {
-    const first = this.flight[0];
-    return first ? this.flight[number - first.number] : undefined;
+    const firstNumber = this.flight[0]?.number ?? this.writtenCount;
+    return number < firstNumber
+      ? this.over[this.over.length - (firstNumber - number)]
+      : this.flight[number - firstNumber];
   }
 }
