@@ -158,7 +158,8 @@ export { SessionLog } from "./board/session-log.js";
 export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
 export { streamCommands } from "./board/stream-commands.js";
 export { parseSteps } from "./ebb/replies.js";
-export { Streamer, type PollTime, type RefusedCommand, type StreamOptions, type StreamReport } from "./board/streamer.js";
+export { Streamer } from "./board/streamer.js";
+export type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./board/stream-types.js";
 export type { StreamPlace } from "./board/timeline.js";
 
 // export

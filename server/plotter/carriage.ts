@@ -31,6 +31,7 @@ import type { Connection } from "./connection.js";
 import { boardRestarted } from "./health.js";
 import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
+import { planWalk, shifted } from "./walks.js";
 
 /** Motion kept ahead of the pen, seconds of ours. */
 const WINDOW_S = 0.3;
@@ -50,13 +51,6 @@ const PLACE_KNOWN = 112;
 /** The same where the counters do not count from home. A board that has started anew holds 0. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
-
-const NO_STROKES: StrokeSet = {
-  xy: new Float64Array(0),
-  offsets: new Uint32Array(1),
-  layer: new Uint16Array(0),
-  layers: [],
-};
 
 export interface CarriageEvents {
   /** Pen, motors or place have changed. */
@@ -436,29 +430,6 @@ export class Carriage {
         "or moved by another program. Set home again before the next plot.",
     );
   }
-}
-
-/** A plan to home of nothing, moved so that home is the goal. */
-function planWalk(
-  fromX: number,
-  fromY: number,
-  toX: number,
-  toY: number,
-  settings: PlotSettings,
-): Trajectory {
-  const start = { startX: fromX - toX, startY: fromY - toY };
-  return shifted(plan(NO_STROKES, settings.motion, settings.pen, start), toX, toY);
-}
-
-/** The same motion elsewhere, mm. */
-function shifted(trajectory: Trajectory, byX: number, byY: number): Trajectory {
-  return {
-    ...trajectory,
-    x: trajectory.x.map((x) => x + byX),
-    y: trajectory.y.map((y) => y + byY),
-    endX: trajectory.endX + byX,
-    endY: trajectory.endY + byY,
-  };
 }
 
 /** True where the motion ended early but the counters still tell the place: stopped on purpose, or a command refused. */

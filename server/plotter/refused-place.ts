@@ -5,15 +5,17 @@
  *   planned   ━━━━━a━━━━━b━━━━━c━━━━━       refused: a to b
  *   drawn     ━━━━━a━━━━━c'                 b to c, drawn from a on
  *
- * Where the stroke is straight, c' lies on it, and the plot goes on from there. Elsewhere what was drawn is beside the
- * stroke, and the plot goes on from a: nothing is left out.
+ * Where the stroke is straight, or the refused command was a short one, a to c' lies on the stroke, and the plot goes on
+ * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
  */
 import type { MachineProfile, Place, RefusedCommand, StreamPlace, StrokeSet } from "../../src/index.js";
-import { boardStateBefore, isPenUpBefore, placeOfSteps, pointOfPlace } from "./plan-places.js";
+import { boardStateBefore, isPenUpBefore, placeOfSteps, pointOfPlace, snappedPlace } from "./plan-places.js";
 import type { Part } from "./run-progress.js";
 
-/** How far a line may be from straight, mm. */
-const STRAIGHT_MM = 0.03;
+/** What is drawn so near to the stroke counts as drawn. */
+const BESIDE_MM = 0.08;
+/** How far mm along the motion and mm along the drawing may be apart. */
+const SNAP_MM = 0.5;
 
 export interface RefusedStop {
   readonly refused: RefusedCommand;
@@ -53,20 +55,21 @@ export function placeAfterRefusal(
   if (!at || !place || run < 0 || !isMove) return place;
   // The rest of the stroke, as far as it has run.
   const isSame = at.stream === commands;
+  let on = place;
   let end = from;
   let wayMm = 0;
   for (let i = index + 1; i < commands.count && commands.run[i] === run; i++) {
     if (isSame && i > at.commandIndex) break;
-    const isLast = isSame && i === at.commandIndex;
     const [a, b] = [pointBefore(i), pointBefore(i + 1)];
+    const isLast = isSame && i === at.commandIndex;
     const next = isLast ? stand : { x: end.x + b.x - a.x, y: end.y + b.y - a.y };
     wayMm += distance(end, next);
+    const moving = { ...next, vx: next.x - end.x, vy: next.y - end.y };
+    on = snappedPlace(strokes, { ...place, alongMm: place.alongMm + wayMm }, moving, SNAP_MM);
+    if (distance(pointOfPlace(strokes, on), next) > BESIDE_MM) return place;
     end = next;
   }
-  const on = { stroke: place.stroke, alongMm: place.alongMm + distance(from, end) };
-  const isStraight =
-    wayMm - distance(from, end) < STRAIGHT_MM && distance(pointOfPlace(strokes, on), end) < STRAIGHT_MM;
-  return isStraight ? on : place;
+  return on;
 }
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);

@@ -118,7 +118,10 @@ export class BoardSession {
       } catch (error) {
         if (this.fault) throw this.fault;
         if (attempt < IDENTIFY_TRIES) continue;
-        throw this.hasHeard ? wrongBoard(this.log.tail(HEARD_LINES)) : silentAtStart(error);
+        const last = this.log.tail(HEARD_LINES);
+        // A board's own answer that comes too late is none of another device.
+        const isBoard = last.some((line) => firmwareFromReply(line) !== null);
+        throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
       }
     }
     // An earlier program may have left it in its other reply syntax.
