@@ -110,7 +110,8 @@ export class Runner {
 
   async #plot(): Promise<PlotOutcome> {
     const { plotter, settings, open, from, sent, speedPct } = this.#plan;
-    const planner = await open(this.#abort.signal);
+    // What was broken off may have left the pen on the paper: it is taken up even to be cancelled, which lifts it.
+    const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
       const run = await plotter.plot(planner, settings, { from, sent, journal });

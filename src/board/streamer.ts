@@ -342,7 +342,11 @@ export class Streamer {
     if (!this.playing) return;
     this.options.onPoll?.(line, reply, asked);
     const waiting = tellsTime ? waitingCount(line, reply) : null;
-    if (waiting !== null && this.timeline.waiting(waiting)) this.fail(stuck());
+    if (waiting !== null && this.timeline.waiting(waiting)) {
+      // What it still holds must not be drawn when it gets on again.
+      this.session.write([{ line: "ES" }]);
+      this.fail(stuck());
+    }
     if (!this.failure) this.pump();
   }
 
