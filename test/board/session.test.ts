@@ -48,6 +48,18 @@ describe("who is there", () => {
     const { clock, session } = newSession(() => "Grbl 1.1h ['$' for help]\r\n");
     expect(await outcome(clock.run(session.identify(), 3))).toMatch(/^no-board: .*Grbl 1\.1h/);
   });
+
+  it.each([
+    ["OK", "OK\r\n", /It said: "OK"/],
+    ["its own error", "!4\r\n", /It said: .*"!4"/],
+    ["the command itself", "V\r\nERROR\r\n", /It said: .*"V", "ERROR"/],
+    ["bytes without an end", "\x81\x7e", /choose another device\.$/],
+  ])("takes a device that answers %s, as a modem may, for no plotter", async (_, reply, words) => {
+    const { clock, session } = newSession(() => reply);
+    const said = await outcome(clock.run(session.identify(), 3));
+    expect(said).toMatch(/^no-board: Something answers on this port, but it is not an EiBotBoard/);
+    expect(said).toMatch(words);
+  });
 });
 
 describe("answers and the commands they belong to", () => {

@@ -94,7 +94,7 @@ const outcomeOf = (run: LivePlotRun): Promise<string> =>
     (error: PlotwrightError) => `${error.code}: ${error.message}`,
   );
 
-async function untilIdle(driver: PlotterDriver): Promise<void> {
+export async function untilIdle(driver: PlotterDriver): Promise<void> {
   const untilMs = Date.now() + 1_000 * IDLE_WITHIN_S;
   while (driver.state.connection !== "idle") {
     if (Date.now() > untilMs) throw new Error(`the plotter is not idle again: ${driver.state.message}`);

@@ -109,6 +109,9 @@ process.on("message", (message: ToBoard) => {
     case "reset":
       board.resetByPower();
       break;
+    case "restart":
+      board.restart();
+      break;
     case "foreign":
       foreignAnswer = message.answer;
       break;

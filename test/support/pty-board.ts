@@ -6,6 +6,8 @@ import type { BoardStatistics, VirtualBoardState } from "../../src/index.js";
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is there again at the same path. */
   | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
+  /** It starts anew, its counters at 0, but its USB stays. */
+  | { readonly type: "restart" }
   /** The line carries nothing in either direction and what is sent is lost; the board itself goes on. */
   | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }
   /** One letter of the next command is changed on its way, so the board refuses it (`!8`). */

@@ -47,6 +47,8 @@ const IDENTIFY_PATIENCE_S = 0.7;
 const OVERSLEPT_S = 0.25;
 /** How often a question is asked whose answers are lost. */
 const QUESTION_TRIES = 3;
+/** Of the log, for the message about a device that is no EiBotBoard. */
+const HEARD_LINES = 6;
 
 export class BoardSession {
   readonly log: SessionLog;
@@ -65,6 +67,8 @@ export class BoardSession {
   private watchDueS = 0;
   /** `V` was asked only to know which answer is which, and has not been answered yet. */
   private isFindingOrder = false;
+  /** Something has come from the other end since it was last asked who it is. */
+  private hasHeard = false;
 
   constructor(
     private readonly transport: Transport,
@@ -112,7 +116,7 @@ export class BoardSession {
    */
   async identify(): Promise<BoardIdentity> {
     for (let attempt = 1; ; attempt++) {
-      const straysBefore = this.strayCount;
+      this.hasHeard = false;
       try {
         // The try before may have ended in the middle of a line of its own.
         const text = await this.ask("V", IDENTIFY_PATIENCE_S, true);
@@ -121,7 +125,10 @@ export class BoardSession {
       } catch (error) {
         if (this.fault) throw this.fault;
         if (attempt < IDENTIFY_TRIES) continue;
-        throw this.strayCount > straysBefore ? wrongBoard(this.log.tail(3)) : silentAtStart(error);
+        const last = this.log.tail(HEARD_LINES);
+        // A board's own answer that comes too late is none of another device.
+        const isBoard = last.some((line) => firmwareFromReply(line) !== null);
+        throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
       }
     }
     // An earlier program may have left it in its other reply syntax.
@@ -231,6 +238,7 @@ export class BoardSession {
   }
 
   private take(bytes: Uint8Array): void {
+    this.hasHeard = true;
     this.lines.push(bytes, (line) => {
       this.log.add("received", line);
       this.answers.take(line);
@@ -318,11 +326,12 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
     { cause },
   );
 
-const wrongBoard = (lastLines: readonly string[]): PlotwrightError =>
-  new PlotwrightError(
+function wrongBoard(lastLines: readonly string[]): PlotwrightError {
+  const heard = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]!);
+  const said = heard.map((line) => JSON.stringify(line)).join(", ");
+  return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is no EiBotBoard: choose another device. It said: ${lastLines
-      .filter((line) => line.includes(" < "))
-      .map((line) => JSON.stringify(line.split(" < ")[1]))
-      .join(", ")}.`,
+    "Something answers on this port, but it is not an EiBotBoard: choose another device." +
+      (said === "" ? "" : ` It said: ${said}.`),
   );
+}

@@ -1,6 +1,7 @@
 import type { CommandStream } from "../compile/command-stream.js";
 import type { BoardSession } from "./session.js";
-import { Streamer, type StreamOptions, type StreamReport } from "./streamer.js";
+import type { StreamOptions, StreamReport } from "./stream-types.js";
+import { Streamer } from "./streamer.js";
 import type { StreamPlace } from "./timeline.js";
 import type { Cancellation } from "../../transport.js";
 

@@ -20,39 +20,9 @@ import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import type { BoardSession, Outgoing } from "./session.js";
-import { placeOfStop, type StopNotes } from "./stop-place.js";
-import { BoardTimeline, type StreamPlace } from "./timeline.js";
-import type { Clock } from "../../transport.js";
-
-export interface StreamOptions {
-  /** Counts board seconds. */
-  readonly clock: Clock;
-  /** Motion kept ahead of the pen, board seconds. Default 0.3. */
-  readonly windowS?: number;
-  /** Commands that wait in the board's queue before its parser blocks: 1, or what `CU,4` has set. */
-  readonly queueDepth?: number;
-  /** "acks": for comparison only, the next command is written when the one before is acknowledged. */
-  readonly pacing?: "window" | "acks";
-  /** Queries sent during the stream, every so many board seconds. `QU,6`, `QG` or `QM` as the first keep the time line true. */
-  readonly poll?: { readonly lines: readonly string[]; readonly everyS: number };
-  /** Board seconds beyond the plan before a board that does not get on counts as stuck. Default 2. */
-  readonly stuckS?: number;
-  readonly onPoll?: (line: string, reply: string) => void;
-  /** What to add to the board's step counters for the places of the streams. Default 0, 0. */
-  readonly origin?: readonly [number, number];
-}
-
-export interface StreamReport {
-  /** The board's step counters, `origin` added; null where its firmware cannot say. */
-  readonly steps1: number | null;
-  readonly steps2: number | null;
-  /** True when they equal the prediction (or cannot be read). */
-  readonly exact: boolean;
-  /** The last command written: the state after it is where the board stands. */
-  readonly end: StreamPlace;
-  /** False after a cut that nothing followed. */
-  readonly complete: boolean;
-}
+import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
+import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
+import { BoardTimeline, type InFlight, type StreamPlace } from "./timeline.js";
 
 /** Wake-ups closer than this are one. */
 const MIN_WAKE_S = 0.004;
@@ -74,6 +44,8 @@ export class Streamer {
   underrunCount = 0;
   /** Seconds that it stood still for that. */
   underrunS = 0;
+  /** A command that the board has refused: it never ran, though those written after it may have. */
+  refused: RefusedCommand | null = null;
 
   private readonly session: BoardSession;
   private readonly options: Required<Pick<StreamOptions, "clock" | "windowS" | "queueDepth" | "stuckS">> &
@@ -210,9 +182,20 @@ export class Streamer {
   }
 
   /** Where the board was when it stopped at once; null when it had nothing to run. */
-  placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): StreamPlace | null {
+  placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): NumberedPlace | null {
     if (!this.stop) throw new TypeError("nothing was stopped");
-    return placeOfStop({ ...this.stop, commands: this.timeline.recent() }, features, steps1, steps2);
+    const refused = this.refused?.command ?? null;
+    return placeOfStop({ ...this.stop, commands: this.timeline.recent(), refused }, features, steps1, steps2);
+  }
+
+  /** Where the board was when it answered a poll with these counters; null where its commands do not pass there. */
+  placeOfCounters(
+    features: FirmwareFeatures,
+    steps1: number,
+    steps2: number,
+    asked: PollTime,
+  ): StreamPlace | null {
+    return placeOfCounters(this.timeline.recent(), features, steps1, steps2, asked.boardS);
   }
 
   /** Stops writing and gives up waiting; what the board has is not touched. */
@@ -290,7 +273,11 @@ export class Streamer {
     const place = { stream, commandIndex: index, planS: stream.planS[index]! };
     if (endS === startS) {
       this.lastWritten = place;
-      return { line, waitS: this.timeline.longestS(), onReply: (error) => this.answered(error, false) };
+      return {
+        line,
+        waitS: this.timeline.longestS(),
+        onReply: (error) => this.answered(error, place, false),
+      };
     }
     const waitS = this.timeline.longestS();
     const dryS = this.timeline.written(stream, index, startS, endS);
@@ -299,7 +286,7 @@ export class Streamer {
       this.underrunS += dryS;
     }
     this.lastWritten = place;
-    return { line, waitS, onReply: (error) => this.answered(error, true) };
+    return { line, waitS, onReply: (error) => this.answered(error, place, true) };
   }
 
   private isSameRun(stream: CommandStream, index: number): boolean {
@@ -311,14 +298,23 @@ export class Streamer {
     return last.stream.run[last.commandIndex]! >= 0 && index === 0;
   }
 
-  private answered(error: PlotwrightError | null, takesTime: boolean): void {
+  private answered(error: PlotwrightError | null, at: StreamPlace, takesTime: boolean): void {
     this.unanswered--;
     if (error) {
-      this.fail(error);
+      if (this.session.failure) this.fail(error);
+      else this.refusedAt(at, error);
       return;
     }
     if (takesTime) this.timeline.acknowledged();
     this.pump();
+  }
+
+  /** What follows a refused command would be drawn beside its place. */
+  private refusedAt(at: StreamPlace, error: PlotwrightError): void {
+    if (this.failure) return;
+    const isIt = ({ stream, index }: InFlight): boolean => stream === at.stream && index === at.commandIndex;
+    this.refused = { at, command: this.timeline.recent().find(isIt) ?? null };
+    this.stopAtOnce(error);
   }
 
   private sleep(delayS: number): void {
@@ -335,12 +331,13 @@ export class Streamer {
       if (!this.playing) return;
       const waitS = this.timeline.longestS();
       const last = poll.lines.length - 1;
+      const asked: PollTime = { boardS: this.timeline.boardS(), place: this.place() };
       this.session.write(
         poll.lines.map((line, i) => ({
           line,
           waitS,
           onReply: (error, reply) => {
-            if (!error) this.polled(line, reply, i === 0);
+            if (!error) this.polled(line, reply, asked, i === 0);
             if (i === last) this.schedulePoll();
           },
         })),
@@ -348,11 +345,15 @@ export class Streamer {
     });
   }
 
-  private polled(line: string, reply: string, tellsTime: boolean): void {
+  private polled(line: string, reply: string, asked: PollTime, tellsTime: boolean): void {
     if (!this.playing) return;
-    this.options.onPoll?.(line, reply);
+    this.options.onPoll?.(line, reply, asked);
     const waiting = tellsTime ? waitingCount(line, reply) : null;
-    if (waiting !== null && this.timeline.waiting(waiting)) this.fail(stuck());
+    if (waiting !== null && this.timeline.waiting(waiting)) {
+      // What it still holds must not be drawn when it gets on again.
+      this.session.write([{ line: "ES" }]);
+      this.fail(stuck());
+    }
     if (!this.failure) this.pump();
   }
 

@@ -78,6 +78,8 @@ export class BoardCore {
   private frozenTick: number | null = null;
   /** False: moves take their time and make no step (a fault). */
   private makesSteps = true;
+  /** False: steps are counted, but the motors do not turn (no supply), so nothing is drawn. */
+  private turnsMotors = true;
   private readonly totals = {
     moveCount: 0,
     movingTicks: 0,
@@ -136,6 +138,14 @@ export class BoardCore {
   setMakesSteps(makesSteps: boolean): void {
     this.splitRunning();
     this.makesSteps = makesSteps;
+  }
+
+  /** Whether the motors follow the steps that are counted. */
+  setTurnsMotors(turnsMotors: boolean): void {
+    if (turnsMotors === this.turnsMotors) return;
+    this.splitRunning();
+    this.turnsMotors = turnsMotors;
+    this.line?.begin(!this.isLifted, ...this.stepsNow());
   }
 
   /** Where on its way the running order is. */
@@ -267,6 +277,7 @@ export class BoardCore {
     fresh.line = this.line;
     Object.assign(fresh.totals, this.totals);
     fresh.line?.begin(false, 0, 0);
+    fresh.turnsMotors = this.turnsMotors;
     return fresh;
   }
 
@@ -367,7 +378,7 @@ export class BoardCore {
       return;
     }
     const done = Math.floor(ticks);
-    this.line?.addMove(move, done, this.steps1, this.steps2);
+    if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2);
     const place1 = move.motion1.placeAt(done, { net: 0, acc: 0 });
     const place2 = move.motion2.placeAt(done, { net: 0, acc: 0 });
     this.steps1 += place1.net;

@@ -26,6 +26,9 @@ import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 export type { BoardStatistics } from "./core.js";
 export type { DrawnPolyline } from "./drawn-line.js";
 
+/** Below this the motors do not turn. */
+const LEAST_MOTOR_VOLTS = 7;
+
 export interface VirtualBoardOptions {
   readonly clock: Clock;
   /** Default "2.8.1". */
@@ -83,6 +86,7 @@ export class VirtualBoard {
   private ticksPerByte = 0;
   private isMute = false;
   private repliesToLose = 0;
+  private refusesNext = false;
   private readonly sendListeners: ((bytes: Uint8Array) => void)[] = [];
   private readonly drainListeners: (() => void)[] = [];
   private readonly changeListeners: (() => void)[] = [];
@@ -189,9 +193,14 @@ export class VirtualBoard {
     if (isDown) this.inputs.buttonLatched = true;
   }
 
-  /** 0 = switched off, about 5 = fed by USB alone. Below the threshold set by CU,60 the board remembers it. */
+  /**
+   * 0 = switched off, about 5 = fed by USB alone: the board counts its steps, and the motors stand. Below the threshold
+   * set by CU,60 the board remembers it.
+   */
   setMotorVolts(volts: number): void {
     const { inputs } = this;
+    this.run();
+    this.core.setTurnsMotors(volts >= LEAST_MOTOR_VOLTS);
     inputs.motorVolts = volts;
     if (inputs.powerThreshold > 0 && supplyReading(volts) < inputs.powerThreshold) {
       inputs.powerLostLatched = true;
@@ -227,6 +236,11 @@ export class VirtualBoard {
     this.repliesToLose += count;
   }
 
+  /** One letter of the next command is changed on the line, so the board refuses it. */
+  refuseNext(): void {
+    this.refusesNext = true;
+  }
+
   /** Infinity: as fast as USB. */
   setUsbBytesPerS(bytesPerS: number): void {
     this.ticksPerByte = Number.isFinite(bytesPerS) ? TICKS_PER_S / bytesPerS : 0;
@@ -241,6 +255,13 @@ export class VirtualBoard {
   resetByPower(): void {
     this.boot();
     this.dropLine("The virtual board was reset.");
+  }
+
+  /** It starts anew (its logic's supply fails for a moment): counters, queue and settings are lost, the line stays. */
+  restart(): void {
+    this.run();
+    this.boot();
+    this.run();
   }
 
   /** For good: its time stands still, and no timer is left that would keep a process alive. */
@@ -331,7 +352,7 @@ export class VirtualBoard {
       core.finishRunning();
     } else {
       this.parserFreeTick = core.nowTick + this.parseTicks;
-      this.interpreter.run(this.input.take());
+      this.interpreter.run(this.takeLine());
     }
     if (this.interpreter.isBlocked) {
       this.interpreter.resume();
@@ -342,6 +363,13 @@ export class VirtualBoard {
       this.link?.pump();
       for (const listener of this.drainListeners) listener();
     }
+  }
+
+  private takeLine(): string {
+    const line = this.input.take();
+    if (!this.refusesNext || line === "") return line;
+    this.refusesNext = false;
+    return `#${line.slice(1)}`;
   }
 
   private setTimer(): void {
