@@ -104,7 +104,7 @@ export { PlaceTimes } from "./plan/place-times.js";
 export { trajectoryStats, type TrajectoryStats } from "./plan/stats.js";
 
 export { drawLimitsOf } from "./plan/limits.js";
-export { penOfLayer, reseatWaitS } from "./plan/pen-times.js";
+export { penOfLayer } from "./plan/pen-times.js";
 export { codeOfSpeed, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 
 // machines
@@ -164,13 +164,8 @@ export { SessionLog } from "./drivers/ebb/stream/session-log.js";
 export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
 export { streamCommands } from "./drivers/ebb/stream/stream-commands.js";
 export { parseSteps } from "./drivers/ebb/protocol/replies.js";
-export { mostAheadS, Streamer } from "./drivers/ebb/stream/streamer.js";
-export type {
-  PollTime,
-  RefusedCommand,
-  StreamOptions,
-  StreamReport,
-} from "./drivers/ebb/stream/stream-types.js";
+export { Streamer } from "./drivers/ebb/stream/streamer.js";
+export type { StreamOptions, StreamReport } from "./drivers/ebb/stream/stream-types.js";
 export type { StreamPlace } from "./drivers/ebb/stream/timeline.js";
 
 // export

@@ -15,3 +15,6 @@ export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settin
 export type { EbbController } from "./machines/profile.js";
 export { isPenUpBefore, penMovesOf } from "./plan/pen-moves.js";
 export { STREAM_TABLE } from "./settings/stream.js";
+export { reseatWaitS } from "./plan/pen-times.js";
+export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
+export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";

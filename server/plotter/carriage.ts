@@ -7,7 +7,6 @@
  */
 import {
   machineOf,
-  mostAheadS,
   parseSteps,
   planJob,
   PlotwrightError,
@@ -23,7 +22,7 @@ import {
   type StreamReport,
   type StrokeSet,
 } from "../../src/index.js";
-import { planWalk } from "../../src/internal.js";
+import { planWalk, mostAheadS } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";

@@ -6,7 +6,8 @@
  *
  * The board answers these in order: what QC and QL find was true at QS already.
  */
-import { parseSteps, type FirmwareFeatures, type PollTime, type Streamer } from "../../src/index.js";
+import { parseSteps, type FirmwareFeatures, type Streamer } from "../../src/index.js";
+import { type PollTime } from "../../src/internal.js";
 import type { StreamPlace } from "../../src/index.js";
 import { isPowerLow } from "./health.js";
 

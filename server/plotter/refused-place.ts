@@ -8,8 +8,8 @@
  * Where the stroke is straight, or the refused command was a short one, a to c' lies on the stroke, and the plot goes on
  * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
  */
-import type { MachineProfile, Place, RefusedCommand, StreamPlace, StrokeSet } from "../../src/index.js";
-import { isPenUpBefore } from "../../src/internal.js";
+import type { MachineProfile, Place, StreamPlace, StrokeSet } from "../../src/index.js";
+import { isPenUpBefore, type RefusedCommand } from "../../src/internal.js";
 import { boardStateBefore, placeOfSteps, pointOfPlace, snappedPlace } from "./plan-places.js";
 import type { Part } from "./run-progress.js";
 

@@ -12,19 +12,17 @@ import {
   penMoveOf,
   penSetUpCommands,
   PlotwrightError,
-  reseatWaitS,
   stateAt,
   type BoardState,
   type CommandStream,
   type PenSettings,
   type Place,
-  type RefusedCommand,
   type Streamer,
   type StreamPlace,
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
-import { isPenUpBefore } from "../../src/internal.js";
+import { isPenUpBefore, reseatWaitS, type RefusedCommand } from "../../src/internal.js";
 import type { Carriage } from "./carriage.js";
 import type { CertainAt } from "./certain-place.js";
 import {
