@@ -1,11 +1,11 @@
 /** Any file that we read to a Drawing, told apart by what is in it; the name decides only in doubt. */
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
-import { importDxf } from "./import-dxf.js";
-import { importHpgl } from "./import-hpgl.js";
-import { importPolylines } from "./import-polylines.js";
+import { importDxf } from "./dxf/import-dxf.js";
+import { importHpgl } from "./hpgl/import-hpgl.js";
+import { importPolylines } from "./json/import-polylines.js";
 import type { ImportOptions } from "./import-options.js";
-import { importSvgSteps, type Pause } from "./import-svg.js";
+import { importSvgSteps, type Pause } from "./svg/import-svg.js";
 
 export const DRAWING_FORMATS = ["svg", "dxf", "hpgl", "json"] as const;
 export type DrawingFormat = (typeof DRAWING_FORMATS)[number];

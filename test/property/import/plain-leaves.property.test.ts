@@ -4,7 +4,7 @@
  */
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { generator, mutate } from "./support/mutate.js";
 
 const CASES = 400;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 
 /** The error that importing `text` throws. */
 function failure(text: string): PlotwrightError {

@@ -6,7 +6,7 @@ import { beforeAll, describe, expect, it } from "vitest";
 import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type Drawing } from "../../../src/drawing/drawing.js";
 import { flattenCubic } from "../../../src/geometry/cubic.js";
 import { PointBuffer } from "../../../src/geometry/growable.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { MM_PER_PX } from "../../../src/units.js";
 import { farthest, loadResvg, resvgShapes, type Polyline } from "./support/resvg-shapes.js";
 

@@ -1,6 +1,6 @@
 /** Small SVGs, one per feature of colours, CSS and visibility. */
 import { describe, expect, it } from "vitest";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import type { Drawing } from "../../../src/drawing/drawing.js";
 import { codes, draw, page, shapes } from "./support/shapes.js";
 

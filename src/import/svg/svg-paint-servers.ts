@@ -1,0 +1,49 @@
+/** The colour that stands for a gradient or pattern. */
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { parseColor } from "../color.js";
+import type { Context } from "./svg-context.js";
+import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import { declaredValue, INITIAL_STYLE } from "./style.js";
+
+const SERVERS = new Set(["linearGradient", "radialGradient", "pattern", "meshgradient", "hatch"]);
+const MAX_HREF_STEPS = 32;
+
+export class SvgPaintServers {
+  private readonly serverColors = new Map<string, string | null | undefined>();
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+  ) {}
+
+  /** The colour that stands for a paint server; null for an invisible one, undefined where there is none. */
+  serverColor(id: string, context: Context): string | null | undefined {
+    if (!this.serverColors.has(id)) this.serverColors.set(id, this.findServerColor(id, context));
+    return this.serverColors.get(id);
+  }
+
+  /** The first stop's colour, found through the chain of hrefs that gradients may share stops by. */
+  private findServerColor(id: string, context: Context): string | null | undefined {
+    const { tree } = this;
+    let element = tree.elementById.get(id);
+    if (element === undefined || !SERVERS.has(tagOf(tree, element))) return undefined;
+    for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
+      for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+        if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
+      }
+      const href = attribute(tree, element, HREF) ?? "";
+      element = tree.elementById.get(href.slice(1));
+    }
+    return INITIAL_STYLE.color.hex;
+  }
+
+  private stopColor(stop: number, context: Context): string {
+    const declared = new Declared();
+    this.cascade.collect(stop, declared);
+    const text = declaredValue(context.style, declared, "stop-color");
+    if (text === undefined) return INITIAL_STYLE.color.hex;
+    if (text.toLowerCase() === "currentcolor") return context.style.color.hex;
+    return (parseColor(text) ?? INITIAL_STYLE.color).hex;
+  }
+}

@@ -1,0 +1,450 @@
+/**
+ * The walk over the tree: every rendered element in paint order, each with what it inherits.
+ *
+ * Frames are kept on a stack of our own, so that depth costs memory and never the call stack.
+ * `use` is followed as a frame with one child; the chain of targets we are inside of stops circles,
+ * and a budget of visits stops copies of copies from growing without end.
+ */
+import { PlotwrightError } from "../../errors.js";
+import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
+import { AlikeShapes, type Model } from "./alike-shapes.js";
+import { SHAPE_TAGS } from "./basic-shapes.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import type { Side } from "./length.js";
+import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
+import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgClips } from "./svg-clips.js";
+import type { SvgGeometry } from "./svg-geometry.js";
+import { markerPlaces } from "./markers.js";
+import { isMarked, SvgMarkers } from "./svg-markers.js";
+import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
+import type { SvgPainter } from "./svg-painter.js";
+import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { aroundOrigin, parseTransform } from "./transform.js";
+import { parseViewBox, viewBoxMap } from "./view-box.js";
+import type { WarningCode, Warnings } from "../warnings.js";
+import type { DrawingBuilder } from "../drawing-builder.js";
+
+/** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
+const MAX_COPIED_ELEMENTS = 500_000;
+const MAX_COPIED_COORDS = 50_000_000;
+const ELEMENTS_PER_YIELD = 1000;
+const COORDS_PER_YIELD = 100_000;
+/** As many as stay in the processor's cache. */
+const COORDS_AT_ONCE = 8_000;
+
+const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
+const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
+  image: "image-not-drawn",
+  video: "not-supported",
+  audio: "not-supported",
+  canvas: "not-supported",
+  iframe: "not-supported",
+  mesh: "not-supported",
+  flowRoot: "not-supported",
+};
+const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
+
+interface Frame {
+  readonly context: Context;
+  next: number;
+  /** Only `next` itself, not its siblings. */
+  readonly isSingle: boolean;
+  /** A warning about everything drawn inside, placed when the frame ends. */
+  readonly warning: WarningCode | null;
+  readonly firstShape: number;
+}
+
+export class SvgWalk {
+  private readonly declared = new Declared();
+  /** The context computed last, and from what. */
+  private readonly last = {
+    outer: null as Context | null,
+    declared: new Declared(),
+    inner: null as Context | null,
+  };
+  private readonly stack: Frame[] = [];
+  private copiedElements = 0;
+  private copiedCoords = 0;
+  /** The group of what is drawn outside of every layer; −1 until needed. */
+  private looseGroup = -1;
+  private readonly markers: SvgMarkers;
+  private readonly alike: AlikeShapes;
+  private subtreeEnds: Uint32Array | null = null;
+  private atOnce = 1;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+    private readonly layers: LayerPlan,
+    private readonly svgGeometry: SvgGeometry,
+    private readonly clips: SvgClips,
+    private readonly painter: SvgPainter,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+    private readonly conditions: SvgConditions,
+  ) {
+    this.markers = new SvgMarkers(tree, cascade, clips);
+    this.alike = new AlikeShapes(tree, cascade);
+  }
+
+  /** Draws everything below the root. Yields often enough for a page to stay responsive. */
+  *run(rootContext: Context): Generator<void, void> {
+    const { tree, stack } = this;
+    this.push(rootContext, tree.firstChildren[0], false, null);
+    const places = new Uint32Array(ELEMENTS_PER_YIELD);
+    let visited = 0;
+    let coordsAtYield = 0;
+    while (stack.length > 0) {
+      const frame = stack[stack.length - 1];
+      const element = frame.next;
+      if (element < 0) {
+        stack.pop();
+        this.leave(frame);
+        continue;
+      }
+      const model = this.alike.modelOf(element, frame.context);
+      const drawn = model === null || frame.isSingle ? 0 : this.drawPolylines(element, model, places);
+      frame.next = frame.isSingle ? -1 : tree.nextSiblings[Math.max(element, element + drawn - 1)];
+      if (drawn === 0) this.visit(element, frame.context, model);
+      visited += Math.max(drawn, 1);
+      if (visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+        visited = 0;
+        coordsAtYield = this.builder.coordCount;
+        this.builder.progress = element / tree.count;
+        yield;
+      }
+    }
+  }
+
+  /** As many paths like the model from `element` on, which is, as are plain polylines: answers how many. */
+  private drawPolylines(element: number, model: Model, places: Uint32Array): number {
+    const count = this.alike.pathsLike(model, element, places, Math.min(this.atOnce, places.length));
+    const drawn = count === 0 ? 0 : this.painter.drawPolylines(model, places, count, COORDS_AT_ONCE);
+    // Where such paths are few, not many are looked at in vain.
+    this.atOnce = Math.max(1, drawn < count ? drawn : 2 * count);
+    return drawn;
+  }
+
+  private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
+    this.stack.push({ context, next, isSingle, warning, firstShape: this.builder.shapeCount });
+  }
+
+  private leave(frame: Frame): void {
+    if (frame.warning === null) return;
+    const { builder } = this;
+    if (builder.shapeCount === frame.firstShape) return;
+    this.warnings.add(frame.warning, builder.boxOfShapes(frame.firstShape, builder.shapeCount));
+  }
+
+  private visit(element: number, outer: Context, model: Model | null): void {
+    // `declared` still is the model's.
+    if (model)
+      return void this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
+    this.alike.model = null;
+    const tag = tagOf(this.tree, element);
+    if (tag === TEXT_NODE) return;
+    const isContainer = CONTAINERS.has(tag);
+    if (!isContainer && !SHAPE_TAGS.has(tag) && tag !== "text") {
+      this.visitOther(element, tag, outer);
+      return;
+    }
+    if (tag === "symbol" && outer.uses?.target !== element) return;
+    if (!this.conditions.areMet(element)) return;
+    this.spendCopy(outer);
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const styled = this.styled(outer);
+    const { style } = styled;
+    const group = this.groupOf(element, tag, outer);
+    if (declaredValue(style, declared, "display") === "none") {
+      if (group !== outer.group) this.hideGroup(group);
+      return;
+    }
+    if (this.isTransparent(style)) return;
+    const transform = this.transformOf(element, style, outer);
+    if (determinant(transform) === 0) return;
+    let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
+    const warning = this.effectOf(style);
+    const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
+    if (clip === "empty") return;
+    if (clip !== context.clip) context = { ...context, clip };
+    if (!isContainer) this.visitLeaf(element, tag, context, warning, outer);
+    else this.enter(element, tag, context, warning);
+  }
+
+  /** The context with the style that `declared` makes: most elements declare what the one before did. */
+  private styled(outer: Context): Context {
+    const { last, declared } = this;
+    if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
+      last.inner = withStyle(outer, computeStyle(outer.style, declared, outer.basis), IDENTITY);
+      last.outer = outer;
+      last.declared.copyFrom(declared);
+    }
+    return last.inner;
+  }
+
+  private visitLeaf(
+    element: number,
+    tag: string,
+    context: Context,
+    warning: WarningCode | null,
+    outer: Context,
+  ): void {
+    const before = this.builder.shapeCount;
+    const coordsBefore = this.builder.coordCount;
+    if (tag === "text") this.painter.drawText(element, context);
+    else {
+      const look = this.painter.drawShape(element, tag, this.declared, context, null);
+      if (isMarked(tag, context)) this.pushMarkers(context);
+      else if (look !== null && warning === null) {
+        this.alike.offer({ element, outer, tag, context, look }, this.declared);
+      }
+    }
+    if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
+    if (warning !== null && this.builder.shapeCount > before) {
+      this.warnings.add(warning, this.builder.boxOfShapes(before, this.builder.shapeCount));
+    }
+  }
+
+  private enter(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+    const { tree } = this;
+    switch (tag) {
+      case "use":
+        this.enterUse(element, context, warning);
+        return;
+      case "svg":
+      case "symbol": {
+        const inner = this.viewportInside(element, tag, context, outerSizeOf(context, element));
+        if (inner !== null) this.push(inner, tree.firstChildren[element], false, warning);
+        return;
+      }
+      case "switch": {
+        const child = this.chosenChild(element);
+        if (child >= 0) this.push(context, child, true, warning);
+        return;
+      }
+      default:
+        this.push(context, tree.firstChildren[element], false, warning);
+    }
+  }
+
+  private enterUse(element: number, context: Context, warning: WarningCode | null): void {
+    const { tree, warnings } = this;
+    const href = attribute(tree, element, HREF)?.trim() ?? "";
+    const line = `line ${tree.lines[element]}`;
+    if (!href.startsWith("#")) {
+      if (href === "") warnings.add("reference-missing", undefined, line);
+      else warnings.add("reference-external", undefined, href.slice(0, 60));
+      return;
+    }
+    const target = tree.elementById.get(decodeFragment(href.slice(1)));
+    if (target === undefined) {
+      warnings.add("reference-missing", undefined, href.slice(0, 60));
+      return;
+    }
+    const depth = (context.uses?.depth ?? 0) + 1;
+    if (depth > MAX_COPY_DEPTH || isInsideUseOf(context.uses, target) || this.isAncestor(target, element)) {
+      warnings.add("circular-use", undefined, href.slice(0, 60));
+      return;
+    }
+    const x = this.geometry(context, element, "x", "width") ?? 0;
+    const y = this.geometry(context, element, "y", "height") ?? 0;
+    const size = {
+      width: this.geometry(context, element, "width", "width"),
+      height: this.geometry(context, element, "height", "height"),
+    };
+    const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
+    this.push(
+      { ...context, map, uses: { element, target, size, outer: context.uses, depth } },
+      target,
+      true,
+      warning,
+    );
+  }
+
+  /** Markers on the shape just drawn, as frames: their content is elements like any other. */
+  private pushMarkers(context: Context): void {
+    const { tree } = this;
+    const { style } = context;
+    if (!style.isVisible) return;
+    const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
+    const places = markerPlaces(this.svgGeometry.shape);
+    // Last first, since the last frame pushed is drawn first.
+    for (const place of places.reverse()) {
+      const id = ids[place.kind];
+      const marker = id === null ? undefined : tree.elementById.get(id);
+      if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
+      if (isInsideUseOf(context.uses, marker)) continue;
+      this.spendCopy(context);
+      const inner = this.markers.insideOf(marker, place, context);
+      if (inner !== null) this.push(inner, tree.firstChildren[marker], false, null);
+    }
+  }
+
+  private isAncestor(candidate: number, element: number): boolean {
+    this.subtreeEnds ??= subtreeEndsOf(this.tree);
+    return candidate <= element && element < this.subtreeEnds[candidate];
+  }
+
+  /** The context inside a nested svg or a symbol; null where it has no size. */
+  private viewportInside(
+    element: number,
+    tag: string,
+    context: Context,
+    useSize: { readonly width: number | null; readonly height: number | null } | null,
+  ): Context | null {
+    const { tree, declared } = this;
+    const { viewportWidth, viewportHeight } = context.basis;
+    const isSvg = tag === "svg";
+    const x = isSvg ? (this.geometry(context, element, "x", "width") ?? 0) : 0;
+    const y = isSvg ? (this.geometry(context, element, "y", "height") ?? 0) : 0;
+    const ownWidth = this.geometry(context, element, "width", "width");
+    const ownHeight = this.geometry(context, element, "height", "height");
+    const width = useSize?.width ?? ownWidth ?? viewportWidth;
+    const height = useSize?.height ?? ownHeight ?? viewportHeight;
+    if (!(width > 0 && height > 0)) return null;
+    const box = parseViewBox(attribute(tree, element, "viewBox"));
+    const inner =
+      box === null
+        ? IDENTITY
+        : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
+    const overflow = declaredValue(context.style, declared, "overflow");
+    const isCut = overflow !== "visible" && overflow !== "auto";
+    const clip = isCut ? this.clips.rectangleClip(context, x, y, width, height) : context.clip;
+    const map = compose(translation(x, y), inner);
+    return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
+  }
+
+  private visitOther(element: number, tag: string, outer: Context): void {
+    if (ANIMATIONS.has(tag)) {
+      this.warnings.add("animation-ignored");
+      return;
+    }
+    const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
+    if (code === undefined || !this.conditions.areMet(element)) return;
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const style = computeStyle(outer.style, declared, outer.basis);
+    if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
+    if (this.isTransparent(style)) return;
+    const context = withStyle(outer, style, this.transformOf(element, style, outer));
+    const box = this.svgGeometry.placeOf(
+      context,
+      this.geometry(context, element, "x", "width") ?? 0,
+      this.geometry(context, element, "y", "height") ?? 0,
+      this.geometry(context, element, "width", "width") ?? 0,
+      this.geometry(context, element, "height", "height") ?? 0,
+    );
+    this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
+  }
+
+  /** A length that CSS or an attribute may give. Valid while `declared` is of this element. */
+  private geometry(
+    context: Context,
+    element: number,
+    name: "x" | "y" | "width" | "height",
+    side: Side,
+  ): number | null {
+    return this.svgGeometry.lengthOf(element, this.declared, context, name, side);
+  }
+
+  /** By its own opacity. Valid while `declared` is of this element, as are the next two. */
+  private isTransparent(style: Context["style"]): boolean {
+    const opacity = declaredValue(style, this.declared, "opacity");
+    return opacity !== undefined && parseOpacity(opacity) === 0;
+  }
+
+  private transformOf(element: number, style: Context["style"], outer: Context): Affine {
+    const text = declaredValue(style, this.declared, "transform");
+    if (text === undefined) return IDENTITY;
+    const map = parseTransform(text);
+    if (map === null) {
+      this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
+      return IDENTITY;
+    }
+    const origin = declaredValue(style, this.declared, "transform-origin");
+    return origin === undefined ? map : aroundOrigin(map, origin, outer.basis);
+  }
+
+  /** A filter or mask that will be missing from what the element draws. */
+  private effectOf(style: Context["style"]): WarningCode | null {
+    const { declared } = this;
+    const isSet = (value: string | undefined): boolean => value !== undefined && value !== "none";
+    if (isSet(declaredValue(style, declared, "mask"))) return "mask-ignored";
+    return isSet(declaredValue(style, declared, "filter")) ? "filter-ignored" : null;
+  }
+
+  private chosenChild(element: number): number {
+    const { tree } = this;
+    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+      const tag = tagOf(tree, child);
+      const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
+      if (isDrawn && this.conditions.areMet(child)) return child;
+    }
+    return -1;
+  }
+
+  private groupOf(element: number, tag: string, outer: Context): number {
+    const { tree, layers, builder } = this;
+    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
+    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
+    if (isLayer) {
+      const number = builder.groups.length + 1;
+      const name = layerName(tree, element) ?? `Layer ${number}`;
+      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
+    }
+    if (this.looseGroup < 0) {
+      const number = builder.groups.length + 1;
+      this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    }
+    return this.looseGroup;
+  }
+
+  private hideGroup(group: number): void {
+    const { groups } = this.builder;
+    groups[group] = { ...groups[group], hidden: true };
+    this.warnings.add("hidden-layer", undefined, groups[group].name);
+  }
+
+  private spendCopy(context: Context): void {
+    if (context.uses === null) return;
+    this.copiedElements++;
+    if (this.copiedElements <= MAX_COPIED_ELEMENTS && this.copiedCoords <= MAX_COPIED_COORDS) return;
+    throw new PlotwrightError(
+      "bad-file",
+      `The copies (<use>) in this SVG come to more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
+        this.tree.lines[context.uses.element]
+      }). Remove copies of copies, or export with copies resolved.`,
+    );
+  }
+}
+
+/** The size that a `use` gives to the svg or symbol it refers to. */
+function outerSizeOf(
+  context: Context,
+  element: number,
+): { readonly width: number | null; readonly height: number | null } | null {
+  return context.uses?.target === element ? context.uses.size : null;
+}
+
+/** One past the last element inside each element; elements stand in document order. */
+function subtreeEndsOf(tree: SvgTree): Uint32Array {
+  const ends = new Uint32Array(tree.count);
+  for (let element = tree.count - 1; element >= 0; element--) {
+    ends[element] = Math.max(ends[element], element + 1);
+    const parent = tree.parents[element];
+    if (parent >= 0) ends[parent] = Math.max(ends[parent], ends[element]);
+  }
+  return ends;
+}
+
+function decodeFragment(fragment: string): string {
+  try {
+    return decodeURIComponent(fragment);
+  } catch {
+    return fragment;
+  }
+}
