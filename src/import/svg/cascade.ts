@@ -9,7 +9,7 @@
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
-import { attribute, attributeValue, TEXT_NODE, tagOf, type SvgTree } from "./svg-tree.js";
+import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 
 /** Properties that the importer uses; the first group may also be written as attributes. */
 const PRESENTATION = [
@@ -84,8 +84,6 @@ export class Cascade {
   private readonly byType = new Map<string, FiledRule[]>();
   private readonly forAll: FiledRule[] = [];
   private readonly hasRules: boolean;
-  /** Whether elements of one type whose attributes are the same, ids apart, have the same style from the same parent. */
-  readonly goesByAttributes: boolean;
   /** By name number of the tree: whether the attribute is a presentation attribute. */
   private readonly isPresentation: Uint8Array;
   private readonly refs = new Map<number, ElementRef>();
@@ -98,18 +96,13 @@ export class Cascade {
     const faults: string[] = [];
     let importCount = 0;
     let order = 0;
-    let goesByAttributes = true;
     for (const text of styleTexts(tree)) {
       const sheet = parseStyleSheet(text);
       importCount += sheet.importCount;
       faults.push(...sheet.faults);
-      for (const rule of sheet.rules) {
-        this.file(rule, order++, faults);
-        goesByAttributes &&= rule.isKeyAlone && rule.key.kind !== "id";
-      }
+      for (const rule of sheet.rules) this.file(rule, order++, faults);
     }
     this.hasRules = order > 0;
-    this.goesByAttributes = goesByAttributes;
     this.importCount = importCount;
     this.faults = faults;
   }
@@ -274,7 +267,7 @@ function* styleTexts(tree: SvgTree): Generator<string> {
     if (tree.tags[element] !== style) continue;
     let text = "";
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
-      text += attributeValue(tree, tree.attributeOffsets[child]);
+      text += textOf(tree, child);
     }
     yield text;
   }

@@ -3,12 +3,11 @@ import { compose, meanScale, rotation, scaling, translation } from "../../geomet
 import type { Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
-import type { Model } from "./alike-shapes.js";
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "../drawing-builder.js";
 import { lengthPx } from "./length.js";
-import { drawPathData, readPolylines } from "../path-data.js";
+import { drawPathData } from "../path-data.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
@@ -26,7 +25,6 @@ export class SvgPainter {
   private element = 0;
   private readonly where = (): string => this.geometry.whereOf(this.element);
   private readonly textPaths: SvgTextPaths;
-  private polylineEnds = new Uint32Array(0);
 
   constructor(
     private readonly tree: SvgTree,
@@ -41,40 +39,20 @@ export class SvgPainter {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
   }
 
-  /** Answers how it is painted, null where it is not. With `known` that is not asked again. */
-  drawShape(
-    element: number,
-    tag: string,
-    declared: Declared,
-    context: Context,
-    known: Look | null,
-  ): Look | null {
+  drawShape(element: number, tag: string, declared: Declared, context: Context): void {
     const { style } = context;
-    if (!style.isVisible) return null;
+    if (!style.isVisible) return;
     this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
       if (shape.lonePoints > 0)
         this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
-      return null;
+      return;
     }
-    const look = known ?? this.lookOf(element, tag, declared, context);
+    const look = this.lookOf(element, tag, declared, context);
     if (look !== null) {
       this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
     }
-    return look;
-  }
-
-  /**
-   * Paths like `model`, the data of which stands at the first `count` of `places`. Answers how many it has drawn: up to one
-   * that is no plain polyline or out of range, or until there are `most` numbers or more.
-   */
-  drawPolylines({ context, look }: Model, places: Uint32Array, count: number, most: number): number {
-    const { coords } = this.geometry.shape;
-    if (this.polylineEnds.length < count) this.polylineEnds = new Uint32Array(count);
-    const ends = this.polylineEnds;
-    const read = readPolylines(coords, ends, this.tree.values.text, places, count, most);
-    return this.builder.addPolylines(coords.data, ends, read, context.map, look, context.group);
   }
 
   /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */

@@ -5,7 +5,7 @@
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
-import { attributeValue, attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
 import type { Context } from "./svg-context.js";
 import { layOutText, type Char, type LaidOutText } from "./svg-text-layout.js";
@@ -69,7 +69,7 @@ class Gatherer {
       const { node, style, open, path } = stack.pop()!;
       const tag = tagOf(tree, node);
       if (tag === TEXT_NODE) {
-        this.addText(attributeValue(tree, tree.attributeOffsets[node]), style, path, open);
+        this.addText(textOf(tree, node), style, path, open);
         continue;
       }
       const onPath = tag === "textPath" ? this.paths.of(node, this.context) : path;

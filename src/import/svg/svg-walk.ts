@@ -7,7 +7,6 @@
  */
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
-import { AlikeShapes, type Model } from "./alike-shapes.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -32,8 +31,6 @@ const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
 const ELEMENTS_PER_YIELD = 1000;
 const COORDS_PER_YIELD = 100_000;
-/** As many as stay in the processor's cache. */
-const COORDS_AT_ONCE = 8_000;
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
 const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
@@ -71,9 +68,7 @@ export class SvgWalk {
   /** The group of what is drawn outside of every layer; −1 until needed. */
   private looseGroup = -1;
   private readonly markers: SvgMarkers;
-  private readonly alike: AlikeShapes;
   private subtreeEnds: Uint32Array | null = null;
-  private atOnce = 1;
 
   constructor(
     private readonly tree: SvgTree,
@@ -87,14 +82,12 @@ export class SvgWalk {
     private readonly conditions: SvgConditions,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
-    this.alike = new AlikeShapes(tree, cascade);
   }
 
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
   *run(rootContext: Context): Generator<void, void> {
     const { tree, stack } = this;
     this.push(rootContext, tree.firstChildren[0], false, null);
-    const places = new Uint32Array(ELEMENTS_PER_YIELD);
     let visited = 0;
     let coordsAtYield = 0;
     while (stack.length > 0) {
@@ -105,27 +98,15 @@ export class SvgWalk {
         this.leave(frame);
         continue;
       }
-      const model = this.alike.modelOf(element, frame.context);
-      const drawn = model === null || frame.isSingle ? 0 : this.drawPolylines(element, model, places);
-      frame.next = frame.isSingle ? -1 : tree.nextSiblings[Math.max(element, element + drawn - 1)];
-      if (drawn === 0) this.visit(element, frame.context, model);
-      visited += Math.max(drawn, 1);
-      if (visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+      frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
+      this.visit(element, frame.context);
+      if (++visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
         visited = 0;
         coordsAtYield = this.builder.coordCount;
         this.builder.progress = element / tree.count;
         yield;
       }
     }
-  }
-
-  /** As many paths like the model from `element` on, which is, as are plain polylines: answers how many. */
-  private drawPolylines(element: number, model: Model, places: Uint32Array): number {
-    const count = this.alike.pathsLike(model, element, places, Math.min(this.atOnce, places.length));
-    const drawn = count === 0 ? 0 : this.painter.drawPolylines(model, places, count, COORDS_AT_ONCE);
-    // Where such paths are few, not many are looked at in vain.
-    this.atOnce = Math.max(1, drawn < count ? drawn : 2 * count);
-    return drawn;
   }
 
   private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
@@ -139,11 +120,7 @@ export class SvgWalk {
     this.warnings.add(frame.warning, builder.boxOfShapes(frame.firstShape, builder.shapeCount));
   }
 
-  private visit(element: number, outer: Context, model: Model | null): void {
-    // `declared` still is the model's.
-    if (model)
-      return void this.painter.drawShape(element, model.tag, this.declared, model.context, model.look);
-    this.alike.model = null;
+  private visit(element: number, outer: Context): void {
     const tag = tagOf(this.tree, element);
     if (tag === TEXT_NODE) return;
     const isContainer = CONTAINERS.has(tag);
@@ -171,7 +148,7 @@ export class SvgWalk {
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
-    if (!isContainer) this.visitLeaf(element, tag, context, warning, outer);
+    if (!isContainer) this.visitLeaf(element, tag, context, warning);
     else this.enter(element, tag, context, warning);
   }
 
@@ -186,22 +163,13 @@ export class SvgWalk {
     return last.inner;
   }
 
-  private visitLeaf(
-    element: number,
-    tag: string,
-    context: Context,
-    warning: WarningCode | null,
-    outer: Context,
-  ): void {
+  private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") this.painter.drawText(element, context);
     else {
-      const look = this.painter.drawShape(element, tag, this.declared, context, null);
+      this.painter.drawShape(element, tag, this.declared, context);
       if (isMarked(tag, context)) this.pushMarkers(context);
-      else if (look !== null && warning === null) {
-        this.alike.offer({ element, outer, tag, context, look }, this.declared);
-      }
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
     if (warning !== null && this.builder.shapeCount > before) {
