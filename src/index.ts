@@ -32,9 +32,12 @@ export {
   importDrawing,
   importDrawingWithPauses,
   formatOf,
+  isDrawingName,
+  DRAWING_EXTENSIONS,
   DRAWING_FORMATS,
   type DrawingFormat,
-} from "./import/import-drawing.js";
+} from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";

@@ -9,6 +9,7 @@ import {
   compile,
   pointCount,
   strokeCount,
+  textOfBytes,
   trajectoryStats,
   trajectoryToSvg,
   withLayerCodes,
@@ -93,7 +94,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
 
 export function readDrawing(file: string): string {
   try {
-    return readFileSync(file, "utf8");
+    return textOfBytes(readFileSync(file));
   } catch (cause) {
     const { code, message } = cause as NodeJS.ErrnoException;
     const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;

@@ -1,7 +1,7 @@
 /** /api/v1/jobs: add, change, order, run and remove jobs. */
 import express, { Router, type Request } from "express";
 import { basename } from "node:path";
-import { PlotwrightError } from "../../src/index.js";
+import { isDrawingName, PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   jobChangeSchema,
@@ -174,5 +174,5 @@ function asJson(value: unknown): unknown {
 /** A name that every system can save under. */
 function fileName(name: string): string {
   const safe = name.replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
-  return /\.(svg|dxf|hpgl|hpg|plt|json)$/i.test(safe) ? safe : `${safe}.svg`;
+  return isDrawingName(safe) ? safe : `${safe}.svg`;
 }

@@ -6,6 +6,7 @@ import {
   PlotwrightError,
   pointCount,
   strokeCount,
+  textOfBytes,
   trajectoryStats,
   type ErrorCode,
   type Prepared,
@@ -22,7 +23,7 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
   port.postMessage(message, transfer);
 
 try {
-  const text = readFileSync(input.path, "utf8");
+  const text = textOfBytes(readFileSync(input.path));
   const { prepared, warnings } = prepareText(text, input.settings, input.machine);
   port.on("message", (message: ToWorker) => answer(prepared, warnings, message));
   post({ type: "ready", strokes: prepared.strokes, warnings });

@@ -1,7 +1,7 @@
 /** Damaged DXF and HPGL: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
 import { expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../src/import/registry.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { formatOf, importDrawing } from "../../../src/import/import-drawing.js";
+import { formatOf, importDrawing } from "../../../src/import/registry.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
 /** Group codes and values, as lines of a DXF. */

@@ -1,6 +1,6 @@
 /** Small DXF files, and letters of a known shape to write in them. */
 import type { Drawing } from "../../../../src/index.js";
-import { importDrawing } from "../../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../../src/import/registry.js";
 import type { ImportOptions } from "../../../../src/import/import-options.js";
 import type { TextFont } from "../../../../src/import/text/text-font.js";
 
