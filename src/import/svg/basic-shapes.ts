@@ -44,11 +44,7 @@ export function drawBasicShape(
       return null;
     }
     case "ellipse": {
-      const ownX = source.length("rx", "width");
-      const ownY = source.length("ry", "height");
-      const rx = ownX ?? ownY ?? 0;
-      const ry = ownY ?? ownX ?? 0;
-      if (rx < 0 || ry < 0) return "negative radius";
+      const { rx, ry } = radiiOf(source);
       if (rx > 0 && ry > 0) ellipse(source, shape, rx, ry, arcTolerance);
       return null;
     }
@@ -59,6 +55,14 @@ export function drawBasicShape(
     default:
       return drawPoints(source.text("points") ?? "", shape, tag === "polygon");
   }
+}
+
+/** A negative radius is invalid, and so like none: the other one counts for both. */
+function radiiOf(source: ShapeSource): { readonly rx: number; readonly ry: number } {
+  const valid = (length: number | null): number | null => (length !== null && length >= 0 ? length : null);
+  const rx = valid(source.length("rx", "width"));
+  const ry = valid(source.length("ry", "height"));
+  return { rx: rx ?? ry ?? 0, ry: ry ?? rx ?? 0 };
 }
 
 function drawPath(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number): string | null {
@@ -94,10 +98,9 @@ function drawRect(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number)
   const height = source.length("height", "height") ?? 0;
   if (width < 0 || height < 0) return "negative size";
   if (width === 0 || height === 0) return null;
-  const ownX = source.length("rx", "width");
-  const ownY = source.length("ry", "height");
-  const rx = Math.min(Math.max(0, ownX ?? ownY ?? 0), width / 2);
-  const ry = Math.min(Math.max(0, ownY ?? ownX ?? 0), height / 2);
+  const radii = radiiOf(source);
+  const rx = Math.min(radii.rx, width / 2);
+  const ry = Math.min(radii.ry, height / 2);
   const x1 = x + width;
   const y1 = y + height;
   if (rx === 0 || ry === 0) {

@@ -29,6 +29,20 @@ export interface UseChain {
   readonly depth: number;
 }
 
+/** What context-fill and context-stroke mean inside of what is drawn for an element with this context. */
+export function contextPaints({
+  style,
+  contextFill,
+  contextStroke,
+}: Context): Pick<Context, "contextFill" | "contextStroke"> {
+  const resolved = (paint: Paint): Paint => {
+    if (paint.kind === "currentColor") return { kind: "color", color: style.color };
+    if (paint.kind === "context") return paint.of === "fill" ? contextFill : contextStroke;
+    return paint;
+  };
+  return { contextFill: resolved(style.fill), contextStroke: resolved(style.stroke) };
+}
+
 /** Copies of copies deeper than this are a circle, or an attack. */
 export const MAX_COPY_DEPTH = 200;
 

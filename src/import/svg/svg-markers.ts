@@ -8,14 +8,15 @@ import {
   scaling,
   translation,
 } from "../../geometry/affine.js";
+import { AncestorStyles } from "./ancestor-style.js";
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
-import { lengthPx, type Side } from "./length.js";
+import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import type { MarkerPlace } from "./markers.js";
 import type { SvgClips } from "./svg-clips.js";
-import { MAX_COPY_DEPTH, withViewport, type Context, type UseChain } from "./svg-context.js";
+import { contextPaints, MAX_COPY_DEPTH, withViewport, type Context, type UseChain } from "./svg-context.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, INITIAL_STYLE } from "./style.js";
+import { computeStyle, declaredValue } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { parseViewBox, viewBoxMap } from "./view-box.js";
 
@@ -29,22 +30,23 @@ function orientRad(text: string): number {
   return turn === null ? 0 : Math.atan2(turn.b, turn.a);
 }
 
-/** A number, a share of the box, or left/center/right and top/center/bottom. */
-function refPosition(text: string | undefined, start: number, length: number): number {
-  const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text ?? ""];
-  if (share !== undefined) return start + share * length;
-  const basis = { fontSize: 16, rootFontSize: 16, viewportWidth: length, viewportHeight: length };
-  return lengthPx(text ?? "0", basis, "width") ?? 0;
+/** A length, or left/center/right and top/center/bottom of the box. Percentages are of the viewport around. */
+function refPosition(text: string, start: number, length: number, basis: LengthBasis, side: Side): number {
+  const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text];
+  return share === undefined ? (lengthPx(text, basis, side) ?? 0) : start + share * length;
 }
 
 export class SvgMarkers {
   private readonly declared = new Declared();
+  private readonly ancestors: AncestorStyles;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
     private readonly clips: SvgClips,
-  ) {}
+  ) {
+    this.ancestors = new AncestorStyles(tree, cascade);
+  }
 
   /** For the content of `marker` at `place` on a shape drawn in `context`; null where it shows nothing. */
   insideOf(marker: number, place: MarkerPlace, context: Context): Context | null {
@@ -61,8 +63,14 @@ export class SvgMarkers {
     const isReversed = orient === "auto-start-reverse" && place.kind === "start";
     const angle = orient.startsWith("auto") ? place.angle + (isReversed ? Math.PI : 0) : orientRad(orient);
     const size = text("markerUnits") === "userSpaceOnUse" ? 1 : context.style.strokeWidth;
-    const refX = refPosition(text("refX"), box?.x ?? 0, box?.width ?? width);
-    const refY = refPosition(text("refY"), box?.y ?? 0, box?.height ?? height);
+    const refX = refPosition(text("refX") ?? "0", box?.x ?? 0, box?.width ?? width, context.basis, "width");
+    const refY = refPosition(
+      text("refY") ?? "0",
+      box?.y ?? 0,
+      box?.height ?? height,
+      context.basis,
+      "height",
+    );
     const turned = compose(translation(place.x, place.y), compose(rotation(angle), scaling(size)));
     // The reference point, not the viewBox's corner, lies on the vertex.
     const map = compose(turned, { ...fit, e: fit.a * -refX, f: fit.d * -refY });
@@ -77,14 +85,14 @@ export class SvgMarkers {
       depth,
     };
     this.cascade.collect(marker, declared);
-    const style = computeStyle(INITIAL_STYLE, declared, context.basis);
+    const outside = this.ancestors.outside(marker, context.basis);
+    const style = computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
     if (declaredValue(style, declared, "display") === "none") return null;
     const inside = {
       ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
       style,
       uses,
-      contextFill: context.style.fill,
-      contextStroke: context.style.stroke,
+      ...contextPaints(context),
     };
     const overflow = declaredValue(style, declared, "overflow");
     if (overflow === "visible" || overflow === "auto") return inside;

@@ -11,7 +11,14 @@ import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import type { Side } from "./length.js";
-import { isInsideUseOf, MAX_COPY_DEPTH, withStyle, withViewport, type Context } from "./svg-context.js";
+import {
+  contextPaints,
+  isInsideUseOf,
+  MAX_COPY_DEPTH,
+  withStyle,
+  withViewport,
+  type Context,
+} from "./svg-context.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
@@ -226,7 +233,12 @@ export class SvgWalk {
     };
     const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
     this.push(
-      { ...context, map, uses: { element, target, size, outer: context.uses, depth } },
+      {
+        ...context,
+        ...contextPaints(context),
+        map,
+        uses: { element, target, size, outer: context.uses, depth },
+      },
       target,
       true,
       warning,
