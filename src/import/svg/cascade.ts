@@ -8,63 +8,12 @@
  */
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
+import { IS_PROPERTY, PRESENTATION } from "./properties.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
 import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 
-/** Properties that the importer uses; the first group may also be written as attributes. */
-const PRESENTATION = [
-  "fill",
-  "fill-opacity",
-  "fill-rule",
-  "stroke",
-  "stroke-width",
-  "stroke-opacity",
-  "stroke-dasharray",
-  "stroke-dashoffset",
-  "clip-rule",
-  "color",
-  "visibility",
-  "font-family",
-  "font-size",
-  "font-style",
-  "font-weight",
-  "text-anchor",
-  "letter-spacing",
-  "marker-start",
-  "marker-mid",
-  "marker-end",
-  "display",
-  "opacity",
-  "clip-path",
-  "mask",
-  "filter",
-  "overflow",
-  "transform",
-  "transform-origin",
-  "vector-effect",
-  "stop-color",
-  "stop-opacity",
-] as const;
-const CSS_ONLY = [
-  "font",
-  "transform-box",
-  "x",
-  "y",
-  "width",
-  "height",
-  "cx",
-  "cy",
-  "r",
-  "rx",
-  "ry",
-  "d",
-] as const;
-
-export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number];
-
 const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
 const IS_PRESENTATION = new Set<string>(PRESENTATION);
-const IS_PROPERTY = new Set<string>([...PRESENTATION, ...CSS_ONLY]);
 
 interface FiledRule extends Rule {
   readonly order: number;
@@ -265,6 +214,9 @@ function* styleTexts(tree: SvgTree): Generator<string> {
   if (style < 0) return;
   for (let element = 0; element < tree.count; element++) {
     if (tree.tags[element] !== style) continue;
+    // As browsers have it: in SVG the type is written exactly so, if it is written.
+    const type = attribute(tree, element, "type") ?? "";
+    if (type !== "" && type !== "text/css") continue;
     let text = "";
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
       text += textOf(tree, child);

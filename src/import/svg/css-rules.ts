@@ -2,6 +2,7 @@
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
 /// <reference path="./css-tree-parser.d.ts" />
 /** Style sheets and `style` attributes to rules and declarations (parsing only; cascade.ts applies them). */
+import { IS_PROPERTY } from "./properties.js";
 import parseCss from "css-tree/parser";
 import type { CssNode, List, Selector } from "css-tree";
 
@@ -50,7 +51,10 @@ export function parseStyleSheet(text: string): StyleSheet {
     if (node.type === "Rule") addRule(rules, text, node.prelude, node.block.children);
     if (node.type !== "Atrule") continue;
     if (node.name === "import") importCount++;
-    const applies = node.name === "layer" || (node.name === "media" && isForScreen(text, node.prelude));
+    const applies =
+      node.name === "layer" ||
+      (node.name === "media" && isForScreen(text, node.prelude)) ||
+      (node.name === "supports" && isSupported(sourceOf(text, node.prelude)));
     // In place of the at-rule, so that order is kept.
     if (applies && node.block !== null) pending.splice(i + 1, 0, ...node.block.children.toArray());
   }
@@ -72,6 +76,15 @@ function nestingDepth(text: string): number {
 function isForScreen(text: string, prelude: CssNode | null): boolean {
   const query = sourceOf(text, prelude).trim().toLowerCase();
   return query === "" || query.split(",").some((part) => /^\s*(all|screen|only screen)\s*$/.test(part));
+}
+
+/** Whether a condition of `@supports` holds: "not" and "and" are heeded, and one part of an "or" is enough. */
+function isSupported(condition: string): boolean {
+  const parts = [...condition.matchAll(/(not\s*)?\(\s*([\w-]+)\s*:[^()]*(?:\([^()]*\)[^()]*)*\)/g)];
+  const holds = parts.map(
+    ([, not, property]) => IS_PROPERTY.has(property.toLowerCase()) === (not === undefined),
+  );
+  return / or /.test(condition) ? holds.includes(true) : holds.length > 0 && !holds.includes(false);
 }
 
 function sourceOf(text: string, node: CssNode | null): string {
@@ -102,9 +115,11 @@ function addRule(rules: Rule[], text: string, prelude: CssNode, block: List<CssN
   });
 }
 
+const withoutComments = (text: string): string => text.replace(/\/\*[\s\S]*?(\*\/|$)/g, " ");
+
 function declare(property: string, value: string, important: boolean): Declaration {
   const name = property.startsWith("--") ? property : property.toLowerCase();
-  return { property: name, value: value.trim(), important };
+  return { property: name, value: withoutComments(value).trim(), important };
 }
 
 /** Selectors Level 4, §17: ids, then classes, attributes and pseudo-classes, then types. */

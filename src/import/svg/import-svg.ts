@@ -9,7 +9,8 @@
  * Time and memory are linear in the text and in what copies (`use`) add, and copies are bounded.
  */
 import type { Drawing } from "../../drawing/drawing.js";
-import { PX_PER_INCH } from "../../units.js";
+import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
+import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { DrawingBuilder } from "../drawing-builder.js";
@@ -25,6 +26,8 @@ import { pageOf, type SvgPage } from "./svg-page.js";
 import { SvgPainter } from "./svg-painter.js";
 import { attribute, parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
+import type { LengthBasis } from "./length.js";
+import { aroundOrigin, parseTransform } from "./transform.js";
 import { computeStyle, declaredValue, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "../warnings.js";
 
@@ -83,7 +86,7 @@ function* draw(
   const root = new Declared();
   cascade.collect(0, root);
   const page = findPage(tree, root, options.pxPerInch ?? PX_PER_INCH);
-  const context = rootContext(page, root);
+  const context = rootContext(page, root, options.pxPerInch ?? PX_PER_INCH);
   const builder = new DrawingBuilder(warnings);
   const layers = planLayers(tree);
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
@@ -92,6 +95,7 @@ function* draw(
   const clips = new SvgClips(tree, cascade, geometry, warnings);
   const servers = new SvgPaintServers(tree, cascade);
   const painter = new SvgPainter(tree, geometry, servers, builder, warnings, cascade, fontOf(options));
+  clips.textBox = (element, at) => painter.textBox(element, at);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const conditions = new SvgConditions(tree, languages);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
@@ -122,14 +126,14 @@ function findPage(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
   );
 }
 
-function rootContext(page: SvgPage, root: Declared): Context {
+function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context {
   const { viewportWidth, viewportHeight } = page;
   const size = INITIAL_STYLE.fontSize;
   const basis = { fontSize: size, rootFontSize: size, viewportWidth, viewportHeight };
   const style = computeStyle(INITIAL_STYLE, root, basis);
   const { fontSize } = style;
   return {
-    map: page.map,
+    map: compose(rootTransform(page, root, style, basis, MM_PER_INCH / pxPerInch), page.map),
     style,
     basis: { ...basis, fontSize, rootFontSize: fontSize },
     group: -1,
@@ -138,6 +142,22 @@ function rootContext(page: SvgPage, root: Declared): Context {
     contextFill: { kind: "none" },
     contextStroke: { kind: "none" },
   };
+}
+
+/** The outermost element's own transform, in mm on the page. It turns about the page's middle, as a box in CSS does. */
+function rootTransform(
+  page: SvgPage,
+  root: Declared,
+  style: Style,
+  basis: LengthBasis,
+  mmPerPx: number,
+): Affine {
+  const map = parseTransform(declaredValue(style, root, "transform") ?? "") ?? IDENTITY;
+  if (map === IDENTITY) return IDENTITY;
+  const box = { viewportWidth: page.widthMm / mmPerPx, viewportHeight: page.heightMm / mmPerPx };
+  const origin = declaredValue(style, root, "transform-origin") ?? "center";
+  const turned = aroundOrigin(map, origin, { ...basis, ...box });
+  return compose(compose(scaling(mmPerPx), turned), scaling(1 / mmPerPx));
 }
 
 const isShown = (style: Style, root: Declared): boolean =>

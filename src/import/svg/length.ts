@@ -1,4 +1,5 @@
 /** CSS and SVG lengths to user units (CSS px). */
+import { evaluateCalc } from "./calc.js";
 import { MM_PER_INCH, MM_PER_PX } from "../../units.js";
 
 /** What relative units are relative to. */
@@ -51,7 +52,9 @@ export function lengthPx(text: string, basis: LengthBasis, side: Side): number |
   const plain = Number(text);
   if (plain === plain && isDecimal(text)) return Number.isFinite(plain) ? plain : null;
   const parts = splitLength(text);
-  if (parts === null) return null;
+  if (parts === null) {
+    return text.includes("calc(") ? evaluateCalc(text, (term) => lengthPx(term, basis, side)) : null;
+  }
   const { value, unit } = parts;
   const absolute = ABSOLUTE.get(unit);
   if (absolute !== undefined) return value * absolute;

@@ -1,5 +1,5 @@
 /** Computed style: what an element inherits and what it declares, as values ready to draw with. */
-import type { Property } from "./cascade.js";
+import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "../color.js";
 import { lengthPx, splitLength, type LengthBasis } from "./length.js";

@@ -8,6 +8,7 @@ import { RULE_EVENODD, RULE_NONZERO, VERB_CLOSE, VERB_LINE, VERB_MOVE } from "..
 import { applyX, applyY, compose, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import { boxOfPoints, EMPTY_BOX, isEmptyBox, uniteBoxes, type Box } from "../../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../../geometry/growable.js";
+import { AncestorStyles } from "./ancestor-style.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -18,7 +19,7 @@ import { mapBox } from "../map-box.js";
 import { withStyle, type Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, INITIAL_STYLE, parseUrl } from "./style.js";
+import { computeStyle, declaredValue, parseUrl } from "./style.js";
 import { parseTransform } from "./transform.js";
 import type { Warnings } from "../warnings.js";
 
@@ -38,14 +39,19 @@ interface BuiltClip {
 export class SvgClips {
   private readonly built = new Map<string, BuiltClip | null>();
   private readonly declared = new Declared();
+  private readonly ancestors: AncestorStyles;
   private measured = 0;
+  /** The box of a text in its user units: laying text out is not known here. */
+  textBox: (element: number, context: Context) => Box = () => EMPTY_BOX;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
     private readonly geometry: SvgGeometry,
     private readonly warnings: Warnings,
-  ) {}
+  ) {
+    this.ancestors = new AncestorStyles(tree, cascade);
+  }
 
   /** The clip of an element with this `clip-path` value inside `context`; "empty" where it hides everything. */
   clipOf(
@@ -62,21 +68,13 @@ export class SvgClips {
       warnings.add("clip-ignored", undefined, value.slice(0, 40));
       return context.clip;
     }
-    const units = attribute(tree, target, "clipPathUnits");
-    let map = context.map;
-    if (units === "objectBoundingBox") {
+    let units = IDENTITY;
+    if (attribute(tree, target, "clipPathUnits") === "objectBoundingBox") {
       const box = this.measure(element, context);
       if (box === null || isEmptyBox(box)) return context.clip;
-      map = compose(map, {
-        a: box.x1 - box.x0,
-        b: 0,
-        c: 0,
-        d: box.y1 - box.y0,
-        e: box.x0,
-        f: box.y0,
-      });
+      units = { a: box.x1 - box.x0, b: 0, c: 0, d: box.y1 - box.y0, e: box.x0, f: box.y0 };
     }
-    return this.clipTo(target, { ...context, map }, nesting);
+    return this.clipTo(element, target, context, units, nesting);
   }
 
   /** A clip to a rectangle in user units: the edge of a viewport. */
@@ -97,13 +95,20 @@ export class SvgClips {
     return new ClipNode(context.clip, shapes, rectangleOf(shapes));
   }
 
-  private clipTo(target: number, context: Context, nesting: number): ClipNode | null | "empty" {
+  /** `element` is clipped to the clipPath `target`; `units` takes that one's units to user units. */
+  private clipTo(
+    element: number,
+    target: number,
+    context: Context,
+    units: Affine,
+    nesting: number,
+  ): ClipNode | null | "empty" {
     this.cascade.collect(target, this.declared);
-    const style = computeStyle(INITIAL_STYLE, this.declared, context.basis);
+    const style = computeStyle(this.ancestors.outside(target, context.basis), this.declared, context.basis);
     const own = declaredValue(style, this.declared, "clip-path");
     const transform = parseTransform(declaredValue(style, this.declared, "transform") ?? "") ?? IDENTITY;
-    const inner = withStyle(context, style, transform);
-    const outside = own === undefined ? context.clip : this.clipOf(target, own, inner, nesting + 1);
+    const inner = withStyle(context, style, compose(transform, units));
+    const outside = own === undefined ? context.clip : this.clipOf(element, own, context, nesting + 1);
     if (outside === "empty") return "empty";
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
@@ -167,7 +172,13 @@ export class SvgClips {
     this.addChild(target, { ...context, map: compose(context.map, translation(x, y)) }, collector);
   }
 
-  /** The box of an element's geometry in its own user units; null where there is too much to measure. */
+  /** The box of an element's geometry in its own user units; null where it has none. */
+  boxOf(element: number, context: Context): Box | null {
+    const box = this.measure(element, context);
+    return box === null || isEmptyBox(box) ? null : box;
+  }
+
+  /** As `boxOf`, but an empty box where there is no geometry, and null where there is too much to measure. */
   private measure(element: number, context: Context): Box | null {
     const { tree } = this;
     let box = EMPTY_BOX;
@@ -188,6 +199,8 @@ export class SvgClips {
       const inner = own === null || own === IDENTITY ? map : compose(map, own);
       if (SHAPE_TAGS.has(tag)) {
         box = uniteBoxes(box, mapBox(inner, curveBox(this.geometry.geometryOf(at, tag, declared, context))));
+      } else if (tag === "text") {
+        box = uniteBoxes(box, mapBox(inner, this.textBox(at, withStyle(context, style, IDENTITY))));
       } else if (tag === "use") {
         const target = tree.elementById.get((attribute(tree, at, HREF) ?? "").trim().slice(1));
         const x = lengthPx(attribute(tree, at, "x") ?? "0", context.basis, "width") ?? 0;

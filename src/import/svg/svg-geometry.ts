@@ -2,7 +2,7 @@
 import { applyX, applyY, IDENTITY, largestScale } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
-import type { Property } from "./cascade.js";
+import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import { mapBox } from "../map-box.js";

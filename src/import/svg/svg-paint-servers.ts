@@ -28,6 +28,7 @@ export class SvgPaintServers {
     const { tree } = this;
     let element = tree.elementById.get(id);
     if (element === undefined || !SERVERS.has(tagOf(tree, element))) return undefined;
+    if (tagOf(tree, element) === "pattern") return this.patternColor(element);
     for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
       for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
         if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
@@ -35,7 +36,27 @@ export class SvgPaintServers {
       const href = attribute(tree, element, HREF) ?? "";
       element = tree.elementById.get(href.slice(1));
     }
-    return INITIAL_STYLE.color.hex;
+    // Without stops nothing is painted.
+    return null;
+  }
+
+  /** What a pattern paints is not drawn: black stands for it, unless it is empty. */
+  private patternColor(pattern: number): string | null {
+    const { tree } = this;
+    const inherited = (has: (element: number) => boolean): boolean => {
+      let element: number | undefined = pattern;
+      for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
+        if (has(element)) return true;
+        element = tree.elementById.get((attribute(tree, element, HREF) ?? "").slice(1));
+      }
+      return false;
+    };
+    const isSized = ["width", "height"].every((side) =>
+      inherited((element) => parseFloat(attribute(tree, element, side) ?? "") > 0),
+    );
+    return isSized && inherited((element) => tree.firstChildren[element] >= 0)
+      ? INITIAL_STYLE.color.hex
+      : null;
   }
 
   private stopColor(stop: number, context: Context): string {

@@ -1,6 +1,6 @@
 /** One leaf element to one shape of the drawing: geometry, paints, dashes. */
 import { compose, meanScale, rotation, scaling, translation } from "../../geometry/affine.js";
-import type { Box } from "../../geometry/box.js";
+import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
 import type { Cascade } from "./cascade.js";
@@ -8,6 +8,7 @@ import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "../drawing-builder.js";
 import { lengthPx } from "./length.js";
 import { drawPathData } from "../path-data.js";
+import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
@@ -15,7 +16,7 @@ import type { SvgGeometry } from "./svg-geometry.js";
 import { placeText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
-import type { TextFont } from "../text/text-font.js";
+import { ASCENT_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue, type Paint } from "./style.js";
 import type { Warnings } from "../warnings.js";
@@ -37,6 +38,17 @@ export class SvgPainter {
     private readonly font: TextFont | null,
   ) {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
+  }
+
+  /** The box of a text in its user units: from line to line, and from the first letter to the last. */
+  textBox(element: number, context: Context): Box {
+    if (this.font === null) return EMPTY_BOX;
+    const { letters } = placeText(this.tree, this.cascade, this.textPaths, element, context, this.font);
+    return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
+      const turned = compose(translation(x, y), rotation(angle));
+      const cell = { x0: 0, y0: -ASCENT_EM * fontSize, x1: advance, y1: DESCENT_EM * fontSize };
+      return uniteBoxes(box, mapBox(turned, cell));
+    }, EMPTY_BOX);
   }
 
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {

@@ -28,6 +28,8 @@ export interface PlacedLetter {
   /** rad */
   readonly angle: number;
   readonly style: Style;
+  /** In user units, to the next letter. */
+  readonly advance: number;
 }
 
 export interface LaidOutText {
@@ -39,7 +41,6 @@ export interface LaidOutText {
 /** A letter on a line that is straight so far: x along it, y across. */
 interface LetterOnLine extends PlacedLetter {
   readonly pen: number;
-  readonly advance: number;
 }
 
 interface Pen {

@@ -94,7 +94,7 @@ export class SvgWalk {
   /** Draws everything below the root. Yields often enough for a page to stay responsive. */
   *run(rootContext: Context): Generator<void, void> {
     const { tree, stack } = this;
-    this.push(rootContext, tree.firstChildren[0], false, null);
+    this.enterRoot(rootContext);
     let visited = 0;
     let coordsAtYield = 0;
     while (stack.length > 0) {
@@ -114,6 +114,16 @@ export class SvgWalk {
         yield;
       }
     }
+  }
+
+  /** The outermost element has a clip and effects of its own, too. */
+  private enterRoot(context: Context): void {
+    const { declared } = this;
+    this.cascade.collect(0, declared);
+    const value = declaredValue(context.style, declared, "clip-path");
+    const warning = this.effectOf(context.style);
+    const clip = this.clips.clipOf(0, value, context);
+    if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, warning);
   }
 
   private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
@@ -228,8 +238,8 @@ export class SvgWalk {
     const x = this.geometry(context, element, "x", "width") ?? 0;
     const y = this.geometry(context, element, "y", "height") ?? 0;
     const size = {
-      width: this.geometry(context, element, "width", "width"),
-      height: this.geometry(context, element, "height", "height"),
+      width: notNegative(this.geometry(context, element, "width", "width")),
+      height: notNegative(this.geometry(context, element, "height", "height")),
     };
     const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
     this.push(
@@ -281,8 +291,8 @@ export class SvgWalk {
     const isSvg = tag === "svg";
     const x = isSvg ? (this.geometry(context, element, "x", "width") ?? 0) : 0;
     const y = isSvg ? (this.geometry(context, element, "y", "height") ?? 0) : 0;
-    const ownWidth = this.geometry(context, element, "width", "width");
-    const ownHeight = this.geometry(context, element, "height", "height");
+    const ownWidth = notNegative(this.geometry(context, element, "width", "width"));
+    const ownHeight = notNegative(this.geometry(context, element, "height", "height"));
     const width = useSize?.width ?? ownWidth ?? viewportWidth;
     const height = useSize?.height ?? ownHeight ?? viewportHeight;
     if (!(width > 0 && height > 0)) return null;
@@ -346,7 +356,13 @@ export class SvgWalk {
       return IDENTITY;
     }
     const origin = declaredValue(style, this.declared, "transform-origin");
-    return origin === undefined ? map : aroundOrigin(map, origin, outer.basis);
+    const box = declaredValue(style, this.declared, "transform-box");
+    const isOwnBox = box !== undefined && box !== "view-box";
+    if (origin === undefined && !isOwnBox) return map;
+    const own = isOwnBox ? this.clips.boxOf(element, { ...outer, style }) : null;
+    if (own === null) return aroundOrigin(map, origin ?? "0 0", outer.basis);
+    const basis = { ...outer.basis, viewportWidth: own.x1 - own.x0, viewportHeight: own.y1 - own.y0 };
+    return aroundOrigin(map, origin ?? "0 0", basis, { x: own.x0, y: own.y0 });
   }
 
   /** A filter or mask that will be missing from what the element draws. */
@@ -401,6 +417,9 @@ export class SvgWalk {
     );
   }
 }
+
+/** A negative size is invalid, and so like none. */
+const notNegative = (length: number | null): number | null => (length !== null && length < 0 ? null : length);
 
 /** The size that a `use` gives to the svg or symbol it refers to. */
 function outerSizeOf(

@@ -21,6 +21,7 @@ export function parseTransform(text: string): Affine | null {
   while (FUNCTION.lastIndex < text.length) {
     const match = FUNCTION.exec(text);
     if (match === null) return null;
+    if (/,\s*,|^\s*,|,\s*$/.test(match[2])) return null;
     const step = parseFunction(match[1], splitArguments(match[2]));
     if (step === null) return null;
     map = compose(map, step);
@@ -35,13 +36,28 @@ const ORIGINS: Readonly<Record<string, string>> = {
   right: "100%",
   bottom: "100%",
 };
+/** Keywords that tell which side they are of, wherever they stand. */
+const ACROSS = new Set(["left", "right"]);
+const DOWN = new Set(["top", "bottom"]);
 
-/** The map turned about a CSS `transform-origin`; as it is where that is malformed. */
-export function aroundOrigin(map: Affine, origin: string, basis: LengthBasis): Affine {
-  const parts = origin.split(/\s+/).map((part) => ORIGINS[part] ?? part);
-  const x = lengthPx(parts[0], basis, "width");
-  const y = lengthPx(parts[1] ?? "50%", basis, "height");
-  if (x === null || y === null) return map;
+/**
+ * The map turned about a CSS `transform-origin`; as it is where that is malformed. Percentages are of `basis`, and
+ * `corner` is where its box begins.
+ */
+export function aroundOrigin(
+  map: Affine,
+  origin: string,
+  basis: LengthBasis,
+  corner = { x: 0, y: 0 },
+): Affine {
+  const [first, second = "center"] = origin.trim().split(/\s+/);
+  const isSwapped = DOWN.has(first) || ACROSS.has(second);
+  const [across, down] = isSwapped ? [second, first] : [first, second];
+  const dx = lengthPx(ORIGINS[across] ?? across, basis, "width");
+  const dy = lengthPx(ORIGINS[down] ?? down, basis, "height");
+  if (dx === null || dy === null || DOWN.has(across) || ACROSS.has(down)) return map;
+  const x = corner.x + dx;
+  const y = corner.y + dy;
   const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
   return isFiniteAffine(moved) ? moved : map;
 }

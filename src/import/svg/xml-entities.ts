@@ -10,13 +10,16 @@ const REFERENCE = /&([A-Za-z_][\w.-]*);/g;
 const PREDEFINED = new Set(["lt", "gt", "amp", "quot", "apos"]);
 
 export function expandEntities(text: string): string {
-  const doctypeAt = text.indexOf("<!DOCTYPE");
-  const rootAt = text.search(/<[A-Za-z]/);
-  if (doctypeAt < 0 || rootAt < doctypeAt) return text;
-  const entities = entitiesIn(text.slice(doctypeAt, rootAt));
+  const from = text.indexOf("<!DOCTYPE");
+  if (from < 0 || /<[A-Za-z]/.test(text.slice(0, from))) return text;
+  const end = /\]\s*>/g;
+  end.lastIndex = from;
+  if (!end.test(text)) return text;
+  const bodyAt = end.lastIndex;
+  const entities = entitiesIn(text.slice(from, bodyAt));
   if (entities.size === 0) return text;
-  const body = new Expansion(entities).of(text.slice(rootAt));
-  return body === null ? text : text.slice(0, rootAt) + body;
+  const body = new Expansion(entities).of(text.slice(bodyAt));
+  return body === null ? text : text.slice(0, bodyAt) + body;
 }
 
 function entitiesIn(doctype: string): Map<string, string> {

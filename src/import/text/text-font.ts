@@ -25,4 +25,6 @@ export interface TextFont {
 
 /** Height of capitals, and how far a "g" reaches below the line: of the built-in letters, and about of all fonts. */
 export const CAPITAL_EM = 0.7;
+/** Height of the tallest letters, about, of all fonts. */
+export const ASCENT_EM = 0.9;
 export const DESCENT_EM = 7 / 30;

@@ -7,7 +7,7 @@ import { importSvg } from "../../../../src/import/svg/import-svg.js";
 import { MM_PER_PX } from "../../../../src/units.js";
 import { farthest, resvgShapes, type Polyline } from "./resvg-shapes.js";
 
-function ourShapes({ paths }: Drawing): Polyline[][] {
+export function ourShapes({ paths }: Drawing): Polyline[][] {
   const c = paths.coords;
   return Array.from({ length: paths.count }, (_, i) => {
     const lines: Polyline[] = [];

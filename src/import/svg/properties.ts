@@ -1,0 +1,52 @@
+/** Properties that the importer uses; the first group may also be written as attributes. */
+export const PRESENTATION = [
+  "fill",
+  "fill-opacity",
+  "fill-rule",
+  "stroke",
+  "stroke-width",
+  "stroke-opacity",
+  "stroke-dasharray",
+  "stroke-dashoffset",
+  "clip-rule",
+  "color",
+  "visibility",
+  "font-family",
+  "font-size",
+  "font-style",
+  "font-weight",
+  "text-anchor",
+  "letter-spacing",
+  "marker-start",
+  "marker-mid",
+  "marker-end",
+  "display",
+  "opacity",
+  "clip-path",
+  "mask",
+  "filter",
+  "overflow",
+  "transform",
+  "transform-origin",
+  "vector-effect",
+  "stop-color",
+  "stop-opacity",
+] as const;
+const CSS_ONLY = [
+  "font",
+  "transform-box",
+  "x",
+  "y",
+  "width",
+  "height",
+  "cx",
+  "cy",
+  "r",
+  "rx",
+  "ry",
+  "d",
+] as const;
+
+export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number];
+
+export const IS_PROPERTY: ReadonlySet<string> = new Set<string>([...PRESENTATION, ...CSS_ONLY]);

@@ -1,0 +1,157 @@
+/** Features of SVG that browsers know and resvg does not, or not in its printed tree: each draws as a plainer file does. */
+import { describe, expect, it } from "vitest";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
+import { draw, page, shapes, shapesOf } from "./support/shapes.js";
+
+const BOX = '<rect x="20" y="20" width="40" height="20"/>';
+
+/** The clips of the first shape, from the outermost in, as the numbers of their outlines. */
+function clipsOf(body: string): number[][] {
+  const { paths, clips } = draw(body);
+  const chain: number[][] = [];
+  for (let at = paths.clip[0]; at >= 0; at = clips[at].parent) {
+    chain.unshift(Array.from(clips[at].coords, (mm) => Math.round(mm * 1e4) / 1e4));
+  }
+  return chain;
+}
+
+describe("style", () => {
+  it.each([
+    [
+      "comments in a style attribute",
+      "<path style=\"/* a */stroke:/* b */red;d:path('M1 1h2')\"/>",
+      "M1 1h2",
+    ],
+    [
+      "a style sheet of another kind",
+      '<style type="text/less">path{display:none}</style><path d="M1 1h2"/>',
+      "M1 1h2",
+    ],
+    [
+      "a supported @supports",
+      "<style>@supports (display: none){.a{display:none}}</style><path class='a' d='M9 9h9'/><path d='M1 1h2'/>",
+      "M1 1h2",
+    ],
+    [
+      "an unsupported @supports",
+      "<style>@supports not (display: none){path{display:none}}@supports (foo: bar){path{display:none}}</style><path d='M1 1h2'/>",
+      "M1 1h2",
+    ],
+  ])("%s", (_name, body, d) => {
+    expect(shapes(body)).toEqual(shapes(`<path d="${d}"/>`));
+  });
+
+  it.each([
+    ["calc(10px + 5%)", 15],
+    ["calc((4px - 1px) * 2 / 3)", 2],
+    ["calc(2 * calc(1px + 2px))", 6],
+    ["calc(1px +)", 0],
+  ])("width: %s is %d", (width, expected) => {
+    const body = `<rect height="9" width="${width}"/>`;
+    expect(shapes(body)).toEqual(expected === 0 ? [] : shapes(`<rect height="9" width="${expected}"/>`));
+  });
+});
+
+describe("transforms", () => {
+  it.each([
+    ["bottom left", "0 100"],
+    ["left bottom", "0 100"],
+    ["top", "50 0"],
+    ["right", "100 50"],
+    ["center", "50 50"],
+    ["25% 5mm", `25 ${(5 * 96) / 25.4}`],
+  ])("turn about %s", (origin, at) => {
+    const turned = BOX.replace("/>", ` transform="rotate(30)" transform-origin="${origin}"/>`);
+    expect(shapes(turned)).toEqual(shapes(BOX.replace("/>", ` transform="rotate(30 ${at})"/>`)));
+  });
+
+  it("turn about the shape's own box, where that is asked for", () => {
+    const style = "transform:rotate(30deg);transform-box:fill-box;transform-origin:center";
+    expect(shapes(BOX.replace("/>", ` style="${style}"/>`))).toEqual(
+      shapes(BOX.replace("/>", ' transform="rotate(30 40 30)"/>')),
+    );
+  });
+
+  it("with two commas in a row are none", () => {
+    expect(shapes(`<g transform="translate(1,,2)">${BOX}</g>`)).toEqual(shapes(BOX));
+  });
+
+  it("of the outermost element turn about the middle of the page", () => {
+    const root = shapesOf(importSvg(page(BOX, 'transform="rotate(30)"')));
+    expect(root).toEqual(shapes(`<g transform="rotate(30 50 50)">${BOX}</g>`));
+  });
+});
+
+describe("the file", () => {
+  it("may define entities, for values and for elements", () => {
+    const text = `<!DOCTYPE svg [<!ENTITY w "40"><!ENTITY box '<rect x="20" y="20" width="&w;" height="20"/>'>]>${page("&box;")}`;
+    expect(shapesOf(importSvg(text))).toEqual(shapes(BOX));
+  });
+
+  it("may hold elements of other vocabularies, which are not drawn", () => {
+    expect(shapes(`<g xmlns="http://example.org/other"><rect width="9" height="9"/></g>${BOX}`)).toEqual(
+      shapes(BOX),
+    );
+  });
+
+  it("may write href both ways: the plain one counts", () => {
+    const defs = '<defs><path id="a" d="M0 0h1"/><path id="b" d="M0 0h2"/></defs>';
+    for (const both of ['xlink:href="#a" href="#b"', 'href="#b" xlink:href="#a"']) {
+      expect(shapes(`${defs}<use ${both}/>`)).toEqual(shapes('<path d="M0 0h2"/>'));
+    }
+  });
+
+  it("may give a copy a negative size, which is like none", () => {
+    const symbol = '<symbol id="s" viewBox="0 0 10 10"><path d="M0 0h9"/></symbol>';
+    expect(shapes(`${symbol}<use href="#s" width="-5"/>`)).toEqual(shapes(`${symbol}<use href="#s"/>`));
+  });
+});
+
+describe("paint", () => {
+  const filled = (defs: string): string[] =>
+    shapes(`<g stroke="none">${defs}<rect width="9" height="9" fill="url(#p)"/></g>`);
+
+  it.each([
+    ["a gradient without stops", '<linearGradient id="p"/>'],
+    ["a pattern without content", '<pattern id="p" width="5" height="5"/>'],
+    ["a pattern without a size", '<pattern id="p"><path d="M0 0h9"/></pattern>'],
+  ])("of %s is none", (_name, defs) => {
+    expect(filled(defs)).toEqual([]);
+  });
+});
+
+describe("clips", () => {
+  const clip = (attributes: string, more = ""): string =>
+    `<clipPath id="c" ${attributes}><rect width="0.5" height="0.5" ${more}/></clipPath>`;
+
+  it("in parts of the shape's box are transformed outside of that", () => {
+    const body = `${clip('clipPathUnits="objectBoundingBox" transform="translate(3 4)"')}<g clip-path="url(#c)">${BOX}</g>`;
+    expect(clipsOf(body)).toEqual([[23, 24, 43, 24, 43, 34, 23, 34]]);
+  });
+
+  it("of a clipPath go by the box of the shape", () => {
+    const body = `<clipPath id="d" clip-path="url(#c)"><rect width="90" height="90"/></clipPath>${clip('clipPathUnits="objectBoundingBox"')}<g clip-path="url(#d)">${BOX}</g>`;
+    expect(clipsOf(body)).toEqual([[20, 20, 40, 20, 40, 30, 20, 30]]);
+  });
+
+  it("inherit their rule from where they stand", () => {
+    const body = `<g clip-rule="evenodd"><clipPath id="c"><path d="M0 0h50v50z"/></clipPath></g><g clip-path="url(#c)">${BOX}</g>`;
+    expect([...draw(body).clips[0].rule]).toEqual([1]);
+  });
+
+  it("hold for texts in parts of their box", () => {
+    const body = `${clip('clipPathUnits="objectBoundingBox"')}<text clip-path="url(#c)" x="10" y="50" font-size="20">HHHH</text>`;
+    const [[x0, y0, x1, , , y2]] = clipsOf(body);
+    expect(x0).toBeCloseTo(10);
+    expect(x1 - x0).toBeGreaterThan(20);
+    expect([y0, y2].map(Math.round)).toEqual([32, 43]);
+  });
+
+  it("hold for the outermost element", () => {
+    const text = page(
+      `<clipPath id="c"><rect width="30" height="30"/></clipPath>${BOX}`,
+      'clip-path="url(#c)"',
+    );
+    expect(importSvg(text).clips.map(({ coords }) => [...coords])).toEqual([[0, 0, 30, 0, 30, 30, 0, 30]]);
+  });
+});
