@@ -94,10 +94,19 @@ function* draw(
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
   const clips = new SvgClips(tree, cascade, geometry, warnings);
   const servers = new SvgPaintServers(tree, cascade);
-  const painter = new SvgPainter(tree, geometry, servers, builder, warnings, cascade, fontOf(options));
-  clips.textBox = (element, at) => painter.textBox(element, at);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const conditions = new SvgConditions(tree, languages);
+  const painter = new SvgPainter(
+    tree,
+    geometry,
+    servers,
+    builder,
+    warnings,
+    cascade,
+    fontOf(options),
+    conditions,
+  );
+  clips.textBox = (element, at) => painter.textBox(element, at);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
   if (isShown(context.style, root)) yield* walk.run(context);
   return { builder, page };

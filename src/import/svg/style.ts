@@ -2,6 +2,7 @@
 import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "../color.js";
+import { computeTextStyle, declaresTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, splitLength, type LengthBasis } from "./length.js";
 
 export type Paint =
@@ -33,6 +34,7 @@ export interface Style {
   readonly isBold: boolean;
   readonly textAnchor: "start" | "middle" | "end";
   readonly letterSpacing: number;
+  readonly text: TextStyle;
   readonly markerStart: string | null;
   readonly markerMid: string | null;
   readonly markerEnd: string | null;
@@ -62,6 +64,7 @@ export const INITIAL_STYLE: Style = {
   isBold: false,
   textAnchor: "start",
   letterSpacing: 0,
+  text: INITIAL_TEXT_STYLE,
   markerStart: null,
   markerMid: null,
   markerEnd: null,
@@ -173,6 +176,14 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
     const value = resolve(style, declared.valueAt(i));
     if (value === null) continue;
     if (!setKeyword(style, parent, property, value)) set(style, value, own);
+  }
+  if (declaresTextStyle(declared)) {
+    style.text = computeTextStyle(
+      parent.text,
+      (property) => declaredValue(style, declared, property),
+      style,
+      (length) => lengthPx(length, own, "width"),
+    );
   }
   return style;
 }

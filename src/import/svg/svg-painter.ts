@@ -11,6 +11,7 @@ import { drawPathData } from "../path-data.js";
 import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
+import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { placeText } from "./svg-text.js";
@@ -36,6 +37,7 @@ export class SvgPainter {
     private readonly cascade: Cascade,
     /** What text is drawn with; null where it is only to be reported. */
     private readonly font: TextFont | null,
+    private readonly conditions: SvgConditions,
   ) {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
   }
@@ -43,7 +45,15 @@ export class SvgPainter {
   /** The box of a text in its user units: from line to line, and from the first letter to the last. */
   textBox(element: number, context: Context): Box {
     if (this.font === null) return EMPTY_BOX;
-    const { letters } = placeText(this.tree, this.cascade, this.textPaths, element, context, this.font);
+    const { letters } = placeText(
+      this.tree,
+      this.cascade,
+      this.textPaths,
+      element,
+      context,
+      this.font,
+      this.conditions,
+    );
     return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
       const turned = compose(translation(x, y), rotation(angle));
       const cell = { x0: 0, y0: -ASCENT_EM * fontSize, x1: advance, y1: DESCENT_EM * fontSize };
@@ -74,7 +84,15 @@ export class SvgPainter {
       if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
       return;
     }
-    const text = placeText(this.tree, this.cascade, this.textPaths, element, context, this.font);
+    const text = placeText(
+      this.tree,
+      this.cascade,
+      this.textPaths,
+      element,
+      context,
+      this.font,
+      this.conditions,
+    );
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
     const isDrawn = builder.shapeCount > firstShape;
@@ -99,7 +117,10 @@ export class SvgPainter {
     this.element = element;
     const own = { ...context, style };
     const turned = compose(translation(letter.x, letter.y), rotation(letter.angle));
-    const map = compose(context.map, compose(turned, scaling(style.fontSize)));
+    const map = compose(
+      context.map,
+      compose(turned, scaling(style.fontSize * letter.stretch, style.fontSize)),
+    );
     const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "gradient-stroke");
     const fill = this.colorOf(style.fill, style.fillOpacity, own, "gradient-fill");
     if (stroke === null && fill === null) return;

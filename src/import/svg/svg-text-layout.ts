@@ -4,6 +4,7 @@
  */
 import type { Style } from "./style.js";
 import type { TextPath } from "./svg-text-path.js";
+import { baselineOffset, DECORATION_EM } from "./text-style.js";
 import type { TextFont } from "../text/text-font.js";
 import { layOutLine } from "../text/text-line.js";
 
@@ -18,6 +19,15 @@ export interface Char {
   dx: number;
   dy: number;
   angle: number | null;
+  /** Whether it stays where it is a blank among blanks. */
+  readonly keepsBlanks: boolean;
+  readonly stretch: Stretch | null;
+}
+
+/** A length that characters are brought to: by the gaps between them, or together with the letters themselves. */
+export interface Stretch {
+  readonly length: number;
+  readonly ofGlyphs: boolean;
 }
 
 /** One letter: its path in em, put at x, y in user units and turned. */
@@ -28,6 +38,8 @@ export interface PlacedLetter {
   /** rad */
   readonly angle: number;
   readonly style: Style;
+  /** How much wider than usual it is. */
+  readonly stretch: number;
   /** In user units, to the next letter. */
   readonly advance: number;
 }
@@ -41,6 +53,8 @@ export interface LaidOutText {
 /** A letter on a line that is straight so far: x along it, y across. */
 interface LetterOnLine extends PlacedLetter {
   readonly pen: number;
+  /** Across the line: where its baseline is. */
+  readonly lineY: number;
 }
 
 interface Pen {
@@ -48,6 +62,8 @@ interface Pen {
   y: number;
 }
 
+/** Thickness of decorations, in em. */
+const BAR_EM = 0.06;
 const ANCHORS: Readonly<Record<Style["textAnchor"], number>> = { start: 0, middle: 0.5, end: 1 };
 
 export function layOutText(chars: readonly Char[], font: TextFont): LaidOutText {
@@ -71,11 +87,28 @@ const beginsChunk = (char: Char, before: Char): boolean =>
 function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
   pen.x = chunk[0].x ?? pen.x;
   pen.y = chunk[0].y ?? pen.y;
-  const startX = pen.x;
-  const letters = layOutRuns(chunk, font, pen, missing);
-  const shift = -(pen.x - startX) * ANCHORS[chunk[0].style.textAnchor];
-  pen.x += shift;
-  return shift === 0 ? letters : letters.map((letter) => ({ ...letter, x: letter.x + shift }));
+  const { isVertical } = chunk[0].style.text;
+  const along: Pen = isVertical ? { x: pen.y, y: -pen.x } : { ...pen };
+  const startX = along.x;
+  const laid = layOutRuns(chunk, font, along, missing);
+  const shift = -(along.x - startX) * anchorOf(chunk[0].style);
+  const letters = laid.map((letter) => ({ ...letter, x: letter.x + shift }));
+  along.x += shift;
+  pen.x = isVertical ? -along.y : along.x;
+  pen.y = isVertical ? along.x : along.y;
+  if (!isVertical) return letters;
+  // A vertical line is a horizontal one, turned by a quarter.
+  return letters.map((letter) => ({
+    ...letter,
+    x: -letter.y,
+    y: letter.x,
+    angle: letter.angle + Math.PI / 2,
+  }));
+}
+
+/** The part of a text's length that lies before its place. */
+function anchorOf({ textAnchor, text }: Style): number {
+  return text.isRightToLeft ? 1 - ANCHORS[textAnchor] : ANCHORS[textAnchor];
 }
 
 /**
@@ -88,7 +121,7 @@ function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string
   const line: Pen = { x: chunk[0].x ?? 0, y: 0 };
   const startX = line.x;
   const laid = layOutRuns(chunk, font, line, missing);
-  const shift = path.startOffset - (line.x - startX) * ANCHORS[anchor];
+  const shift = path.startOffset - (line.x - startX) * anchorOf(chunk[0].style);
   const letters: PlacedLetter[] = [];
   for (const letter of laid) {
     const middle = letter.pen + letter.advance / 2;
@@ -111,30 +144,92 @@ function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string
 /** The letters one after the other from `pen` on, which ends behind the last. */
 function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
   const letters: LetterOnLine[] = [];
-  for (const run of runsOf(chars)) {
-    const { style, angle, dx, dy } = run[0];
-    const size = style.fontSize;
-    pen.x += dx;
-    pen.y += dy;
-    const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily);
-    for (const char of line.missing) missing.push(char);
+  const runs = runsOf(chars);
+  for (let at = 0; at < runs.length;) {
+    const { stretch } = runs[at][0];
     const startX = pen.x;
-    line.letters.forEach((letter, i) => {
-      const spaced = startX + i * style.letterSpacing;
-      pen.x = spaced + (letter.pen + letter.advance) * size + style.letterSpacing;
-      if (letter.path === "") return;
-      letters.push({
-        path: letter.path,
-        x: spaced + letter.x * size,
-        y: pen.y + letter.y * size,
-        pen: spaced + letter.pen * size,
-        advance: letter.advance * size,
-        angle: angle ?? 0,
-        style,
-      });
-    });
+    const part: LetterOnLine[] = [];
+    for (; at < runs.length && runs[at][0].stretch === stretch; at++) {
+      part.push(...layOutRun(runs[at], font, pen, missing));
+    }
+    if (stretch === null) letters.push(...part);
+    else letters.push(...stretched(part, startX, pen, stretch));
   }
-  return letters;
+  return letters
+    .flatMap((letter) => [...decorationsOf(letter, font), letter])
+    .filter(({ path }) => path !== "");
+}
+
+/** With blanks as letters without a path. */
+function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
+  const { style, angle, dx, dy } = run[0];
+  const size = style.fontSize;
+  pen.x += style.text.isVertical ? dy : dx;
+  pen.y += style.text.isVertical ? -dx : dy;
+  const y = pen.y + baselineOffset(style.text, size);
+  const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily);
+  for (const char of line.missing) missing.push(char);
+  const startX = pen.x;
+  let spacing = 0;
+  return line.letters.map((letter) => {
+    const spaced = startX + spacing;
+    spacing += style.letterSpacing + (letter.path === "" ? style.text.wordSpacing : 0);
+    pen.x = startX + spacing + (letter.pen + letter.advance) * size;
+    return {
+      path: letter.path,
+      x: spaced + letter.x * size,
+      y: y + letter.y * size,
+      lineY: y,
+      pen: spaced + letter.pen * size,
+      advance: letter.advance * size,
+      angle: angle ?? 0,
+      stretch: 1,
+      style,
+    };
+  });
+}
+
+/** Brings letters that begin at `startX` and end at the pen to the length that `textLength` asks for. */
+function stretched(
+  letters: readonly LetterOnLine[],
+  startX: number,
+  pen: Pen,
+  { length, ofGlyphs }: Stretch,
+): LetterOnLine[] {
+  const natural = pen.x - startX;
+  if (!(natural > 0) || letters.length === 0) return [...letters];
+  pen.x = startX + length;
+  if (ofGlyphs) {
+    const scale = length / natural;
+    const place = (x: number): number => startX + (x - startX) * scale;
+    return letters.map((letter) => ({
+      ...letter,
+      x: place(letter.x),
+      pen: place(letter.pen),
+      advance: letter.advance * scale,
+      stretch: scale,
+    }));
+  }
+  const gap = letters.length < 2 ? 0 : (length - natural) / (letters.length - 1);
+  return letters.map((letter, i) => ({ ...letter, x: letter.x + i * gap, pen: letter.pen + i * gap }));
+}
+
+/** Lines along a letter, as letters of their own: bars of an outline font, single strokes of the others. */
+function decorationsOf(letter: LetterOnLine, font: TextFont): LetterOnLine[] {
+  const { style, advance, pen, lineY } = letter;
+  const width = advance / style.fontSize;
+  return style.text.decorations.map(({ kind, fill, stroke }) => {
+    const y = DECORATION_EM[kind];
+    const bar = font.kind === "outline" ? `v${BAR_EM}H0z` : "";
+    return {
+      ...letter,
+      path: `M0 ${y}H${width}${bar}`,
+      x: pen,
+      y: lineY,
+      stretch: 1,
+      style: { ...style, fill, stroke },
+    };
+  });
 }
 
 /** Stretches of one style without shifts inside, so that a font may join and kern within them. */
@@ -146,6 +241,7 @@ function runsOf(chars: readonly Char[]): Char[][] {
       run !== undefined &&
       run[0].style === char.style &&
       run[0].angle === char.angle &&
+      run[0].stretch === char.stretch &&
       char.dx === 0 &&
       char.dy === 0 &&
       (char.angle === null || char.angle === 0);
