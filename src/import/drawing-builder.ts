@@ -204,7 +204,7 @@ export class DrawingBuilder {
   }
 
   private dashOf(dash: DashPattern): number {
-    const key = `${dash.lengths.join(" ")}@${dash.offset}`;
+    const key = JSON.stringify(dash);
     let index = this.dashIndex.get(key);
     if (index === undefined) {
       index = this.dashes.length;

@@ -35,6 +35,8 @@ export const PRESENTATION = [
   "clip-path",
   "mask",
   "filter",
+  "mix-blend-mode",
+  "paint-order",
   "overflow",
   "transform",
   "transform-origin",

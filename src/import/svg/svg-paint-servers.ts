@@ -23,6 +23,11 @@ export class SvgPaintServers {
     return this.serverColors.get(id);
   }
 
+  isPattern(id: string): boolean {
+    const element = this.tree.elementById.get(id);
+    return element !== undefined && tagOf(this.tree, element) === "pattern";
+  }
+
   /** The first stop's colour, found through the chain of hrefs that gradients may share stops by. */
   private findServerColor(id: string, context: Context): string | null | undefined {
     const { tree } = this;

@@ -1,5 +1,5 @@
 /** One leaf element to one shape of the drawing: geometry, paints, dashes. */
-import { compose, meanScale, rotation, scaling, translation } from "../../geometry/affine.js";
+import { compose, meanScale, rotation, scaling, translation, unstretched } from "../../geometry/affine.js";
 import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
@@ -157,21 +157,41 @@ export class SvgPainter {
     }
     if (stroke === null && fill === null) return null;
     const effect = declaredValue(style, declared, "vector-effect");
-    const scale = effect === "non-scaling-stroke" ? MM_PER_PX : meanScale(context.map);
+    const isNonScaling = effect === "non-scaling-stroke";
+    const scale = isNonScaling ? MM_PER_PX : meanScale(context.map);
     return {
       stroke,
       fill,
       evenOdd: style.fillRule === "evenodd",
       strokeWidth: stroke === null ? 0 : style.strokeWidth * scale,
-      dash: stroke === null || style.dashes === null ? null : this.dashOf(element, context, scale),
+      dash:
+        stroke === null || style.dashes === null ? null : this.dashOf(element, context, scale, isNonScaling),
     };
   }
 
-  private dashOf(element: number, context: Context, scale: number): DashPattern {
+  private dashOf(element: number, context: Context, scale: number, isNonScaling: boolean): DashPattern {
     const { dashes, dashOffset } = context.style;
     const own = Number(attribute(this.tree, element, "pathLength") ?? NaN);
     const unit = own > 0 ? (scale * new MeasuredPath(this.geometry.shape).length) / own : scale;
-    return { lengths: (dashes ?? []).map((length) => length * unit), offset: dashOffset * unit };
+    const measure = isNonScaling ? null : unstretched(context.map);
+    return {
+      lengths: (dashes ?? []).map((length) => length * unit),
+      offset: dashOffset * unit,
+      ...(measure === null ? {} : { measure }),
+    };
+  }
+
+  private warnOfServer(
+    id: string,
+    gradient: "gradient-stroke" | "gradient-fill",
+    color: string | null,
+    context: Context,
+  ): void {
+    if (color === null) return;
+    const place = this.geometry.firstPoint(context);
+    if (!this.servers.isPattern(id)) this.warnings.add(gradient, place);
+    else
+      this.warnings.add(gradient === "gradient-fill" ? "pattern-fill" : "pattern-stroke", place, `"${id}"`);
   }
 
   /** "#rrggbb", or null where nothing is painted. */
@@ -199,7 +219,7 @@ export class SvgPainter {
       case "server": {
         const color = this.servers.serverColor(paint.id, context);
         if (color !== undefined) {
-          this.warnings.add(serverWarning, this.geometry.firstPoint(context));
+          this.warnOfServer(paint.id, serverWarning, color, context);
           return color;
         }
         if (paint.fallback.kind === "none") this.warnings.add("paint-missing", undefined, `#${paint.id}`);

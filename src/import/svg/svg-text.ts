@@ -100,7 +100,10 @@ class Gatherer {
         continue;
       }
       const onPath = tag === "textPath" ? this.paths.of(node, this.context) : path;
-      if (tag === "tref" || (tag === "textPath" && onPath === null)) this.unsupported.push(tag);
+      // A textPath stands in a text or a link only.
+      const isMisplaced = tag === "textPath" && !["text", "a"].includes(tagOf(tree, tree.parents[node]));
+      if (tag === "tref" || isMisplaced || (tag === "textPath" && onPath === null))
+        this.unsupported.push(tag);
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
         this.cascade.collect(node, this.declared);
         const own = computeStyle(style, this.declared, this.basisOf(style));

@@ -19,6 +19,7 @@ import {
   withViewport,
   type Context,
 } from "./svg-context.js";
+import { effectsOf, warnOf, type Effects } from "./svg-effects.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
@@ -56,8 +57,8 @@ interface Frame {
   next: number;
   /** Only `next` itself, not its siblings. */
   readonly isSingle: boolean;
-  /** A warning about everything drawn inside, placed when the frame ends. */
-  readonly warning: WarningCode | null;
+  /** What is missing from everything drawn inside: warned of when the frame ends. */
+  readonly effects: Effects;
   readonly firstShape: number;
 }
 
@@ -121,20 +122,19 @@ export class SvgWalk {
     const { declared } = this;
     this.cascade.collect(0, declared);
     const value = declaredValue(context.style, declared, "clip-path");
-    const warning = this.effectOf(context.style);
+    const effects = effectsOf(context.style, declared);
     const clip = this.clips.clipOf(0, value, context);
-    if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, warning);
+    if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, effects);
   }
 
-  private push(context: Context, next: number, isSingle: boolean, warning: WarningCode | null): void {
-    this.stack.push({ context, next, isSingle, warning, firstShape: this.builder.shapeCount });
+  private push(context: Context, next: number, isSingle: boolean, effects: Effects): void {
+    this.stack.push({ context, next, isSingle, effects, firstShape: this.builder.shapeCount });
   }
 
   private leave(frame: Frame): void {
-    if (frame.warning === null) return;
     const { builder } = this;
-    if (builder.shapeCount === frame.firstShape) return;
-    this.warnings.add(frame.warning, builder.boxOfShapes(frame.firstShape, builder.shapeCount));
+    if (frame.effects.length === 0 || builder.shapeCount === frame.firstShape) return;
+    warnOf(frame.effects, builder.boxOfShapes(frame.firstShape, builder.shapeCount), this.warnings);
   }
 
   private visit(element: number, outer: Context): void {
@@ -157,16 +157,20 @@ export class SvgWalk {
       if (group !== outer.group) this.hideGroup(group);
       return;
     }
-    if (this.isTransparent(style)) return;
+    if (this.isTransparent(style)) {
+      if (group !== outer.group) this.hideGroup(group);
+      return;
+    }
+    if (group !== outer.group && tag === "g" && !style.isVisible) this.warnOfHidden(group);
     const transform = this.transformOf(element, style, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
-    const warning = this.effectOf(style);
+    const effects = effectsOf(style, this.declared);
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
-    if (!isContainer) this.visitLeaf(element, tag, context, warning);
-    else this.enter(element, tag, context, warning);
+    if (!isContainer) this.visitLeaf(element, tag, context, effects);
+    else this.enter(element, tag, context, effects);
   }
 
   /** The context with the style that `declared` makes: most elements declare what the one before did. */
@@ -180,7 +184,7 @@ export class SvgWalk {
     return last.inner;
   }
 
-  private visitLeaf(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+  private visitLeaf(element: number, tag: string, context: Context, effects: Effects): void {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") this.painter.drawText(element, context);
@@ -189,34 +193,34 @@ export class SvgWalk {
       if (isMarked(tag, context)) this.pushMarkers(context);
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
-    if (warning !== null && this.builder.shapeCount > before) {
-      this.warnings.add(warning, this.builder.boxOfShapes(before, this.builder.shapeCount));
+    if (effects.length > 0 && this.builder.shapeCount > before) {
+      warnOf(effects, this.builder.boxOfShapes(before, this.builder.shapeCount), this.warnings);
     }
   }
 
-  private enter(element: number, tag: string, context: Context, warning: WarningCode | null): void {
+  private enter(element: number, tag: string, context: Context, effects: Effects): void {
     const { tree } = this;
     switch (tag) {
       case "use":
-        this.enterUse(element, context, warning);
+        this.enterUse(element, context, effects);
         return;
       case "svg":
       case "symbol": {
         const inner = this.viewportInside(element, tag, context, outerSizeOf(context, element));
-        if (inner !== null) this.push(inner, tree.firstChildren[element], false, warning);
+        if (inner !== null) this.push(inner, tree.firstChildren[element], false, effects);
         return;
       }
       case "switch": {
         const child = this.chosenChild(element);
-        if (child >= 0) this.push(context, child, true, warning);
+        if (child >= 0) this.push(context, child, true, effects);
         return;
       }
       default:
-        this.push(context, tree.firstChildren[element], false, warning);
+        this.push(context, tree.firstChildren[element], false, effects);
     }
   }
 
-  private enterUse(element: number, context: Context, warning: WarningCode | null): void {
+  private enterUse(element: number, context: Context, effects: Effects): void {
     const { tree, warnings } = this;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const line = `line ${tree.lines[element]}`;
@@ -251,7 +255,7 @@ export class SvgWalk {
       },
       target,
       true,
-      warning,
+      effects,
     );
   }
 
@@ -270,7 +274,7 @@ export class SvgWalk {
       if (isInsideUseOf(context.uses, marker)) continue;
       this.spendCopy(context);
       const inner = this.markers.insideOf(marker, place, context);
-      if (inner !== null) this.push(inner, tree.firstChildren[marker], false, null);
+      if (inner !== null) this.push(inner, tree.firstChildren[marker], false, []);
     }
   }
 
@@ -365,14 +369,6 @@ export class SvgWalk {
     return aroundOrigin(map, origin ?? "0 0", basis, { x: own.x0, y: own.y0 });
   }
 
-  /** A filter or mask that will be missing from what the element draws. */
-  private effectOf(style: Context["style"]): WarningCode | null {
-    const { declared } = this;
-    const isSet = (value: string | undefined): boolean => value !== undefined && value !== "none";
-    if (isSet(declaredValue(style, declared, "mask"))) return "mask-ignored";
-    return isSet(declaredValue(style, declared, "filter")) ? "filter-ignored" : null;
-  }
-
   private chosenChild(element: number): number {
     const { tree } = this;
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
@@ -402,7 +398,11 @@ export class SvgWalk {
   private hideGroup(group: number): void {
     const { groups } = this.builder;
     groups[group] = { ...groups[group], hidden: true };
-    this.warnings.add("hidden-layer", undefined, groups[group].name);
+    this.warnOfHidden(group);
+  }
+
+  private warnOfHidden(group: number): void {
+    this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
   }
 
   private spendCopy(context: Context): void {

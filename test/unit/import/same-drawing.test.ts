@@ -82,6 +82,44 @@ describe("transforms", () => {
   });
 });
 
+describe("what is not drawn", () => {
+  const two = '<rect width="9" height="9" fill="red"';
+  it.each([
+    ["a blend mode", `${two} style="mix-blend-mode:multiply"/>`, "blend-ignored", "multiply"],
+    ["the order of painting", `${two} paint-order="stroke"/>`, "paint-order-ignored", "stroke"],
+    [
+      "a pattern, by its name",
+      `<pattern id="dots" width="2" height="2"><path d="M0 0h1"/></pattern><rect width="9" height="9" fill="url(#dots)"/>`,
+      "pattern-fill",
+      "dots",
+    ],
+    ["a layer that is transparent", `<g id="ghost" opacity="0">${BOX}</g>${BOX}`, "hidden-layer", "ghost"],
+    [
+      "a layer that is invisible",
+      `<g id="ghost" visibility="hidden">${BOX}</g>${BOX}`,
+      "hidden-layer",
+      "ghost",
+    ],
+    [
+      "a textPath in a textPath",
+      '<path id="p" d="M0 0h99"/><text><textPath href="#p">a<textPath href="#p">b</textPath></textPath></text>',
+      "text-not-drawn",
+      "",
+    ],
+  ])("is in the report: %s", (_name, body, code, detail) => {
+    const warning = draw(body).warnings.find((one) => one.code === code);
+    expect(warning?.message).toContain(detail);
+  });
+
+  it("is dashed as it was before it was stretched", () => {
+    const [dash] = draw('<path transform="scale(4 1)" stroke-dasharray="1" d="M0 0h9"/>').dashes;
+    expect(dash).toEqual({ lengths: [2, 2], offset: 0, measure: { a: 0.5, b: -0, c: -0, d: 2 } });
+    expect(
+      draw('<path transform="rotate(30)" stroke-dasharray="1" d="M0 0h9"/>').dashes[0].measure,
+    ).toBeUndefined();
+  });
+});
+
 describe("the file", () => {
   it("may define entities, for values and for elements", () => {
     const text = `<!DOCTYPE svg [<!ENTITY w "40"><!ENTITY box '<rect x="20" y="20" width="&w;" height="20"/>'>]>${page("&box;")}`;

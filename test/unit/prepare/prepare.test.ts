@@ -179,6 +179,22 @@ describe("cutting", () => {
     expect(draw(drawingOf([inside], { clips }))).toEqual(draw(drawingOf([{ ...inside, clip: -1 }])));
   });
 
+  it("stretches dashes with the shape that they belong to", () => {
+    // Twice as wide as it was drawn: dashes along x are twice as long as those along y.
+    const dashes = [
+      {
+        lengths: [Math.SQRT2, Math.SQRT2],
+        offset: 0,
+        measure: { a: Math.SQRT1_2, b: 0, c: 0, d: Math.SQRT2 },
+      },
+    ];
+    const [across, down] = ["M10 10L12.5 10", "M10 10L10 11.5"].map(
+      (d) => draw(drawingOf([{ d, dash: 0 }], { dashes }))[0],
+    );
+    expect(across[2] - across[0]).toBeCloseTo(2);
+    expect(down[3] - down[1]).toBeCloseTo(1);
+  });
+
   it("minds the rule of a clip region with a hole", () => {
     const ring = "M0 0L90 0L90 90L0 90ZM30 30L60 30L60 60L30 60Z";
     const through = (rule: number): number[][] =>

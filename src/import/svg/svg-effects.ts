@@ -1,0 +1,32 @@
+/** What a browser does with an element and a pen does not: named in a warning for each. */
+import type { Box } from "../../geometry/box.js";
+import type { Declared } from "./declared.js";
+import type { Property } from "./properties.js";
+import { declaredValue, type Style } from "./style.js";
+import type { WarningCode, Warnings } from "../warnings.js";
+
+/** Effects of one element: codes, and what names them. */
+export type Effects = readonly (readonly [code: WarningCode, detail?: string])[];
+
+const NONE: Effects = [];
+
+/** Of the element that `declared` is of. */
+export function effectsOf(style: Style, declared: Declared): Effects {
+  if (declared.size === 0) return NONE;
+  const valueOf = (property: Property): string | null => {
+    const value = declaredValue(style, declared, property);
+    return value === undefined || value === "none" || value === "normal" ? null : value.slice(0, 40);
+  };
+  const effects: [WarningCode, string?][] = [];
+  if (valueOf("mask") !== null) effects.push(["mask-ignored"]);
+  if (valueOf("filter") !== null) effects.push(["filter-ignored"]);
+  const blend = valueOf("mix-blend-mode");
+  if (blend !== null) effects.push(["blend-ignored", blend]);
+  const order = valueOf("paint-order");
+  if (order !== null && /^(stroke|markers)/.test(order)) effects.push(["paint-order-ignored", order]);
+  return effects;
+}
+
+export function warnOf(effects: Effects, box: Box, warnings: Warnings): void {
+  for (const [code, detail] of effects) warnings.add(code, box, detail);
+}
