@@ -214,9 +214,8 @@ function* styleTexts(tree: SvgTree): Generator<string> {
   if (style < 0) return;
   for (let element = 0; element < tree.count; element++) {
     if (tree.tags[element] !== style) continue;
-    // As browsers have it: in SVG the type is written exactly so, if it is written.
     const type = attribute(tree, element, "type") ?? "";
-    if (type !== "" && type !== "text/css") continue;
+    if (type !== "" && type.toLowerCase() !== "text/css") continue;
     let text = "";
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
       text += textOf(tree, child);

@@ -28,7 +28,7 @@ import { attribute, parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
 import type { LengthBasis } from "./length.js";
 import { aroundOrigin, parseTransform } from "./transform.js";
-import { computeStyle, declaredValue, INITIAL_STYLE, type Style } from "./style.js";
+import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "../warnings.js";
 
 /** Lets others run between steps: resolves when it is this work's turn again. */
@@ -108,7 +108,7 @@ function* draw(
   );
   clips.textBox = (element, at) => painter.textBox(element, at);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
-  if (isShown(context.style, root)) yield* walk.run(context);
+  if (isShown(root)) yield* walk.run(context);
   return { builder, page };
 }
 
@@ -169,8 +169,8 @@ function rootTransform(
   return compose(compose(scaling(mmPerPx), turned), scaling(1 / mmPerPx));
 }
 
-const isShown = (style: Style, root: Declared): boolean =>
-  declaredValue(style, root, "display") !== "none" && Number(root.get("opacity") ?? 1) !== 0;
+/** Browsers draw the outermost element whatever its display is. */
+const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
 
 function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
   if (page.sizeFrom !== "none") return builder.finish(page.widthMm, page.heightMm);

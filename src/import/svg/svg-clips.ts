@@ -12,6 +12,7 @@ import { AncestorStyles } from "./ancestor-style.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
+import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../clip-node.js";
 import { curveBox } from "../curve-box.js";
 import { lengthPx } from "./length.js";
@@ -26,6 +27,8 @@ import type { Warnings } from "../warnings.js";
 const RECTANGLE_VERBS = Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE);
 /** clipPaths that clip clipPaths: more is a circle. */
 const MAX_NESTING = 16;
+/** Clips on the shapes of clipPaths, in the whole file. */
+const MAX_CHILD_CLIPS = 10_000;
 /** Elements looked at to find boxes for objectBoundingBox, in the whole file. */
 const MAX_MEASURED = 1_000_000;
 
@@ -41,6 +44,8 @@ export class SvgClips {
   private readonly declared = new Declared();
   private readonly ancestors: AncestorStyles;
   private measured = 0;
+  private childClips = 0;
+  private childNesting = 0;
   /** The box of a text in its user units: laying text out is not known here. */
   textBox: (element: number, context: Context) => Box = () => EMPTY_BOX;
 
@@ -105,6 +110,8 @@ export class SvgClips {
   ): ClipNode | null | "empty" {
     this.cascade.collect(target, this.declared);
     const style = computeStyle(this.ancestors.outside(target, context.basis), this.declared, context.basis);
+    // What is not there does not clip.
+    if (declaredValue(style, this.declared, "display") === "none") return context.clip;
     const own = declaredValue(style, this.declared, "clip-path");
     const transform = parseTransform(declaredValue(style, this.declared, "transform") ?? "") ?? IDENTITY;
     const inner = withStyle(context, style, compose(transform, units));
@@ -131,7 +138,7 @@ export class SvgClips {
     const { tree } = this;
     const collector = new ClipCollector();
     for (let child = tree.firstChildren[target]; child >= 0; child = tree.nextSiblings[child]) {
-      this.addChild(child, context, collector);
+      this.addChild(child, { ...context, clip: null }, collector);
     }
     const shapes = collector.finish();
     if (shapes === null) return null;
@@ -149,17 +156,38 @@ export class SvgClips {
       this.warnings.add("clip-ignored", undefined, "text in a clipPath");
       return;
     }
-    const clip = declaredValue(style, declared, "clip-path");
-    if (clip !== undefined && clip !== "none") {
-      this.warnings.add("clip-ignored", undefined, `clip inside a clipPath, line ${tree.lines[child]}`);
-    }
     const transform = parseTransform(declaredValue(style, declared, "transform") ?? "") ?? IDENTITY;
-    const context = withStyle(outer, style, transform);
+    const moved = withStyle(outer, style, transform);
+    const clip = this.clipOfChild(child, declaredValue(style, declared, "clip-path"), moved);
+    if (clip === "empty") return;
+    const context = clip === moved.clip ? moved : { ...moved, clip };
     if (tag === "use") this.addUse(child, context, collector);
-    else if (style.isVisible) {
-      const shape = this.geometry.geometryOf(child, tag, declared, context);
-      collector.add(shape, context.map, style.clipRule === "evenodd");
+    else if (style.isVisible) this.addShape(child, tag, context, collector);
+  }
+
+  /** As `clipOf`, within a budget: clips of clips may be many. */
+  private clipOfChild(child: number, value: string | undefined, context: Context): ClipNode | null | "empty" {
+    if (value === undefined || value === "none") return context.clip;
+    if (this.childNesting < MAX_NESTING && ++this.childClips <= MAX_CHILD_CLIPS) {
+      this.childNesting++;
+      const clip = this.clipOf(child, value, context);
+      this.childNesting--;
+      return clip;
     }
+    const where = `clip inside a clipPath, line ${this.tree.lines[child]}`;
+    this.warnings.add("clip-ignored", undefined, where);
+    return context.clip;
+  }
+
+  private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
+    this.cascade.collect(child, this.declared);
+    const shape = this.geometry.geometryOf(child, tag, this.declared, context);
+    const evenOdd = context.style.clipRule === "evenodd";
+    if (context.clip === null) return collector.add(shape, context.map, evenOdd);
+    const whole = new ClipCollector();
+    whole.add(shape, context.map, evenOdd);
+    const outline = whole.finish();
+    if (outline !== null) collector.add(clippedShape(outline, context.clip), IDENTITY, false);
   }
 
   /** Inside a clipPath a `use` may refer to a shape only. */

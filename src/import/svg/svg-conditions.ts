@@ -17,7 +17,8 @@ export class SvgConditions {
   areMet(element: number): boolean {
     if (!this.areThere) return true;
     const extensions = attribute(this.tree, element, "requiredExtensions");
-    if (extensions !== undefined && extensions.trim() !== "") return false;
+    // None is known; an empty list is not met either (SVG 2, §5.8.4).
+    if (extensions !== undefined) return false;
     const language = attribute(this.tree, element, "systemLanguage");
     if (language === undefined) return true;
     const wanted = language.split(",").map((part) => part.trim().toLowerCase());

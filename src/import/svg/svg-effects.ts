@@ -2,7 +2,8 @@
 import type { Box } from "../../geometry/box.js";
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
-import { declaredValue, type Style } from "./style.js";
+import { declaredValue, parseUrl, type Style } from "./style.js";
+import { tagOf, type SvgTree } from "./svg-tree.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 
 /** Effects of one element: codes, and what names them. */
@@ -25,6 +26,15 @@ export function effectsOf(style: Style, declared: Declared): Effects {
   const order = valueOf("paint-order");
   if (order !== null && /^(stroke|markers)/.test(order)) effects.push(["paint-order-ignored", order]);
   return effects;
+}
+
+/** Whether a mask or filter without content leaves nothing of the element, as in browsers. */
+export function isErased(tree: SvgTree, style: Style, declared: Declared): boolean {
+  return (["mask", "filter"] as const).some((name) => {
+    const id = parseUrl(declaredValue(style, declared, name) ?? "");
+    const target = id === null ? undefined : tree.elementById.get(id);
+    return target !== undefined && tagOf(tree, target) === name && tree.firstChildren[target] < 0;
+  });
 }
 
 export function warnOf(effects: Effects, box: Box, warnings: Warnings): void {

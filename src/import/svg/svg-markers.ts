@@ -18,7 +18,7 @@ import { contextPaints, MAX_COPY_DEPTH, withViewport, type Context, type UseChai
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue } from "./style.js";
 import { parseTransform } from "./transform.js";
-import { parseViewBox, viewBoxMap } from "./view-box.js";
+import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 
 const MARKED = new Set(["path", "line", "polyline", "polygon"]);
 
@@ -56,7 +56,7 @@ export class SvgMarkers {
       lengthPx(text(name) ?? "", context.basis, side) ?? normal;
     const width = length("markerWidth", "width", 3);
     const height = length("markerHeight", "height", 3);
-    if (!(width > 0 && height > 0)) return null;
+    if (!(width > 0 && height > 0) || isEmptyViewBox(text("viewBox"))) return null;
     const box = parseViewBox(text("viewBox"));
     const fit = box === null ? IDENTITY : viewBoxMap(box, width, height, text("preserveAspectRatio"));
     const orient = text("orient") ?? "0";
@@ -87,7 +87,6 @@ export class SvgMarkers {
     this.cascade.collect(marker, declared);
     const outside = this.ancestors.outside(marker, context.basis);
     const style = computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
-    if (declaredValue(style, declared, "display") === "none") return null;
     const inside = {
       ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
       style,

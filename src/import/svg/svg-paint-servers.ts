@@ -45,8 +45,17 @@ export class SvgPaintServers {
     return null;
   }
 
+  /** Whether its units are parts of the shape's box: then it paints nothing on a shape without width or height. */
+  isOfBox(id: string): boolean {
+    const { tree } = this;
+    const element = tree.elementById.get(id);
+    if (element === undefined) return false;
+    const name = tagOf(tree, element) === "pattern" ? "patternUnits" : "gradientUnits";
+    return attribute(tree, element, name) !== "userSpaceOnUse";
+  }
+
   /** What a pattern paints is not drawn: black stands for it, unless it is empty. */
-  private patternColor(pattern: number): string | null {
+  private patternColor(pattern: number): string | undefined {
     const { tree } = this;
     const inherited = (has: (element: number) => boolean): boolean => {
       let element: number | undefined = pattern;
@@ -61,7 +70,7 @@ export class SvgPaintServers {
     );
     return isSized && inherited((element) => tree.firstChildren[element] >= 0)
       ? INITIAL_STYLE.color.hex
-      : null;
+      : undefined;
   }
 
   private stopColor(stop: number, context: Context): string {

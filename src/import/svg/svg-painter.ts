@@ -8,6 +8,7 @@ import type { Declared } from "./declared.js";
 import type { DrawingBuilder, Look } from "../drawing-builder.js";
 import { lengthPx } from "./length.js";
 import { drawPathData } from "../path-data.js";
+import { curveBox } from "../curve-box.js";
 import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { Context } from "./svg-context.js";
@@ -217,16 +218,20 @@ export class SvgPainter {
           serverWarning,
         );
       case "server": {
-        const color = this.servers.serverColor(paint.id, context);
+        const isFlat = this.servers.isOfBox(paint.id) && isFlatBox(curveBox(this.geometry.shape));
+        const color = isFlat ? undefined : this.servers.serverColor(paint.id, context);
         if (color !== undefined) {
           this.warnOfServer(paint.id, serverWarning, color, context);
           return color;
         }
-        if (paint.fallback.kind === "none") this.warnings.add("paint-missing", undefined, `#${paint.id}`);
+        if (paint.fallback.kind === "none" && !isFlat)
+          this.warnings.add("paint-missing", undefined, `#${paint.id}`);
         return this.colorOf(paint.fallback, opacity, context, serverWarning);
       }
     }
   }
 }
+
+const isFlatBox = ({ x0, y0, x1, y1 }: Box): boolean => x0 === x1 || y0 === y1;
 
 const NO_PAINT: Paint = { kind: "none" };

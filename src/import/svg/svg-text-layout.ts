@@ -153,7 +153,7 @@ function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: s
       part.push(...layOutRun(runs[at], font, pen, missing));
     }
     if (stretch === null) letters.push(...part);
-    else letters.push(...stretched(part, startX, pen, stretch));
+    else letters.push(...stretched(part, startX, pen, stretch, at < runs.length));
   }
   return letters
     .flatMap((letter) => [...decorationsOf(letter, font), letter])
@@ -195,6 +195,7 @@ function stretched(
   startX: number,
   pen: Pen,
   { length, ofGlyphs }: Stretch,
+  isFollowed: boolean,
 ): LetterOnLine[] {
   const natural = pen.x - startX;
   if (!(natural > 0) || letters.length === 0) return [...letters];
@@ -211,6 +212,8 @@ function stretched(
     }));
   }
   const gap = letters.length < 2 ? 0 : (length - natural) / (letters.length - 1);
+  // As in browsers, the gap also stands before what follows.
+  if (isFollowed) pen.x += gap;
   return letters.map((letter, i) => ({ ...letter, x: letter.x + i * gap, pen: letter.pen + i * gap }));
 }
 

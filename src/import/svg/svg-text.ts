@@ -106,7 +106,7 @@ class Gatherer {
         this.unsupported.push(tag);
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
         this.cascade.collect(node, this.declared);
-        const own = computeStyle(style, this.declared, this.basisOf(style));
+        const own = computeStyle(notAligned(style), this.declared, this.basisOf(style));
         // Deep nesting of spans has no use; what is that deep is not laid out.
         if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64)
           pushChildren(node, own, open, onPath, keepsBlanks, stretch);
@@ -178,6 +178,12 @@ class Gatherer {
     }
   }
 }
+
+/** An element's own alignment does not go on to those inside. */
+const notAligned = (style: Style): Style =>
+  style.text.alignmentBaseline === "auto"
+    ? style
+    : { ...style, text: { ...style.text, alignmentBaseline: "auto" } };
 
 function transformed(text: string, how: string): string {
   if (how === "uppercase") return text.toUpperCase();

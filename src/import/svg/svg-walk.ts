@@ -10,7 +10,7 @@ import { compose, determinant, IDENTITY, translation, type Affine } from "../../
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
-import type { Side } from "./length.js";
+import { lengthPx, type Side } from "./length.js";
 import {
   contextPaints,
   isInsideUseOf,
@@ -19,7 +19,7 @@ import {
   withViewport,
   type Context,
 } from "./svg-context.js";
-import { effectsOf, warnOf, type Effects } from "./svg-effects.js";
+import { effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
@@ -30,7 +30,7 @@ import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
 import { aroundOrigin, parseTransform } from "./transform.js";
-import { parseViewBox, viewBoxMap } from "./view-box.js";
+import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
 
@@ -166,6 +166,7 @@ export class SvgWalk {
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
     const effects = effectsOf(style, this.declared);
+    if (isErased(this.tree, style, this.declared)) return;
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
@@ -241,10 +242,10 @@ export class SvgWalk {
     }
     const x = this.geometry(context, element, "x", "width") ?? 0;
     const y = this.geometry(context, element, "y", "height") ?? 0;
-    const size = {
-      width: notNegative(this.geometry(context, element, "width", "width")),
-      height: notNegative(this.geometry(context, element, "height", "height")),
-    };
+    // Of a copy browsers heed these two as attributes only.
+    const side = (name: "width" | "height"): number | null =>
+      lengthPx(attribute(tree, element, name) ?? "", context.basis, name);
+    const size = { width: side("width"), height: side("height") };
     const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
     this.push(
       {
@@ -299,7 +300,7 @@ export class SvgWalk {
     const ownHeight = notNegative(this.geometry(context, element, "height", "height"));
     const width = useSize?.width ?? ownWidth ?? viewportWidth;
     const height = useSize?.height ?? ownHeight ?? viewportHeight;
-    if (!(width > 0 && height > 0)) return null;
+    if (!(width > 0 && height > 0) || isEmptyViewBox(attribute(tree, element, "viewBox"))) return null;
     const box = parseViewBox(attribute(tree, element, "viewBox"));
     const inner =
       box === null

@@ -1,8 +1,13 @@
 /** What CSS and SVG say about text alone: baselines, spaces, decorations, directions. */
-import { ASCENT_EM, CENTRAL_EM, DESCENT_EM, X_HEIGHT_EM } from "../text/text-font.js";
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
 import type { Paint } from "./style.js";
+
+/** Of the fonts that browsers use, about: above and below the baseline, and small letters. */
+const ASCENT_EM = 0.9;
+const DESCENT_EM = 0.21;
+const X_HEIGHT_EM = 0.46;
+const CENTRAL_EM = (ASCENT_EM - DESCENT_EM) / 2;
 
 export interface TextStyle {
   /** px after each blank. */
@@ -115,7 +120,8 @@ export function computeTextStyle(
   changes.transform = valueOf("text-transform") ?? parent.transform;
   const space = valueOf("white-space");
   if (space !== undefined) changes.keepsBlanks = /^(pre|pre-wrap|break-spaces)$/.test(space);
-  changes.dominantBaseline = valueOf("dominant-baseline") ?? parent.dominantBaseline;
+  const dominant = valueOf("dominant-baseline");
+  if (dominant !== undefined && dominant !== "auto") changes.dominantBaseline = dominant;
   changes.alignmentBaseline = valueOf("alignment-baseline") ?? parent.alignmentBaseline;
   const shift = valueOf("baseline-shift");
   if (shift !== undefined)

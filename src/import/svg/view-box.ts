@@ -26,6 +26,15 @@ export function parseViewBox(text: string | undefined): ViewBox | null {
   return width > 0 && height > 0 ? { x, y, width, height } : null;
 }
 
+/** A size of 0 switches drawing off; one that is negative or malformed is like none. */
+export function isEmptyViewBox(text: string | undefined): boolean {
+  const [, , width, height] = (text ?? "")
+    .trim()
+    .split(/[\s,]+/)
+    .map(Number);
+  return (width === 0 && height >= 0) || (height === 0 && width >= 0);
+}
+
 const ALIGN = /^\s*(?:defer\s+)?(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*$/;
 const SHARE: Readonly<Record<string, number>> = { Min: 0, Mid: 0.5, Max: 1 };
 

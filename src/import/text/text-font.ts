@@ -27,7 +27,4 @@ export interface TextFont {
 export const CAPITAL_EM = 0.7;
 /** Height of the tallest letters, about, of all fonts. */
 export const ASCENT_EM = 0.9;
-/** Height of small letters, and of the middle between the tallest and the deepest. */
-export const X_HEIGHT_EM = 14 / 30;
-export const CENTRAL_EM = (ASCENT_EM - 7 / 30) / 2;
 export const DESCENT_EM = 7 / 30;

@@ -139,9 +139,39 @@ describe("the file", () => {
     }
   });
 
-  it("may give a copy a negative size, which is like none", () => {
-    const symbol = '<symbol id="s" viewBox="0 0 10 10"><path d="M0 0h9"/></symbol>';
-    expect(shapes(`${symbol}<use href="#s" width="-5"/>`)).toEqual(shapes(`${symbol}<use href="#s"/>`));
+  it.each([
+    [
+      "a copy of negative size",
+      '<symbol id="s" viewBox="0 0 10 10"><path d="M0 0h9"/></symbol><use href="#s" width="-5"/>',
+    ],
+    ["a viewBox of no width", '<svg viewBox="0 0 0 10"><path d="M0 0h9"/></svg>'],
+    [
+      "a marker of no height",
+      '<marker id="m" viewBox="0 0 9 0"><path d="M0 0h9"/></marker><path stroke="none" d="M0 0h9" marker-start="url(#m)"/>',
+    ],
+    ["a mask without content", '<mask id="m"/><path mask="url(#m)" d="M0 0h9"/>'],
+    ["a filter without content", '<filter id="f"/><path filter="url(#f)" d="M0 0h9"/>'],
+    ["a required extension", '<path requiredExtensions="" d="M0 0h9"/>'],
+  ])("draws nothing for %s", (_name, body) => {
+    expect(shapes(body)).toEqual([]);
+  });
+
+  it("draws in spite of display none on the outermost element, a clip path or a marker", () => {
+    expect(shapesOf(importSvg(page(BOX, 'display="none"')))).toEqual(shapes(BOX));
+    expect(
+      draw(
+        `<clipPath id="c" display="none"><path d="M0 0h9v9z"/></clipPath><g clip-path="url(#c)">${BOX}</g>`,
+      ).clips,
+    ).toEqual([]);
+    const marker =
+      '<marker id="m" display="none"><path d="M0 0h1"/></marker><path d="M5 5h9" marker-start="url(#m)"/>';
+    expect(shapes(marker)).toHaveLength(2);
+  });
+
+  it("paints no line without height in a gradient that goes by its box, but in the colour behind that", () => {
+    const gradient = '<linearGradient id="g"><stop stop-color="red"/></linearGradient>';
+    expect(shapes(`${gradient}<path d="M0 0h9" stroke="url(#g)"/>`)).toEqual([]);
+    expect(draw(`${gradient}<path d="M0 0h9" stroke="url(#g) blue"/>`).colors).toEqual(["#0000ff"]);
   });
 });
 
@@ -170,6 +200,20 @@ describe("clips", () => {
   it("of a clipPath go by the box of the shape", () => {
     const body = `<clipPath id="d" clip-path="url(#c)"><rect width="90" height="90"/></clipPath>${clip('clipPathUnits="objectBoundingBox"')}<g clip-path="url(#d)">${BOX}</g>`;
     expect(clipsOf(body)).toEqual([[20, 20, 40, 20, 40, 30, 20, 30]]);
+  });
+
+  it("have shapes that are clipped themselves", () => {
+    const body = `<clipPath id="b"><rect width="50" height="50"/></clipPath><clipPath id="c"><rect clip-path="url(#b)" x="30" y="30" width="50" height="60"/></clipPath><g clip-path="url(#c)">${BOX}</g>`;
+    const [corners] = clipsOf(body);
+    const xs = corners.filter((_, i) => i % 2 === 0);
+    const ys = corners.filter((_, i) => i % 2 === 1);
+    expect([Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)]).toEqual([30, 50, 30, 50]);
+  });
+
+  it("that go in circles come to an end", { timeout: 20_000 }, () => {
+    const children = '<rect clip-path="url(#c)" transform="scale(.9)" width="50" height="50"/>'.repeat(10);
+    const drawing = draw(`<clipPath id="c">${children}</clipPath><g clip-path="url(#c)">${BOX}</g>`);
+    expect(drawing.warnings.map(({ code }) => code)).toContain("clip-ignored");
   });
 
   it("inherit their rule from where they stand", () => {
