@@ -58,6 +58,8 @@ export class NumberReader {
     }
     if (c === 46) {
       c = text.charCodeAt(++at);
+      // A point stands before a digit (SVG 2, §9.3.9).
+      if (!(c >= 48 && c <= 57)) return false;
       while (c >= 48 && c <= 57) {
         mantissa = mantissa * 10 + (c - 48);
         digits++;

@@ -8,7 +8,7 @@
  */
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
-import { IS_PROPERTY, PRESENTATION } from "./properties.js";
+import { IS_KEYWORD, IS_PROPERTY, PRESENTATION } from "./properties.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
 import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 
@@ -66,8 +66,9 @@ export class Cascade {
     const end = tree.attributeOffsets[element + 1];
     for (let i = tree.attributeOffsets[element]; i < end; i++) {
       const name = tree.attributeNames[i];
-      if (this.isPresentation[name] === 1) into.set(tree.names[name], attributeValue(tree, i));
-      else if (tree.names[name] === "style") style = attributeValue(tree, i);
+      if (this.isPresentation[name] === 1) {
+        into.set(tree.names[name], valueFor(tree.names[name], attributeValue(tree, i)));
+      } else if (tree.names[name] === "style") style = attributeValue(tree, i);
       else if (tree.names[name] === "id") id = attributeValue(tree, i);
       else if (tree.names[name] === "class") classes = attributeValue(tree, i);
     }
@@ -205,9 +206,14 @@ function apply(declarations: readonly Declaration[], important: boolean, into: D
   for (const { property, value, important: isImportant } of declarations) {
     if (isImportant !== important) continue;
     if (property === "marker") for (const part of MARKERS) into.set(part, value);
-    else if (IS_PROPERTY.has(property) || property.startsWith("--")) into.set(property, value);
+    else if (IS_PROPERTY.has(property) || property.startsWith("--"))
+      into.set(property, valueFor(property, value));
   }
 }
+
+/** Keywords may be written in capitals. */
+const valueFor = (property: string, value: string): string =>
+  IS_KEYWORD.has(property) ? value.toLowerCase() : value;
 
 function* styleTexts(tree: SvgTree): Generator<string> {
   const style = tree.names.indexOf("style");

@@ -34,7 +34,11 @@ export interface StyleSheet {
 /** Deeper nesting than any person writes would exhaust the parser's stack. */
 const MAX_NESTING = 200;
 
-export function parseStyleSheet(text: string): StyleSheet {
+/** `svg|rect` and `*|rect` select elements of a namespace; there is only one here. */
+const NAMESPACE = /(?<![\w"'\]])(?:\*|[A-Za-z][\w-]*)\|(?=[A-Za-z*])/g;
+
+export function parseStyleSheet(sheetText: string): StyleSheet {
+  const text = sheetText.replace(NAMESPACE, "");
   const rules: Rule[] = [];
   const faults: string[] = [];
   let importCount = 0;

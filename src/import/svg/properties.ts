@@ -48,6 +48,9 @@ const CSS_ONLY = [
   "font",
   "transform-box",
   "text-transform",
+  "translate",
+  "rotate",
+  "scale",
   "x",
   "y",
   "width",
@@ -63,3 +66,14 @@ const CSS_ONLY = [
 export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number];
 
 export const IS_PROPERTY: ReadonlySet<string> = new Set<string>([...PRESENTATION, ...CSS_ONLY]);
+
+/** Those whose values are keywords alone. */
+export const IS_KEYWORD: ReadonlySet<string> = new Set<Property>([
+  "display",
+  "visibility",
+  "overflow",
+  "fill-rule",
+  "clip-rule",
+  "text-anchor",
+  "vector-effect",
+]);

@@ -257,7 +257,7 @@ function parsePaint(text: string): Paint | null {
 
 function readPaint(text: string): Paint | null {
   const value = text.trim();
-  if (value === "none") return NONE;
+  if (value.toLowerCase() === "none") return NONE;
   if (value.toLowerCase() === "currentcolor") return { kind: "currentColor" };
   if (value === "context-fill") return { kind: "context", of: "fill" };
   if (value === "context-stroke") return { kind: "context", of: "stroke" };
@@ -287,6 +287,7 @@ export function parseOpacity(text: string): number | null {
 /** An even number of lengths; null for a solid line; undefined where malformed. */
 function parseDashes(text: string, basis: LengthBasis): readonly number[] | null | undefined {
   if (text === "none") return null;
+  if (/,\s*,/.test(text)) return undefined;
   const lengths = text
     .split(/[\s,]+/)
     .filter((part) => part !== "")

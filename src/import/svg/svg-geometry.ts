@@ -104,6 +104,7 @@ class ElementSource implements ShapeSource {
 
   text(name: "d" | "points"): string | undefined {
     const path = name === "d" ? this.css("d") : undefined;
+    if (path === "none") return "";
     const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
     return quoted?.[1] ?? attribute(this.tree, this.element, name);
   }

@@ -95,7 +95,9 @@ export class SvgMarkers {
     };
     const overflow = declaredValue(style, declared, "overflow");
     if (overflow === "visible" || overflow === "auto") return inside;
-    const edge = box ?? { x: 0, y: 0, width, height };
-    return { ...inside, clip: this.clips.rectangleClip(inside, edge.x, edge.y, edge.width, edge.height) };
+    // The marker's viewport, in the units of what is inside.
+    const x = -fit.e / fit.a;
+    const y = -fit.f / fit.d;
+    return { ...inside, clip: this.clips.rectangleClip(inside, x, y, width / fit.a, height / fit.d) };
   }
 }

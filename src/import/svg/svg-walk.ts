@@ -7,9 +7,11 @@
  */
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
+import type { Box } from "../../geometry/box.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
+import { elementTransform } from "./element-transform.js";
 import { lengthPx, type Side } from "./length.js";
 import {
   contextPaints,
@@ -29,7 +31,6 @@ import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
-import { aroundOrigin, parseTransform } from "./transform.js";
 import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
@@ -294,10 +295,13 @@ export class SvgWalk {
     const { tree, declared } = this;
     const { viewportWidth, viewportHeight } = context.basis;
     const isSvg = tag === "svg";
-    const x = isSvg ? (this.geometry(context, element, "x", "width") ?? 0) : 0;
-    const y = isSvg ? (this.geometry(context, element, "y", "height") ?? 0) : 0;
-    const ownWidth = notNegative(this.geometry(context, element, "width", "width"));
-    const ownHeight = notNegative(this.geometry(context, element, "height", "height"));
+    // As in browsers, the attributes count and not CSS.
+    const length = (name: "x" | "y" | "width" | "height", side: Side): number | null =>
+      lengthPx(attribute(tree, element, name) ?? "", context.basis, side);
+    const x = isSvg ? (length("x", "width") ?? 0) : 0;
+    const y = isSvg ? (length("y", "height") ?? 0) : 0;
+    const ownWidth = notNegative(length("width", "width"));
+    const ownHeight = notNegative(length("height", "height"));
     const width = useSize?.width ?? ownWidth ?? viewportWidth;
     const height = useSize?.height ?? ownHeight ?? viewportHeight;
     if (!(width > 0 && height > 0) || isEmptyViewBox(attribute(tree, element, "viewBox"))) return null;
@@ -353,21 +357,12 @@ export class SvgWalk {
   }
 
   private transformOf(element: number, style: Context["style"], outer: Context): Affine {
-    const text = declaredValue(style, this.declared, "transform");
-    if (text === undefined) return IDENTITY;
-    const map = parseTransform(text);
+    const boxOf = (): Box | null => this.clips.boxOf(element, { ...outer, style });
+    const map = elementTransform(style, this.declared, outer.basis, boxOf);
     if (map === null) {
       this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
-      return IDENTITY;
     }
-    const origin = declaredValue(style, this.declared, "transform-origin");
-    const box = declaredValue(style, this.declared, "transform-box");
-    const isOwnBox = box !== undefined && box !== "view-box";
-    if (origin === undefined && !isOwnBox) return map;
-    const own = isOwnBox ? this.clips.boxOf(element, { ...outer, style }) : null;
-    if (own === null) return aroundOrigin(map, origin ?? "0 0", outer.basis);
-    const basis = { ...outer.basis, viewportWidth: own.x1 - own.x0, viewportHeight: own.y1 - own.y0 };
-    return aroundOrigin(map, origin ?? "0 0", basis, { x: own.x0, y: own.y0 });
+    return map ?? IDENTITY;
   }
 
   private chosenChild(element: number): number {

@@ -13,8 +13,17 @@ const ANGLES: Readonly<Record<string, number>> = {
   turn: 2 * Math.PI,
 };
 
+/** Percentages of a translation as px, where `basis` says of what. */
+function inPx(name: string, args: readonly string[], basis: LengthBasis | null): readonly string[] {
+  return args.map((arg, i) => {
+    if (basis === null || !arg.endsWith("%")) return arg;
+    const side = i === 0 && name !== "translatey" ? "width" : "height";
+    return String(lengthPx(arg, basis, side) ?? arg);
+  });
+}
+
 /** Identity for "none" or blank text; null where any part of it is malformed (then nothing applies). */
-export function parseTransform(text: string): Affine | null {
+export function parseTransform(text: string, basis: LengthBasis | null = null): Affine | null {
   if (text === "none" || text.trim() === "") return IDENTITY;
   let map = IDENTITY;
   FUNCTION.lastIndex = 0;
@@ -22,7 +31,9 @@ export function parseTransform(text: string): Affine | null {
     const match = FUNCTION.exec(text);
     if (match === null) return null;
     if (/,\s*,|^\s*,|,\s*$/.test(match[2])) return null;
-    const step = parseFunction(match[1], splitArguments(match[2]));
+    const name = match[1].toLowerCase();
+    const args = splitArguments(match[2]);
+    const step = parseFunction(name, name.startsWith("translate") ? inPx(name, args, basis) : args);
     if (step === null) return null;
     map = compose(map, step);
   }
@@ -69,7 +80,7 @@ function splitArguments(text: string): string[] {
 
 function parseFunction(name: string, args: readonly string[]): Affine | null {
   const n = args.length;
-  switch (name.toLowerCase()) {
+  switch (name) {
     case "matrix":
       return n === 6 ? matrix(args) : null;
     case "translate":

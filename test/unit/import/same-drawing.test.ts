@@ -120,6 +120,38 @@ describe("what is not drawn", () => {
   });
 });
 
+describe("values", () => {
+  it.each([
+    [
+      "keywords in capitals",
+      '<g DISPLAY="x"><path style="DISPLAY:NONE" d="M0 0h9"/><path visibility="HIDDEN" d="M0 0h9"/><path d="M1 1h2"/></g>',
+    ],
+    ["a path that CSS takes away", '<path style="d:none" d="M0 0h9"/><path d="M1 1h2"/>'],
+    [
+      "selectors with a namespace",
+      '<style>@namespace s url(http://www.w3.org/2000/svg);s|rect{display:none}*|circle{display:none}</style><rect width="9" height="9"/><circle r="9"/><path d="M1 1h2"/>',
+    ],
+    ["CSS\'s own translate", '<path style="translate:1px 1px" d="M0 0h2"/>'],
+    ["CSS\'s translation in percent", '<path style="transform:translate(1%,1%)" d="M0 0h2"/>'],
+    [
+      "CSS\'s own scale, and a transform",
+      '<path style="scale:2;transform:translate(0.5px,0.5px)" d="M0 0h1"/>',
+    ],
+    ["a number that ends in a point", '<path d="M1 1h2L9. 9"/>'],
+    ["two commas between dashes", '<path stroke-dasharray="1,,2" d="M1 1h2"/>'],
+  ])("%s", (_name, body) => {
+    expect(shapes(body)).toEqual(shapes('<path d="M1 1h2"/>'));
+    expect(draw(body).dashes).toEqual([]);
+  });
+
+  it("cut a marker at its viewport, not at its viewBox", () => {
+    const marker =
+      '<marker id="m" viewBox="5 5 10 20" refX="10" refY="10" markerWidth="10" markerHeight="10" markerUnits="userSpaceOnUse"><rect width="30" height="30"/></marker>';
+    const { clips } = draw(`${marker}<path stroke="none" d="M30 30h9" marker-start="url(#m)"/>`);
+    expect([...clips[0].coords]).toEqual([25, 27.5, 35, 27.5, 35, 37.5, 25, 37.5]);
+  });
+});
+
 describe("the file", () => {
   it("may define entities, for values and for elements", () => {
     const text = `<!DOCTYPE svg [<!ENTITY w "40"><!ENTITY box '<rect x="20" y="20" width="&w;" height="20"/>'>]>${page("&box;")}`;
