@@ -76,10 +76,19 @@ function nestingDepth(text: string): number {
   return deepest;
 }
 
-/** Only queries without conditions: a drawing has no dark mode and no window width. */
+/** What holds on a wide screen in light colours: a drawing has no dark mode and no window width. */
+const HOLDS = /^\(\s*(min-(width|height|resolution)\s*:[^()]*|prefers-color-scheme\s*:\s*light)\s*\)$/;
+
+function holdsOnScreen(query: string): boolean {
+  const [first, ...others] = query.trim().split(/\s+and\s+/);
+  return (
+    (/^(only\s+)?(all|screen)$/.test(first) || HOLDS.test(first)) && others.every((part) => HOLDS.test(part))
+  );
+}
+
 function isForScreen(text: string, prelude: CssNode | null): boolean {
   const query = sourceOf(text, prelude).trim().toLowerCase();
-  return query === "" || query.split(",").some((part) => /^\s*(all|screen|only screen)\s*$/.test(part));
+  return query === "" || query.split(",").some(holdsOnScreen);
 }
 
 /** Whether a condition of `@supports` holds: "not" and "and" are heeded, and one part of an "or" is enough. */

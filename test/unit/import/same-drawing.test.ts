@@ -42,6 +42,19 @@ describe("style", () => {
   });
 
   it.each([
+    ["screen and (min-width: 1px)", 0],
+    ["(prefers-color-scheme: light)", 0],
+    ["(prefers-color-scheme: dark)", 1],
+    ["screen and (max-width: 10px)", 1],
+    ["print", 1],
+    ["print, screen", 0],
+  ])("with @media %s leaves %d shapes", (query, expected) => {
+    expect(shapes(`<style>@media ${query}{path{display:none}}</style><path d="M1 1h2"/>`)).toHaveLength(
+      expected,
+    );
+  });
+
+  it.each([
     ["calc(10px + 5%)", 15],
     ["calc((4px - 1px) * 2 / 3)", 2],
     ["calc(2 * calc(1px + 2px))", 6],
