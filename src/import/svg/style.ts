@@ -145,7 +145,9 @@ const SETTERS: Partial<Record<Property, Setter>> = {
     if (value === "start" || value === "middle" || value === "end") style.textAnchor = value;
   },
   "letter-spacing": (style, value, basis) => {
-    style.letterSpacing = value === "normal" ? 0 : (lengthPx(value, basis, "width") ?? style.letterSpacing);
+    const spacing = value === "normal" ? 0 : lengthPx(value, basis, "width");
+    // Percentages are none, as in browsers.
+    if (spacing !== null && !value.endsWith("%")) style.letterSpacing = spacing;
   },
   "marker-start": (style, value) => {
     style.markerStart = parseUrl(value);

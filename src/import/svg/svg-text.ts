@@ -130,7 +130,7 @@ class Gatherer {
   private stretchOf(element: number, style: Style): Stretch | null {
     const text = attribute(this.tree, element, "textLength");
     const length = text === undefined ? null : lengthPx(text, this.basisOf(style), "width");
-    if (length === null || length < 0) return null;
+    if (length === null || length <= 0) return null;
     return { length, ofGlyphs: attribute(this.tree, element, "lengthAdjust") === "spacingAndGlyphs" };
   }
 

@@ -65,10 +65,8 @@ const BASELINES: Readonly<Record<string, number>> = {
   mathematical: ASCENT_EM / 2,
   "before-edge": ASCENT_EM,
   "text-before-edge": ASCENT_EM,
-  "text-top": ASCENT_EM,
   "after-edge": -DESCENT_EM,
   "text-after-edge": -DESCENT_EM,
-  "text-bottom": -DESCENT_EM,
   ideographic: -DESCENT_EM,
 };
 

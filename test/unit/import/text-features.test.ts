@@ -76,6 +76,12 @@ describe("widths", () => {
     expect(x1).toBeGreaterThan(extent(text("AHHB"))[2] + 150);
   });
 
+  it("stay as they are for lengths that browsers do not heed", () => {
+    for (const attributes of ['textLength="0"', 'letter-spacing="10%"', 'dominant-baseline="text-top"']) {
+      expect(shapes(text("HH", attributes))).toEqual(shapes(text("HH")));
+    }
+  });
+
   it("grow with word-spacing at each blank", () => {
     expect(width(text("H H H", 'word-spacing="5"')) - width(text("H H H"))).toBe(100);
   });
