@@ -24,17 +24,20 @@ export {
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
-export { importSvg, importSvgSteps, importSvgWithPauses, type Pause } from "./import/import-svg.js";
+export { importSvg, importSvgSteps, importSvgWithPauses, type Pause } from "./import/svg/import-svg.js";
 export { TEXT_MODES, type ImportOptions, type TextMode } from "./import/import-options.js";
-export { openOutlineFont } from "./import/outline-font.js";
-export type { TextFont } from "./import/text-font.js";
+export { openOutlineFont } from "./import/text/outline-font.js";
+export type { TextFont } from "./import/text/text-font.js";
 export {
   importDrawing,
   importDrawingWithPauses,
   formatOf,
+  isDrawingName,
+  DRAWING_EXTENSIONS,
   DRAWING_FORMATS,
   type DrawingFormat,
-} from "./import/import-drawing.js";
+} from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";

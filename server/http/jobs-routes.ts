@@ -2,7 +2,7 @@
 import express, { Router, type Request, type Response } from "express";
 import { basename } from "node:path";
 import { z } from "zod";
-import { PlotwrightError } from "../../src/index.js";
+import { isDrawingName, PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   cleanName,
@@ -192,5 +192,5 @@ function asJson(value: unknown): unknown {
 /** A name that every system can save under. */
 function fileName(name: string): string {
   const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
-  return /\.(svg|dxf|hpgl|hpg|plt|json)$/i.test(safe) ? safe : `${safe}.svg`;
+  return isDrawingName(safe) ? safe : `${safe}.svg`;
 }

@@ -43,7 +43,7 @@ describe("a message of what went wrong", () => {
 });
 
 describe("a file that is dropped", () => {
-  const unreadable = { name: "sketches", text: () => Promise.reject(new Error("is a folder")) };
+  const unreadable = { name: "sketches", arrayBuffer: () => Promise.reject(new Error("is a folder")) };
 
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],

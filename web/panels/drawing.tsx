@@ -1,4 +1,5 @@
 import { useId } from "react";
+import { DRAWING_EXTENSIONS } from "../../src/index.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatNumber } from "../ui/format.js";
@@ -28,6 +29,8 @@ export const DrawingPanel = () => {
   );
 };
 
+const ACCEPTED = ["image/svg+xml", ...DRAWING_EXTENSIONS.map((extension) => `.${extension}`)].join();
+
 export const ChooseFile = ({ label }: { label: string }) => {
   const id = useId();
   const { openFile } = useActions();
@@ -36,7 +39,7 @@ export const ChooseFile = ({ label }: { label: string }) => {
       <input
         id={id}
         type="file"
-        accept=".svg,image/svg+xml,.dxf,.hpgl,.hpg,.plt,.json"
+        accept={ACCEPTED}
         className="visually-hidden"
         onChange={(event) => {
           const file = event.target.files?.[0];

@@ -1,6 +1,6 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import { LARGE_BYTES, type JobAction, type ApiClient } from "../api/client.js";
-import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
+import { contentOf, type JobAction, type ApiClient } from "../api/client.js";
+import { isDrawingName, MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
 import {
   machineProfileSchema,
   type Job,
@@ -151,11 +151,10 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   const openFile = async (file: File): Promise<void> => {
-    const read = file.size >= LARGE_BYTES ? file.arrayBuffer() : file.text();
-    const svg = await read.catch(() => null);
+    const svg = await file.arrayBuffer().then(contentOf, () => null);
     if (svg === null) notify("error", text.drawing.unreadable(file.name));
     else if (headOf(svg).includes("\0")) notify("error", text.drawing.notText(file.name));
-    else openDrawing(file.name.replace(/\.(svg|dxf|hpgl|hpg|plt|json)$/i, ""), svg);
+    else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, svg);
   };
 
   const openPasted = (svg: string): void => {

@@ -14,6 +14,7 @@ import {
   prepare,
   prepareSettingsOf,
   strokeCount,
+  textOfBytes,
   trajectoryStats,
   type Drawing,
   type Placement,
@@ -122,14 +123,10 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
   return imported.drawing;
 }
 
-/** The reader of a format is fetched when the first such file is opened. */
+/** The readers are fetched when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const text = typeof content === "string" ? content : new TextDecoder().decode(content);
-  if (/^[\ufeff\s]*</.test(text)) {
-    const { importSvg } = await import("./svg-format.js");
-    return importSvg(text);
-  }
-  const { importDrawing } = await import("./other-formats.js");
+  const text = typeof content === "string" ? content : textOfBytes(new Uint8Array(content));
+  const { importDrawing } = await import("./formats.js");
   return importDrawing("", text);
 }
 

@@ -1,7 +1,7 @@
 /** 10 000 damaged SVGs: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
 

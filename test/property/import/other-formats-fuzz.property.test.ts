@@ -5,7 +5,7 @@
 import { expect, it } from "vitest";
 import { planAndCompile, prepareDrawing } from "../../../server/planning/stages.js";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../src/import/registry.js";
 import { machineOf, type Drawing } from "../../../src/index.js";
 import { OLDEST_PLANNED_FIRMWARE } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";

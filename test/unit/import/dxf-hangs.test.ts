@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/index.js";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../src/import/registry.js";
 import { endWhenOver } from "../../support/watchdog.js";
 
 const HANGS_MS = 20_000;
