@@ -37,17 +37,21 @@ export class BlockColumns {
     this.jy = withJerk ? new Float64Array(0) : null;
   }
 
-  /** Makes room for `blocks` more, the outcome of `segments` segments of the drawing. */
-  reserve(blocks: number, segments: number): void {
+  /** Says that the blocks so far are those of `segments` more segments of the drawing. */
+  addSegments(segments: number): void {
     this.segmentsDone += segments;
+  }
+
+  /** Makes room for `blocks` more. */
+  reserve(blocks: number): void {
     if (this.count + blocks > this.durationS.length) this.grow(this.count + blocks);
   }
 
   /** A method of its own: what is rare is not compiled into what is often called, which would have to be done anew then. */
   private grow(needed: number): void {
     const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
-    // Between a quarter more and 32-fold: the first strokes may be unlike the rest.
-    this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 32 * needed) + 64);
+    // Twice to four times as much: the first strokes may be unlike the rest.
+    this.resize(Math.min(Math.max(1.02 * likely, 2 * needed), 4 * needed) + 64);
   }
 
   /** Appends one block and moves the clock on; for what is not a hot loop. */
@@ -61,7 +65,7 @@ export class BlockColumns {
     ay: number,
     alongMm: number,
   ): void {
-    if (this.count === this.durationS.length) this.reserve(1, 0);
+    if (this.count === this.durationS.length) this.grow(this.count + 1);
     const k = this.count++;
     this.durationS[k] = durationS;
     this.x[k] = x;
@@ -76,18 +80,10 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
-  /** Appends block i of `from`, which has no jerk. */
-  pushFrom(from: BlockColumns, i: number): void {
-    this.push(
-      from.durationS[i]!,
-      from.x[i]!,
-      from.y[i]!,
-      from.vx[i]!,
-      from.vy[i]!,
-      from.ax[i]!,
-      from.ay[i]!,
-      from.alongMm[i]!,
-    );
+  /** Block i, which lies beyond the end, becomes the last one. */
+  moveToEnd(i: number): void {
+    const { durationS, x, y, vx, vy, ax, ay, alongMm } = this;
+    this.push(durationS[i]!, x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, alongMm[i]!);
   }
 
   /** As `push`, with jerk. */
