@@ -29,7 +29,6 @@
  * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { lesser } from "./branchless.js";
 import { CornerSpeeds } from "./corner-speeds.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
@@ -44,9 +43,6 @@ const SHARP = 0.35;
 
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
-
-/** The shorter of segments not as long as this, mm, may be rounded in the other one's last place. */
-const LONG = 1e5;
 
 export class BlendPlanner {
   private readonly line = new SoftLine();
@@ -82,13 +78,13 @@ export class BlendPlanner {
       const bx = x1 - x0;
       const by = y1 - y0;
       const s = Math.sqrt(bx * bx + by * by) / 2;
-      const cap = lesser(cap0, cap1);
+      const cap = Math.min(cap0, cap1);
       if (s > STRAIGHT) {
-        const half = (before + after < LONG ? lesser(before, after) : Math.min(before, after)) / 2;
+        const half = Math.min(before, after) / 2;
         const reach = line.reach(i, bx, by, s, half);
         tangent[i] = reach;
         sine[i] = s;
-        most[i] = Math.sqrt(lesser(cap, (accel * reach) / s));
+        most[i] = Math.sqrt(Math.min(cap, (accel * reach) / s));
       } else {
         tangent[i] = sine[i] = 0;
         most[i] = Math.sqrt(cap);

@@ -1,9 +1,8 @@
 /**
  * The blocks of a trajectory while it is being made: columns that grow, and a running clock.
  *
- * A planner reserves what its next run needs and writes the arrays directly. When they must grow,
- * the share of the drawing already planned tells about how much the whole will need, so they seldom
- * grow twice.
+ * When they must grow, the share of the drawing already planned tells how much the whole will need, so they seldom grow
+ * twice.
  */
 const COLUMN_NAMES = ["durationS", "x", "y", "vx", "vy", "ax", "ay", "startS", "alongMm"] as const;
 
@@ -27,6 +26,7 @@ export class BlockColumns {
   jx: Float64Array<ArrayBuffer> | null;
   jy: Float64Array<ArrayBuffer> | null;
   private segmentsDone = 0;
+  private blocksDone = 0;
 
   /** @param segmentsExpected how many polyline segments the whole plan has: a hint for the sizes */
   constructor(
@@ -40,21 +40,17 @@ export class BlockColumns {
   /** Says that the blocks so far are those of `segments` more segments of the drawing. */
   addSegments(segments: number): void {
     this.segmentsDone += segments;
+    this.blocksDone = this.count;
   }
 
-  /** Makes room for `blocks` more. */
-  reserve(blocks: number): void {
-    if (this.count + blocks > this.durationS.length) this.grow(this.count + blocks);
-  }
-
-  /** A method of its own: what is rare is not compiled into what is often called, which would have to be done anew then. */
   private grow(needed: number): void {
-    const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
-    // Twice to four times as much: the first strokes may be unlike the rest.
-    this.resize(Math.min(Math.max(1.02 * likely, 2 * needed), 4 * needed) + 64);
+    const { segmentsDone, blocksDone } = this;
+    const likely = segmentsDone > 0 ? 1.02 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
+    // Up to 32 times as much: the first strokes may be unlike the rest.
+    this.resize(Math.min(likely > needed ? likely : 2 * needed, 32 * needed) + 64);
   }
 
-  /** Appends one block and moves the clock on; for what is not a hot loop. */
+  /** Appends one block and moves the clock on. */
   push(
     durationS: number,
     x: number,
@@ -86,24 +82,11 @@ export class BlockColumns {
     this.push(durationS[i]!, x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, alongMm[i]!);
   }
 
-  /** As `push`, with jerk. */
-  pushJerk(
-    durationS: number,
-    x: number,
-    y: number,
-    vx: number,
-    vy: number,
-    ax: number,
-    ay: number,
-    jx: number,
-    jy: number,
-    alongMm: number,
-  ): void {
-    this.push(durationS, x, y, vx, vy, ax, ay, alongMm);
-    if (this.jx !== null && this.jy !== null) {
-      this.jx[this.count - 1] = jx;
-      this.jy[this.count - 1] = jy;
-    }
+  /** Jerk of the last block; only where there are columns for it. */
+  setJerk(jx: number, jy: number): void {
+    if (this.jx === null || this.jy === null) return;
+    this.jx[this.count - 1] = jx;
+    this.jy[this.count - 1] = jy;
   }
 
   /** Forgets the blocks and keeps the arrays. */

@@ -50,13 +50,6 @@ export function impulseKernel(taps: readonly Tap[]): Kernel {
 /** Ends of blocks nearer in time than this fall together, s. */
 const SAME_S = 1e-12;
 
-/** Where in the input one tap is: the block, for how long already, and for how long still. */
-interface Cursor {
-  block: number;
-  sinceS: number;
-  leftS: number;
-}
-
 /**
  * Appends the filtered run to `out`, which has jerk columns. `from` holds the run's blocks only, and the run ends at rest
  * at `end`. `from` gets two rows more: rest at the end, and rest before the start.
@@ -66,12 +59,14 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   const { count } = from;
   addRests(from, end);
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
-  const drawn = alongRates(from, count);
-  const cursors = taps.map(({ delayS }): Cursor =>
-    delayS > 0
-      ? { block: count + 1, sinceS: 0, leftS: delayS }
-      : { block: 0, sinceS: 0, leftS: durationS[0]! },
-  );
+  const { alongMm } = from;
+  const { rate, change } = alongRates(from, count);
+  // Where in the input each tap is: the block, for how long already, and for how long still.
+  const n = taps.length;
+  const weights = Float64Array.from(taps, ({ weight }) => weight);
+  const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
+  const since = new Float64Array(n);
+  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]!));
   const isIntegral = kernel.of === "integral";
   let x = px[0]!;
   let y = py[0]!;
@@ -79,21 +74,29 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   for (;;) {
     let dt = Infinity;
     let isOneBlock = true;
-    for (const { block, leftS } of cursors) {
-      dt = Math.min(dt, leftS);
-      if (block !== cursors[0]!.block) isOneBlock = false;
+    for (let i = 0; i < n; i++) {
+      if (left[i]! < dt) dt = left[i]!;
+      if (block[i] !== block[0]) isOneBlock = false;
     }
     if (dt === Infinity) break;
-    let [vx, vy, ax, ay, jx, jy, alongV, alongA, alongJ] = [0, 0, 0, 0, 0, 0, 0, 0, 0];
-    for (let i = 0; i < cursors.length; i++) {
-      const { block: k, sinceS: t } = cursors[i]!;
-      const { weight } = taps[i]!;
+    let vx = 0;
+    let vy = 0;
+    let ax = 0;
+    let ay = 0;
+    let jx = 0;
+    let jy = 0;
+    let alongV = 0;
+    let alongA = 0;
+    let alongJ = 0;
+    for (let i = 0; i < n; i++) {
+      const k = block[i]!;
+      const t = since[i]!;
+      const weight = weights[i]!;
       const ax1 = pax[k]!;
       const ay1 = pay[k]!;
       const vx1 = pvx[k]! + t * ax1;
       const vy1 = pvy[k]! + t * ay1;
-      const rate = drawn.rate[k]!;
-      const change = drawn.change[k]!;
+      const alongV1 = rate[k]! + t * change[k]!;
       if (isIntegral) {
         // Weights sum to zero here: places are taken from the output's own, so that far ones lose no digits.
         vx += weight * (px[k]! - x + (t * (pvx[k]! + vx1)) / 2);
@@ -102,43 +105,45 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
         ay += weight * vy1;
         jx += weight * ax1;
         jy += weight * ay1;
-        alongV += weight * (from.alongMm[k]! - along + t * (rate + (t * change) / 2));
-        alongA += weight * (rate + t * change);
-        alongJ += weight * change;
+        alongV += weight * (alongMm[k]! - along + (t * (rate[k]! + alongV1)) / 2);
+        alongA += weight * alongV1;
+        alongJ += weight * change[k]!;
       } else {
         vx += weight * vx1;
         vy += weight * vy1;
         ax += weight * ax1;
         ay += weight * ay1;
-        alongV += weight * (rate + t * change);
-        alongA += weight * change;
+        alongV += weight * alongV1;
+        alongA += weight * change[k]!;
       }
     }
     if (isOneBlock) {
       // The mean within one block is known exactly; small errors of differences would add up over a long one.
-      const { block: k, sinceS } = cursors[0]!;
+      const k = block[0]!;
+      const t = since[0]! - meanDelayS;
       ax = pax[k]!;
       ay = pay[k]!;
-      vx = pvx[k]! + (sinceS - meanDelayS) * ax;
-      vy = pvy[k]! + (sinceS - meanDelayS) * ay;
+      vx = pvx[k]! + t * ax;
+      vy = pvy[k]! + t * ay;
       jx = jy = 0;
     }
-    if (dt > 2 * SAME_S) out.pushJerk(dt, x, y, vx, vy, ax, ay, jx, jy, along);
+    if (dt > 2 * SAME_S) {
+      out.push(dt, x, y, vx, vy, ax, ay, along);
+      out.setJerk(jx, jy);
+    }
     x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
     along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));
-    for (const cursor of cursors) advance(cursor, dt, durationS, count);
+    for (let i = 0; i < n; i++) {
+      since[i]! += dt;
+      left[i]! -= dt;
+      if (left[i]! > SAME_S) continue;
+      // After the rest before the start comes block 0.
+      block[i] = block[i]! > count ? 0 : block[i]! + 1;
+      since[i] = 0;
+      left[i] = durationS[block[i]!]!;
+    }
   }
-}
-
-function advance(cursor: Cursor, dt: number, durationS: Float64Array, count: number): void {
-  cursor.sinceS += dt;
-  cursor.leftS -= dt;
-  if (cursor.leftS > SAME_S) return;
-  // After the rest before the start comes block 0.
-  cursor.block = cursor.block > count ? 0 : cursor.block + 1;
-  cursor.sinceS = 0;
-  cursor.leftS = durationS[cursor.block]!;
 }
 
 /** Two rows behind the last block: at rest where the run ends, and at rest where it begins. */

@@ -18,7 +18,7 @@ export interface RunLimits {
   readonly easeSpeed: number;
 }
 
-/** Fitted pieces may pass their limits by this much. */
+/** Merged blocks may exceed their limits by this much. */
 export const SLACK = 1.0009;
 
 /** Share of the board's highest step rate that a plan uses: rounding to whole rates must not pass it. */
@@ -64,7 +64,7 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
 export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
   speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
 
-/** Whether the motors can go at (vx, vy), in a fitted piece. */
+/** Whether the motors can go at (vx, vy), in a merged block. */
 export function canStep({ motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
   const ax = Math.abs(vx);
   const ay = Math.abs(vy);

@@ -11,11 +11,11 @@ export interface MotionLimits {
   readonly jerkMmPerS3: number;
 }
 
-/** A plan's blocks refitted into fewer, longer ones. */
+/** Neighbouring blocks are merged into fewer, longer ones. */
 export interface FitSettings {
   /** ε: how far they may leave the plan. */
   readonly toleranceMm: number;
-  /** Pieces shorter than this are made only where the geometry is that short. */
+  /** A block shorter than this is merged with its neighbour where that is possible. */
   readonly floorMs: number;
 }
 
