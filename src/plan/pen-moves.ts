@@ -57,6 +57,7 @@ const SAME_TIME_S = 1e-7;
 /** True when every pen move started before `tS` leaves the pen up. */
 export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
   let up = true;
-  for (let i = 0; i < penMoves.count && penMoves.startS[i]! < tS - SAME_TIME_S; i++) up = penMoves.up[i] === 1;
+  for (let i = 0; i < penMoves.count && penMoves.startS[i]! < tS - SAME_TIME_S; i++)
+    up = penMoves.up[i] === 1;
   return up;
 }

@@ -19,7 +19,6 @@ const limits = (speed: number): RunLimits => ({
   motorSpeed: Infinity,
   mixed: false,
   easeSpeed: Infinity,
-  floorS: 0,
 });
 
 /** Wavy lines of 0.1 to 1 mm a segment, as curves are cut into. */

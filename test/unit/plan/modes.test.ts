@@ -47,12 +47,12 @@ describe("fitting", () => {
   const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
   const strokes = strokeSetOf([circle(20, 0.05, 2)]);
 
-  it("draws a circle of 20 mm radius at 50 mm/s in pieces of 80 ms and more, within ε", () => {
+  it("draws a circle of 20 mm radius at 50 mm/s in pieces of 50 ms and more (25 ms where they are filtered), within ε", () => {
     for (const mode of MOTION_MODES) {
       const t = plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN);
       const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
       const drawS = t.penMoves.startS[1]! - t.runs.startS[1]!;
-      expect(drawS / (end - first)).toBeGreaterThan(0.08);
+      expect(drawS / (end - first)).toBeGreaterThan(mode === "scurve" ? 0.025 : 0.05);
       expect(worstOf(t, strokes, draw, draw, 0).distance).toBeLessThan(
         0.02 + sagitta(20, 0.05) + draw.cornerMm,
       );
@@ -73,19 +73,6 @@ describe("fitting", () => {
     expect(fitted("blend").gap).toBeLessThan(1e-9);
     expect(fitted("scurve").accelJump).toBeLessThan(1e-6);
     expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
-  });
-
-  it("holds the acceleration of scurve ramps for the floor at least, in at most 1.5 ms more", () => {
-    for (const length of [2.6, 2.9, 3.2, 3.5]) {
-      const line = strokeSetOf([[[0, 0], [length, 0]]]); // prettier-ignore
-      const planned = (fit: typeof DEFAULT_FIT | null) => {
-        const t = plan(line, { mode: "scurve", draw, travel: draw, fit }, DEFAULT_PEN, { returnHome: false });
-        return { totalS: t.totalS, shortestS: Math.min(...t.durationS.subarray(0, t.blockCount)) };
-      };
-      expect(planned(null).shortestS).toBeLessThan(0.0145);
-      expect(planned(DEFAULT_FIT).shortestS).toBeGreaterThan(0.015 - 1e-9);
-      expect(planned(DEFAULT_FIT).totalS).toBeLessThan(planned(null).totalS + 0.0015);
-    }
   });
 
   it("leaves a polygon's blocks as they are", () => {

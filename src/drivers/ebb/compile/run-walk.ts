@@ -29,11 +29,6 @@ export class RunWalk {
     this.origin = boardTicks - runs.startS[run]! * TICKS_PER_S;
   }
 
-  /** The tick at which the run sets out. */
-  startTick(): number {
-    return this.origin + this.trajectory.startS[this.first]! * TICKS_PER_S;
-  }
-
   planS(tick: number): number {
     return (tick - this.origin) * S_PER_TICK;
   }
@@ -68,20 +63,6 @@ export class RunWalk {
     m2.p1 = this.p2;
     m1.v1 = this.v1;
     m2.v1 = this.v2;
-  }
-
-  /** The largest acceleration at a block's start or end, both motors' together, steps a ms². */
-  peakAccel(): number {
-    const { durationS, ax, ay, jx, jy } = this.trajectory;
-    let peak = 0;
-    for (let k = this.first; k < this.end; k++) {
-      for (const t of [0, durationS[k]!]) {
-        const x = ax[k]! + t * (jx?.[k] ?? 0);
-        const y = ay[k]! + t * (jy?.[k] ?? 0);
-        peak = Math.max(peak, Math.hypot(motor1FromXy(this.machine, x, y), motor2FromXy(this.machine, x, y)));
-      }
-    }
-    return peak / 1e6;
   }
 
   hasJerk(block: number): boolean {

@@ -12,3 +12,6 @@ export const HIGHEST_SLICE_RATE = Math.floor(0.95 * ACCUMULATOR_RANGE);
 
 export const TOO_FAST =
   "The plan is faster than the motors can step (25 000 steps a second): those parts are plotted as fast as the board can.";
+
+export const OLD_FIRMWARE =
+  "This board's firmware is older than 2.5.3 and cannot speed up within a command: lines come out a little uneven. Update the firmware.";
