@@ -1,8 +1,8 @@
 /**
- * The world's faults, as one error class with a code.
+ * Expected failures (a bad file, a bad setting, a lost board …) as one error class with a code.
  *
- * A caller's bug (NaN, a wrong length) throws RangeError or TypeError instead.
- * Oddities in a drawing are warnings in the result, never thrown.
+ * A bug in the caller (NaN, a wrong length) throws RangeError or TypeError instead.
+ * Problems in a drawing that can still be plotted are warnings in the result, not errors.
  */
 export const ERROR_CODES = [
   "bad-file",
@@ -36,7 +36,7 @@ export class PlotwrightError extends Error {
   }
 }
 
-/** One table from code to what each front end does with it. */
+/** The HTTP status and the exit code of each error code. */
 export const ERROR_TABLE: Readonly<
   Record<ErrorCode, { readonly httpStatus: number; readonly exitCode: number }>
 > = {

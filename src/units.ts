@@ -1,22 +1,22 @@
 /**
- * The only place with 25.4, 96, 25 000 and 2^31: every conversion between units.
+ * All conversions between units. The constants 25.4, 96, 25 000 and 2^31 are defined only here.
  *
  *   mm, s        what geometry, prepare and plan work in
  *   px           CSS pixel, 1/96 in
  *   ticks        board interrupts of 40 µs
  *   steps        microsteps of one motor
- *   rate         accumulator counts a tick: steps/s × 2^31 / 25 000   (EBB firmware, ebb.c)
+ *   rate         accumulator counts per tick: steps/s × 2^31 / 25 000   (EBB firmware, ebb.c)
  */
 export const MM_PER_INCH = 25.4;
 export const PX_PER_INCH = 96;
 export const MM_PER_PX = MM_PER_INCH / PX_PER_INCH;
 
-/** Interrupts a second; also the most steps a second that one motor can make. */
+/** Interrupts per second; also the max steps per second of one motor. */
 export const TICKS_PER_S = 25_000;
 export const S_PER_TICK = 1 / TICKS_PER_S;
 export const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
-/** One step is due each time the 31-bit accumulator overflows. */
+/** The motor makes one step each time the 31-bit accumulator overflows. */
 export const ACCUMULATOR_RANGE = 2 ** 31;
 
 export const mmFromPx = (px: number): number => px * MM_PER_PX;

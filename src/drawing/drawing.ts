@@ -1,19 +1,18 @@
 /**
- * What a file says, in mm on its own page: before any fitting, flattening or ordering.
+ * The contents of a file in mm on its own page, before any fitting, flattening or ordering.
  *
  * Frame "page": mm, origin top left, x right, y down.
- * Curves stay cubic here, because they are flattened to a tolerance in mm only after
- * they have been scaled to the paper (prepare). Dashes and clips stay descriptions for
- * the same reason.
+ * Curves stay cubic here because the flattening tolerance is in mm on paper: prepare flattens
+ * them after scaling. Dashes and clips stay descriptions for the same reason.
  *
- * Memory: columns, no object per path or point, so a 100 MB file stays affordable.
+ * Memory: columns instead of an object per path or point, so that a 100 MB file fits in memory.
  */
 
 /** Segment verbs in `DrawingPaths.verbs`, and how many coordinate pairs each takes. */
-export const VERB_MOVE = 0; // 1 pair: where a subpath begins
-export const VERB_LINE = 1; // 1 pair: its end
-export const VERB_CUBIC = 2; // 3 pairs: two controls and the end
-export const VERB_CLOSE = 3; // 0 pairs: straight back to the subpath's start
+export const VERB_MOVE = 0; // 1 pair: the start of a subpath
+export const VERB_LINE = 1; // 1 pair: the end point
+export const VERB_CUBIC = 2; // 3 pairs: two control points and the end point
+export const VERB_CLOSE = 3; // 0 pairs: a line back to the subpath's start
 export const PAIRS_OF_VERB: readonly number[] = [1, 1, 3, 0];
 
 /** Fill rules in `DrawingPaths.fillRule` and `ClipRegion.rule`. */
@@ -21,9 +20,9 @@ export const RULE_NONZERO = 0;
 export const RULE_EVENODD = 1;
 
 /**
- * All the file's painted shapes, in paint order (first is painted first, lies lowest).
+ * All painted shapes of the file, in paint order (the first lies lowest).
  * Shape i has verbs [verbOffsets[i], verbOffsets[i+1]) and coords [coordOffsets[i], coordOffsets[i+1])
- * (offsets into the number arrays themselves). A shape may hold several subpaths, each begun by VERB_MOVE.
+ * (indices into the arrays themselves). A shape may have several subpaths, each started by VERB_MOVE.
  */
 export interface DrawingPaths {
   readonly count: number;
@@ -34,26 +33,26 @@ export interface DrawingPaths {
   readonly coordOffsets: Uint32Array;
   /** Index into `Drawing.groups`. */
   readonly group: Uint32Array;
-  /** Index into `Drawing.colors`; −1 where the shape has no stroke (filled only). */
+  /** Index into `Drawing.colors`; −1 if the shape has no stroke (filled only). */
   readonly stroke: Int32Array;
-  /** Index into `Drawing.colors`; −1 where it has no fill. */
+  /** Index into `Drawing.colors`; −1 if it has no fill. */
   readonly fill: Int32Array;
   readonly fillRule: Uint8Array;
   /** mm on the page. */
   readonly strokeWidth: Float32Array;
   /** Index into `Drawing.dashes`; −1 for a solid line. */
   readonly dash: Int32Array;
-  /** Index into `Drawing.clips`; −1 where nothing clips it. */
+  /** Index into `Drawing.clips`; −1 if nothing clips it. */
   readonly clip: Int32Array;
 }
 
-/** A layer of the file: a top-level group (one single outer group is looked through). */
+/** A layer of the file: a top-level group, or a child of a single outer group. */
 export interface DrawingGroup {
-  /** Stable within the file: its id, or a generated one. */
+  /** Stable within the file: the group's id, or a generated one. */
   readonly id: string;
   /** inkscape:label, else data-name, else id, else "Layer N". Plain text from the file: never HTML. */
   readonly name: string;
-  /** Hidden in the file (display:none on the group): kept out of the paths, but listed with a warning. */
+  /** Hidden in the file (display:none on the group): not in the paths, but listed, with a warning. */
   readonly hidden: boolean;
 }
 
@@ -62,8 +61,9 @@ export interface DashPattern {
   readonly lengths: readonly number[];
   readonly offset: number;
   /**
-   * For a shape that was stretched with its dashes: a way dx, dy on the page is as long as (a dx + c dy, b dx + d dy).
-   * Absent where it is as long as it looks.
+   * For a shape that was stretched together with its dashes: for measuring dashes, a vector dx, dy on the
+   * page has the length of (a dx + c dy, b dx + d dy). Absent if dashes are measured by the length on the
+   * page.
    */
   readonly measure?: LinearMap;
 }
@@ -75,28 +75,28 @@ export interface LinearMap {
   readonly d: number;
 }
 
-/** The union of its shapes under `rule`, intersected with its parent (index into clips, −1 none). */
+/** The union of its shapes under `rule`, intersected with `parent` (index into `Drawing.clips`; −1: none). */
 export interface ClipRegion {
   readonly verbs: Uint8Array;
   readonly coords: Float64Array;
   /** One rule for each subpath, in order of VERB_MOVE: RULE_NONZERO or RULE_EVENODD. */
   readonly rule: Uint8Array;
   /**
-   * For each subpath the shape that it belongs to, 0, 0, 1 …: subpaths of one shape are filled together
-   * under their rule, then the shapes are united. Absent: all subpaths of one rule are one shape.
+   * By subpath: the shape it belongs to, 0, 0, 1 …. Subpaths of one shape are filled together
+   * under their rule, then the shapes are united. Absent: all subpaths with the same rule are one shape.
    */
   readonly shape?: Uint32Array;
   readonly parent: number;
 }
 
-/** Something that is in the file and will not be drawn as the eye sees it on screen. */
+/** Something in the file that will not be drawn as it appears on screen. */
 export interface DrawingWarning {
   /** Stable kebab-case code, for example "text-not-drawn". */
   readonly code: string;
-  /** What, how many, and what to do about it. Plain text. */
+  /** What it is, how many there are, and what to do about it. Plain text. */
   readonly message: string;
   readonly count: number;
-  /** Where the first few are: boxes x0, y0, x1, y1 in page mm (may be empty). */
+  /** Positions of the first few: boxes x0, y0, x1, y1 in page mm (may be empty). */
   readonly boxes: readonly (readonly [number, number, number, number])[];
 }
 

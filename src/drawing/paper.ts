@@ -1,4 +1,4 @@
-/** Paper sizes in mm, portrait (width ≤ height). ISO 216, and ANSI/ASME Y14.1 for the American ones. */
+/** Paper sizes in mm, portrait (width ≤ height). ISO 216; the American sizes from ANSI/ASME Y14.1. */
 export interface PaperSize {
   readonly widthMm: number;
   readonly heightMm: number;

@@ -1,32 +1,35 @@
 /**
- * What the pen shall draw, in drawing order: polylines in mm in the machine frame.
+ * What the pen draws, in drawing order: polylines in mm in the machine frame.
  *
  * Frame "machine": mm from home, x along the machine's long axis, y away from home.
  * The paper lies with its top left corner at home.
  */
 export interface StrokeSet {
-  /** 2 × points: x, y, x, y … mm. */
+  /** 2 × points numbers: x, y, x, y … mm. */
   readonly xy: Float64Array;
-  /** strokes + 1; stroke i has points [offsets[i], offsets[i+1]). Every stroke has at least one point (a dot). */
+  /**
+   * strokes + 1 entries; stroke i has points [offsets[i], offsets[i+1]). Every stroke has at least one point
+   * (a dot).
+   */
   readonly offsets: Uint32Array;
-  /** Index into `layers` of each stroke. Strokes of one layer stand together, layers in order. */
+  /** By stroke: index into `layers`. Strokes of a layer are contiguous, layers in order. */
   readonly layer: Uint16Array;
   readonly layers: readonly StrokeLayer[];
 }
 
-/** A layer as the user sees and switches it: from a group, a stroke colour, or all in one. */
+/** A layer as the user sees and switches it: a group, a stroke colour, or everything together. */
 export interface StrokeLayer {
   readonly id: string;
   readonly name: string;
-  /** "#rrggbb" that most of its strokes' length has in the file; null where they have none. */
+  /** "#rrggbb": the colour of most of its stroke length in the file; null if its strokes have no colour. */
   readonly color: string | null;
-  /** Id of the layer that this is a further part of, where stops to take up ink split one; its settings hold. */
+  /** If the layer was split by stops to take up ink: id of the original layer, whose settings apply. */
   readonly partOf?: string | undefined;
-  /** By how much its strokes are moved for a pen that sits askew, mm; left out: not at all. */
+  /** Offset of its strokes that corrects a pen mounted off-centre, mm; left out: none. */
   readonly shiftMm?: { readonly x: number; readonly y: number } | undefined;
 }
 
-/** The id under which settings know a layer, or the layer that it is a part of. */
+/** The id under which settings store a layer: that of the original if the layer was split. */
 export const settingsIdOf = (layer: StrokeLayer): string => layer.partOf ?? layer.id;
 
 export const strokeCount = (set: StrokeSet): number => set.offsets.length - 1;

@@ -1,10 +1,10 @@
 /**
- * Affine maps of the plane, in SVG's letters:
+ * Affine maps of the plane, with SVG's coefficient names:
  *
  *   x′ = a x + c y + e        ( a c e )
  *   y′ = b x + d y + f        ( b d f )
  *
- * Immutable: every function gives a new map.
+ * Immutable: every function returns a new map.
  */
 export interface Affine {
   readonly a: number;
@@ -20,7 +20,9 @@ export const IDENTITY: Affine = { a: 1, b: 0, c: 0, d: 1, e: 0, f: 0 };
 export const translation = (x: number, y: number): Affine => ({ a: 1, b: 0, c: 0, d: 1, e: x, f: y });
 export const scaling = (x: number, y = x): Affine => ({ a: x, b: 0, c: 0, d: y, e: 0, f: 0 });
 
-/** Turns +x towards +y: clockwise on a page whose y runs down. Exact at multiples of a quarter turn. */
+/**
+ * Rotates +x towards +y: clockwise on a page whose y axis points down. Exact at multiples of a quarter turn.
+ */
 export function rotation(angleRad: number): Affine {
   const quarters = angleRad / (Math.PI / 2);
   const whole = Math.round(quarters);
@@ -34,7 +36,7 @@ export function rotation(angleRad: number): Affine {
   return { a: cos, b: sin, c: -sin, d: cos, e: 0, f: 0 };
 }
 
-/** The map that does `inner` first and `outer` after it. */
+/** The map that applies `inner` first, then `outer`. */
 export function compose(outer: Affine, inner: Affine): Affine {
   return {
     a: outer.a * inner.a + outer.c * inner.b,
@@ -51,14 +53,17 @@ export const applyY = (m: Affine, x: number, y: number): number => m.b * x + m.d
 
 export const determinant = (m: Affine): number => m.a * m.d - m.b * m.c;
 
-/** How much lengths grow on average: the square root of how much areas do. */
+/** Mean scale factor of lengths: the square root of the scale factor of areas. */
 export const meanScale = (m: Affine): number => Math.sqrt(Math.abs(determinant(m)));
 
-/** Most that lengths along an axis grow; never 0, so that it may divide. */
+/** Max scale factor of lengths along an axis. Never 0, so that callers can divide by it. */
 export const largestScale = (m: Affine): number =>
   Math.max(Math.hypot(m.a, m.b), Math.hypot(m.c, m.d), 1e-12);
 
-/** The way back, without the translation, made to keep areas; null where there is none or it keeps lengths, too. */
+/**
+ * The inverse without its translation, scaled to preserve areas. Null if the map has no inverse, or if the
+ * result would preserve lengths too (no stretching or skew).
+ */
 export function unstretched(m: Affine): { a: number; b: number; c: number; d: number } | null {
   const det = determinant(m);
   const isSimilar = Math.abs(largestScale(m) - meanScale(m)) <= 1e-9 * meanScale(m);

@@ -13,11 +13,11 @@ export const isEmptyBox = (box: Box): boolean => !(box.x0 <= box.x1 && box.y0 <=
 export const boxContainsPoint = (box: Box, x: number, y: number): boolean =>
   x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1;
 
-/** True when `inner` lies in `outer`, borders included. */
+/** True if `inner` lies inside `outer`, borders included. */
 export const boxContains = (outer: Box, inner: Box): boolean =>
   inner.x0 >= outer.x0 && inner.x1 <= outer.x1 && inner.y0 >= outer.y0 && inner.y1 <= outer.y1;
 
-/** True when they share at least a border point. */
+/** True if they share at least one border point. */
 export const boxesTouch = (a: Box, b: Box): boolean =>
   a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 
@@ -35,7 +35,7 @@ export const uniteBoxes = (a: Box, b: Box): Box => ({
   y1: Math.max(a.y1, b.y1),
 });
 
-/** Box of the interleaved coordinates [from, to) (indices into `xy`). */
+/** Bounding box of the interleaved coordinates [from, to) (indices into `xy`). */
 export function boxOfPoints(xy: ArrayLike<number>, from = 0, to = xy.length): Box {
   let x0 = Infinity;
   let y0 = Infinity;

@@ -1,24 +1,24 @@
 /**
- * Cutting polylines to an axis-parallel box: Liang and Barsky's parametric clipping, segment by segment.
+ * Clips polylines to an axis-parallel box: Liang and Barsky's parametric clipping, segment by segment.
  * (Y.-D. Liang, B. A. Barsky, "A New Concept and Method for Line Clipping", ACM TOG 3(1), 1984)
  *
  *   p(t) = p0 + t (p1 − p0), 0 ≤ t ≤ 1: each side of the box bounds t from below (entering)
  *   or from above (leaving); what is left between the largest entry and the smallest exit is inside.
  *
- * Points on the border count as inside. Cut points are put onto the border to the bit, so that
+ * Points on the border count as inside. Cut points lie exactly on the border, so that
  * "inside the margins" can be checked without a tolerance.
  */
 import { boxContains, boxContainsPoint, boxOfPoints, boxesTouch, type Box } from "./box.js";
 import { LineBuilder, isClosedLine, lineCount, type Lines } from "./polyline.js";
 
-/** The parts of `lines` inside `box`, in order. A closed line cut open begins at a border. */
+/** The parts of `lines` inside `box`, in order. A closed line that is cut starts at a border. */
 export function clipLinesToBox(lines: Lines, box: Box): Lines {
   const builder = new LineBuilder();
   for (let i = 0; i < lineCount(lines); i++) clipLine(lines, i, box, builder);
   return builder.finish();
 }
 
-/** The parts of line `i` inside `box`, added to `builder`. */
+/** Adds the parts of line `i` inside `box` to `builder`. */
 export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder): void {
   const { xy, offsets } = lines;
   const tag = lines.tag[i];
@@ -36,7 +36,7 @@ export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder
   endPiece(builder, tag);
 }
 
-/** Where to begin on a closed line, so that no inner piece is cut in two at the line's own start. */
+/** Where to start on a closed line, so that no inside piece is split at the line's own start point. */
 function firstOutside(xy: Float64Array, first: number, segments: number, box: Box): number {
   for (let k = 0; k < segments; k++) {
     if (!boxContainsPoint(box, xy[2 * (first + k)], xy[2 * (first + k) + 1])) return k;
@@ -44,7 +44,7 @@ function firstOutside(xy: Float64Array, first: number, segments: number, box: Bo
   return 0;
 }
 
-/** Adds the inner part of one segment; ends the piece where the segment leaves the box. */
+/** Adds the inside part of one segment. Ends the piece where the segment leaves the box. */
 function clipSegment(
   x0: number,
   y0: number,
@@ -66,7 +66,7 @@ function clipSegment(
 
 const range: [number, number] = [0, 1];
 
-/** Writes the t at which the segment enters and leaves the box; false when it misses it. */
+/** Writes the t at which the segment enters and leaves the box. False if the segment misses the box. */
 export function insideRange(
   x0: number,
   y0: number,
@@ -85,7 +85,10 @@ export function insideRange(
   return hits && out[0] <= out[1];
 }
 
-/** One side: t · p ≤ q, with p the speed towards it and q the way there; false when all is beyond it. */
+/**
+ * One side: t · p ≤ q, with p the rate towards the side and q the distance to it. False if all of it lies
+ * beyond.
+ */
 function boundBySide(p: number, q: number, out: [number, number]): boolean {
   if (p === 0) return q >= 0;
   if (p < 0) out[0] = Math.max(out[0], q / p);
@@ -95,7 +98,7 @@ function boundBySide(p: number, q: number, out: [number, number]): boolean {
 
 const held = (value: number, low: number, high: number): number => Math.min(Math.max(value, low), high);
 
-/** A piece that only touches the border would be a dot that nobody drew. */
+/** Drops pieces that only touch the border: they would become dots that are not in the drawing. */
 function endPiece(builder: LineBuilder, tag: number): void {
   if (builder.openPoints < 2) builder.drop();
   else builder.end(tag);

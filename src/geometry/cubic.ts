@@ -1,8 +1,8 @@
 /**
- * Cubic Bézier curves to polylines, to a tolerance in mm.
+ * Flattens cubic Bézier curves to polylines within a tolerance in mm.
  *
- * Method: where the curve's acceleration is even, cut it at n equal steps of t; where it is not,
- * halve it first. Both tests are bounds, not samples, so the tolerance is kept for every curve.
+ * Method: if the curve's acceleration B″ is roughly uniform, split it at n equal steps of t; if not,
+ * halve it first. Both tests are bounds, not samples, so the tolerance holds for every curve.
  *
  *        p1 ·-------· p2           d1, d2  signed distance of p1, p2 from the chord p0 p3
  *          /         \             s1, s2  how far along the chord they lie, 0 … L
@@ -10,30 +10,33 @@
  *        /             \                   B″ runs linearly from 6 a0 to 6 a1
  *   p0 ·-----------------· p3
  *
- * Flat test: with s1, s2 inside 0 … L the curve runs over the chord from end to end and is at most
+ * Flat test: with s1, s2 inside 0 … L the curve runs along the chord from end to end and is at most
  * (3/4) max(|d1|, |d2|) away from it, or (4/9) of that when p1 and p2 lie on opposite sides
  * (maximum of 3t(1−t)² d1 + 3t²(1−t) d2). A straight line written as a curve stays one segment.
  *
  * Step count: a chord over a step h of t is within h²/8 · max|B″| of the curve (linear interpolation
  * error), so n = ⌈√(6/8 · max(|a0|, |a1|) / tolerance)⌉ equal steps suffice (Wang, Wu, Chen 1984).
  *
- * Invariants: largest gap between curve and chords ≤ tolerance, up to MAX_STEPS; the last point is
- * p3 exactly; at most 2n + 1 points; no recursion, no allocation but the buffer's growth.
+ * Invariants: max gap between curve and chords ≤ tolerance, up to MAX_STEPS; the last point is
+ * p3 exactly; at most 2n + 1 points; no recursion; the only allocation is the buffer's growth.
  */
 import type { PointBuffer } from "./growable.js";
 
-/** Far beyond any paper: 65 536 steps hold 1 µm on a curve with control points 5 km apart. */
+/** More than any paper needs: 65 536 steps keep 1 µm on a curve with control points 5 km apart. */
 const MAX_STEPS = 65_536;
 const MAX_DEPTH = 16;
-/** Accelerations at the ends that differ by more than this make equal steps wasteful. */
+/** If the accelerations at the two ends differ by more than this factor, equal steps are wasteful. */
 const UNEVEN = 3;
 
-/** Work list of halves still to do, 8 numbers each; one per module is safe as nothing here calls out. */
+/**
+ * Stack of halves still to flatten, 8 numbers each. Shared by all calls, which is safe: the code is not
+ * reentrant.
+ */
 const stack = new Float64Array((MAX_DEPTH + 2) * 8);
 const depths = new Uint8Array(MAX_DEPTH + 2);
 
 /**
- * Appends the points of the curve p0 p1 p2 p3 after p0, up to and with p3 (p0 itself is not written).
+ * Appends the points of the curve p0 p1 p2 p3 after p0, up to and including p3 (p0 itself is not written).
  * Coordinates and `tolerance` in the same unit, usually mm; tolerance > 0.
  */
 export function flattenCubic(
@@ -54,7 +57,7 @@ export function flattenCubic(
   for (;;) {
     const n = stepCount(x0, y0, x1, y1, x2, y2, x3, y3, tolerance);
     if (n > 2 && n < MAX_STEPS && depths[top] < MAX_DEPTH && isUneven(x0, y0, x1, y1, x2, y2, x3, y3)) {
-      // de Casteljau at t = 1/2: the far half waits on the stack, the near half is next.
+      // de Casteljau at t = 1/2: push the second half on the stack and continue with the first.
       const x01 = (x0 + x1) / 2;
       const y01 = (y0 + y1) / 2;
       const x12 = (x1 + x2) / 2;
@@ -102,7 +105,7 @@ export function flattenCubic(
   }
 }
 
-/** Equal steps of t that keep the tolerance; 1 where the chord alone does. */
+/** Number of equal steps of t that keep the tolerance; 1 if the chord alone does. */
 function stepCount(
   x0: number,
   y0: number,
@@ -151,11 +154,11 @@ function isUneven(
   const a2 = ax * ax + ay * ay;
   const b2 = bx * bx + by * by;
   const limit = UNEVEN * UNEVEN;
-  // Opposite accelerations mean an inflection: halving lets the flat middle be one chord.
+  // Opposite accelerations mean an inflection: after halving, the flat middle can become one chord.
   return a2 > limit * b2 || b2 > limit * a2 || ax * bx + ay * by < 0;
 }
 
-/** The curve at t = 1/n, 2/n, … 1, by its power form; p3 is written as given. */
+/** Writes the curve at t = 1/n, 2/n, … 1 from its power form. p3 is written unchanged. */
 function writeSteps(
   out: PointBuffer,
   x0: number,

@@ -1,6 +1,6 @@
-/** Number columns that grow by doubling: what loops append to before the final size is known. */
+/** Typed arrays that grow by doubling, for loops that append before the final size is known. */
 
-/** x, y pairs, flat. `data` is replaced when it grows: read it again after every push. */
+/** Interleaved x, y pairs. `data` is replaced when it grows: read it again after every push. */
 export class PointBuffer {
   data: Float64Array;
   /** Numbers used so far (2 × points). */
@@ -20,7 +20,7 @@ export class PointBuffer {
     this.data[this.length++] = y;
   }
 
-  /** Makes room for `points` more, so that a kernel may write `data` itself. */
+  /** Makes room for `points` more, so that an inner loop can write to `data` directly. */
   reserve(points: number): void {
     const needed = this.length + 2 * points;
     if (needed <= this.data.length) return;
@@ -39,7 +39,7 @@ export class PointBuffer {
   }
 }
 
-/** A copy of twice the length, or of `needed` if that is more. */
+/** A copy with twice the length, or with length `needed` if that is more. */
 export function grown<T extends Column>(column: T, needed = 0): T {
   const length = Math.max(2 * column.length, needed);
   const longer = new (column.constructor as new (length: number) => T)(length);
@@ -50,8 +50,8 @@ export function grown<T extends Column>(column: T, needed = 0): T {
 type Column = Uint8Array | Uint32Array | Int32Array | Float32Array | Float64Array;
 
 /**
- * One number at a time into a typed array of the given kind. No more kinds than four: the machine code for `push`
- * knows that many, and with a fifth it is many times slower.
+ * Appends one number at a time to a typed array of the given kind. Use at most four kinds: V8's inline cache
+ * for `push` holds four, and with a fifth kind it becomes many times slower.
  */
 export class ColumnBuffer<T extends Column> {
   data: T;
@@ -80,7 +80,10 @@ export class ColumnBuffer<T extends Column> {
     return this.data.slice(0, this.length) as T;
   }
 
-  /** What was pushed, without a copy; push no more then. The part of `data` never written costs no memory. */
+  /**
+   * The pushed values, without a copy. Do not push afterwards. The unwritten part of `data` takes no physical
+   * memory.
+   */
   view(): T {
     return this.data.subarray(0, this.length) as T;
   }

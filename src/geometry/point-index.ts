@@ -1,37 +1,37 @@
 /**
- * A k-d tree over points, for questions about the nearest few.
+ * A k-d tree over points, for queries for the nearest few points.
  *
- * Method: ids in one array, the median of each range at its middle, ranges split in x and y by turns
+ * Method: ids in one array, the median of each range at its middle, ranges split alternately in x and y
  * (J. Bentley, CACM 18(9), 1975; the array form after V. Agafonkin's kdbush). Ranges are nodes, numbered
  * as they are split.
  *
  *   ids   [ … left half … | m | … right half … ]        node n
  *           node n + 1          node rights[n]
  *
- * Built in n log n, asked in log n on average, whether points are spread evenly, stand in clusters or all at one
- * place: no cell size to get wrong.
+ * Building takes O(n log n), a query O(log n) on average, whether points are evenly spread, clustered or all
+ * coincident. There is no cell size to tune.
  */
 const LEAF = 8;
 
 export class PointIndex {
   private readonly xy: Float64Array;
   private readonly ids: Uint32Array;
-  /** The coordinates in the order of `ids`: side by side where they are looked at together. */
+  /** The coordinates in the order of `ids`, so that a search reads adjacent memory. */
   private readonly xs: Float64Array;
   private readonly ys: Float64Array;
-  /** By node: first and last place in it, its right half, how it is split. */
+  /** By node: first and last index of its range, the node of its right half, the axis of its split. */
   private readonly starts: Uint32Array;
   private readonly ends: Uint32Array;
   private readonly rights: Uint32Array;
   private readonly axes: Uint8Array;
   private nodeCount = 0;
 
-  // The question under way; fields, because a closure for each would cost more than the search.
+  // The current query point. Fields, because a closure per query would cost more than the search.
   private qx = 0;
   private qy = 0;
 
   /**
-   * `xy` interleaved, mm; point i is xy[2i], xy[2i+1]. Kept, not copied.
+   * `xy` interleaved, mm; point i is xy[2i], xy[2i+1]. Stored by reference, not copied.
    * With `ids` only those points are in the index.
    */
   constructor(xy: Float64Array, ids?: Uint32Array) {
@@ -46,23 +46,23 @@ export class PointIndex {
       this.xs[k] = xy[2 * id];
       this.ys[k] = xy[2 * id + 1];
     }
-    // Leaves have at least LEAF / 2 points, and there is one split range fewer than leaves.
-    const most = Math.ceil((4 * this.ids.length) / LEAF) + 1;
-    this.starts = new Uint32Array(most);
-    this.ends = new Uint32Array(most);
-    this.rights = new Uint32Array(most);
-    this.axes = new Uint8Array(most);
+    // Leaves have at least LEAF / 2 points, and there is one inner node fewer than leaves.
+    const maxNodes = Math.ceil((4 * this.ids.length) / LEAF) + 1;
+    this.starts = new Uint32Array(maxNodes);
+    this.ends = new Uint32Array(maxNodes);
+    this.rights = new Uint32Array(maxNodes);
+    this.axes = new Uint8Array(maxNodes);
     this.build(0, this.ids.length - 1, 0);
   }
 
-  /** All points, neighbours in the tree side by side: any stretch of it lies in a few compact boxes. */
+  /** All point ids in tree order: any contiguous slice lies within a few compact boxes. */
   get inSpaceOrder(): Uint32Array {
     return this.ids;
   }
 
   /**
    * Writes the `count` points nearest to point `id`, nearest first, into `out` from `at`,
-   * without the point itself and `except`. Answers how many there were.
+   * excluding the point itself and `except`. Returns how many were written.
    */
   nearestMany(id: number, except: number, count: number, out: Int32Array, at: number): number {
     this.qx = this.xy[2 * id];
@@ -72,7 +72,7 @@ export class PointIndex {
     return list.size;
   }
 
-  /** Answers the number of the range [from, to]. */
+  /** Builds the node of the range [from, to] and returns its number. */
   private build(from: number, to: number, axis: 0 | 1): number {
     const node = this.nodeCount++;
     this.starts[node] = from;
@@ -88,11 +88,13 @@ export class PointIndex {
     return node;
   }
 
-  /** Puts the point that belongs at `k` in the order of `keys` there, smaller ones before it (Hoare's quickselect). */
+  /**
+   * Moves the point of rank `k` by `keys` to index `k`, with smaller ones before it (Hoare's quickselect).
+   */
   private select(keys: Float64Array, others: Float64Array, k: number, from: number, to: number): void {
     const { ids } = this;
     while (to > from) {
-      // The middle of three as pivot: sorted input, which drawings often are, stays linear.
+      // Median of three as pivot: sorted input, which is common in drawings, stays linear.
       const pivot = medianOfThree(keys[from], keys[(from + to) >> 1], keys[to]);
       let i = from;
       let j = to;
@@ -138,10 +140,10 @@ export class PointIndex {
   }
 }
 
-/** The few nearest so far, sorted by insertion. */
+/** The nearest few found so far, kept sorted by insertion. */
 class NearestList {
   size = 0;
-  /** Farther than this nothing gets in. */
+  /** Squared distance from which on candidates are rejected. */
   worst2 = Infinity;
   private readonly distances: Float64Array;
 

@@ -1,49 +1,51 @@
 /**
- * Points in strips, for asking again and again which point left is the nearest, and taking points away.
+ * Points in strips, for repeated queries for the nearest remaining point, with removal of points.
  *
  *   |  ·  | ·   |   · |      strips of equally many points, side by side in x,
- *   |·    |   · | ·   |      each of them a linked list in the order of y
+ *   |·    |   · | ·   |      each a linked list sorted by y
  *   |   · | q · |  ·  |
- *   | ·   |  ·  |·    |      a question goes up and down from q in its own strip, then in the strips beside it, each time
- *   |  ·  |·    |   · |      only as far as something nearer than what has been found may be
+ *   | ·   |  ·  |·    |      a search goes up and down from q in its own strip, then in the adjacent ones,
+ *   |  ·  |·    |   · |      each time only as far as a nearer point than the best so far can be
  *
- * Points that are taken away leave their list, so that nobody passes by them any more; they go on pointing to where
- * the list went on, so that a question can begin at them.
+ * Removed points are unlinked from their list, so that searches no longer visit them. They keep their own
+ * links, so that a search can start at a removed point.
  *
- * Points come into strips by columns, many more than strips, counted and filled; in a strip they are sorted by the engine: a
- * y, rounded down to one of many levels, and the point's number make one number. Rounding costs no exactness: the search
- * goes on by as much as it may have put out of order.
+ * To build, a counting sort by x puts the points into many more columns than there are strips; then each
+ * strip takes the next points in that order. Within a strip the built-in sort orders keys made of the y,
+ * rounded down to one of many levels, and the point's number. Results stay exact: a search extends as far as
+ * rounding may have changed the order (slackX, slackY).
  *
- * Evenly spread points are asked about in constant time, others in √n of it at most: no strip is fuller than another,
- * whether points stand in clusters or all at one place.
+ * A search takes constant time for evenly spread points, and at most about √n otherwise: all strips hold
+ * equally many points, even if the points are clustered or all coincide.
  */
 import { boxOfPoints } from "./box.js";
 
 const COLUMNS = 1 << 12;
-/** Integers up to this are exact, and this many levels are enough for anything. */
-const MOST_EXACT = 2 ** 53;
-const MOST_LEVELS = 2 ** 32;
+/** Integers up to this are exact in a double. */
+const MAX_EXACT = 2 ** 53;
+/** Levels of y; finer ones would not make the search faster. */
+const MAX_LEVELS = 2 ** 32;
 
 export class PointStrips {
   /**
-   * By place. The places of a strip stand together; before each strip, and behind the last one, is a place without a
-   * point, farther than all.
+   * By place. The places of a strip are contiguous. One place without a point precedes each strip and one
+   * follows the last; its coordinates are infinite.
    */
   private readonly xs: Float64Array;
   private readonly ys: Float64Array;
   private readonly ids: Uint32Array;
   private readonly gone: Uint8Array;
-  /** The places before and after one in the list; of points taken away, as it was then. */
+  /** The previous and next place in the list; for removed points, as they were at removal. */
   private readonly before: Int32Array;
   private readonly after: Int32Array;
   /** By point. */
   private readonly placeOf: Uint32Array;
-  /** By strip: how far it reaches. */
+  /** By strip: its min and max x. */
   private readonly lows: Float64Array;
   private readonly highs: Float64Array;
   /** Places from one strip to the next. */
   private readonly stride: number;
-  /** By how much x and y may be out of order from strip to strip, and in one. */
+  /** By how much x may be out of order between strips, and y within a strip. */
   private slackX = 0;
   private slackY = 0;
 
@@ -64,10 +66,10 @@ export class PointStrips {
     this.lows = new Float64Array(strips);
     this.highs = new Float64Array(strips);
     const { x0, x1, y0, y1 } = boxOfPoints(xy);
-    // A point's number is below this.
+    // Every point number is below this power of two.
     const numbers = 2 ** Math.ceil(Math.log2(count + 1));
     const perX = levelsPerMm(x0, x1, COLUMNS);
-    const perY = levelsPerMm(y0, y1, Math.min(MOST_EXACT / numbers, MOST_LEVELS));
+    const perY = levelsPerMm(y0, y1, Math.min(MAX_EXACT / numbers, MAX_LEVELS));
     this.slackX = perX > 0 ? 2 / perX : 0;
     this.slackY = perY > 0 ? 2 / perY : 0;
     const keys = keysByColumn(xy, x0, perX, y0, perY, numbers);
@@ -101,7 +103,7 @@ export class PointStrips {
     this.highs[strip] = high;
   }
 
-  /** Takes points [first, end) away. */
+  /** Removes points [first, end). */
   removeAll(first: number, end: number): void {
     const { placeOf, before, after, gone } = this;
     for (let id = first; id < end; id++) {
@@ -112,7 +114,7 @@ export class PointStrips {
     }
   }
 
-  /** The nearest point left, or −1. */
+  /** The nearest remaining point, or −1. */
   nearest(x: number, y: number): number {
     const { highs } = this;
     if (highs.length === 0) return -1;
@@ -121,13 +123,16 @@ export class PointStrips {
     return this.search(x, y, strip, -1);
   }
 
-  /** The nearest point left to point `id`, itself if that is left; −1 for none. */
+  /** The remaining point nearest to point `id`: `id` itself unless it was removed; −1 if none remains. */
   nearestTo(id: number): number {
     const place = this.placeOf[id];
     return this.search(this.xs[place], this.ys[place], Math.floor(place / this.stride), place);
   }
 
-  /** Looks at strip `from` first, from `place` on if that is known. One loop and no calls: it is never compiled twice. */
+  /**
+   * Searches strip `from` first, starting at `place` if it is known (≥ 0). One loop without calls, so that
+   * the engine optimizes it only once.
+   */
   private search(qx: number, qy: number, from: number, place: number): number {
     const { xs, ys, gone, before, after, lows, highs, stride, slackX, slackY } = this;
     let best = -1;
@@ -136,7 +141,7 @@ export class PointStrips {
     for (let strip = from; ;) {
       let first = place;
       if (place < 0) {
-        // No point left before the place has a higher y, and none after it a lower one.
+        // Find the place that splits the strip at qy: lower y before it, higher y from it on.
         first = after[strip * stride];
         if (ys[first] < qy) {
           let high = Math.min((strip + 1) * stride, ys.length - 1);
@@ -151,7 +156,7 @@ export class PointStrips {
       if (gone[first] === 1) {
         const began = first;
         while (gone[first] === 1) first = after[first];
-        // The next who begins here has it shorter.
+        // Path compression: the next search that starts here skips the removed points at once.
         for (let k = began; k !== first;) {
           const next = after[k];
           after[k] = first;
@@ -171,7 +176,7 @@ export class PointStrips {
       }
       for (let k = before[first]; ; k = before[k]) {
         const dy = qy - ys[k];
-        // Of the place before the strip it is infinite.
+        // At the place before the strip, dy is −Infinity and the gap infinite.
         const gap = Math.abs(dy) - slackY;
         if (best2 === 0 || (gap > 0 && gap * gap >= best2)) break;
         const dx = xs[k] - qx;
@@ -181,7 +186,7 @@ export class PointStrips {
         best2 = d2;
       }
       if (best2 === 0) break;
-      // On to the strips before, as long as they are near enough, then to those after.
+      // Continue with the strips before, as long as they are near enough, then with those after.
       place = -1;
       strip += step;
       if (step < 0) {
@@ -197,7 +202,7 @@ export class PointStrips {
   }
 }
 
-/** The points' keys, column by column: level of y × `numbers` + number. */
+/** The points' sort keys, column by column: level of y × `numbers` + point number. */
 function keysByColumn(
   xy: Float64Array,
   x0: number,
@@ -215,7 +220,7 @@ function keysByColumn(
   return keys;
 }
 
-/** How many points stand in each column and in those before it. */
+/** How many points lie in each column and all columns before it. */
 function endsOfColumns(xy: Float64Array, x0: number, perX: number): Uint32Array {
   const ends = new Uint32Array(COLUMNS);
   for (let k = 0; k < xy.length; k += 2) ends[Math.floor((xy[k] - x0) * perX)]++;
@@ -224,7 +229,7 @@ function endsOfColumns(xy: Float64Array, x0: number, perX: number): Uint32Array 
   return ends;
 }
 
-/** 0 where there is nothing to tell apart. */
+/** 0 if all values are equal. */
 function levelsPerMm(from: number, to: number, levels: number): number {
   const perMm = (levels - 1) / (to - from);
   return perMm < Infinity ? perMm : 0;

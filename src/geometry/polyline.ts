@@ -1,9 +1,9 @@
 /**
- * Many polylines in columns: the form in which strokes go through `prepare`.
+ * Many polylines in columns: the form in which strokes pass through `prepare`.
  *
- * Line i has points [offsets[i], offsets[i+1]); a line with one point is a dot; a line is closed
- * when its last point equals its first. Each line carries a tag (the shape or the layer that it
- * belongs to), which every step hands on. Lengths in mm.
+ * Line i has points [offsets[i], offsets[i+1]). A line with one point is a dot. A line is closed
+ * if its last point equals its first. Each line carries a tag (the shape or layer that it
+ * belongs to), which every step passes on. Lengths in mm.
  */
 import type { Affine } from "./affine.js";
 import { grown } from "./growable.js";
@@ -11,31 +11,33 @@ import { grown } from "./growable.js";
 export interface Lines {
   /** x, y, x, y … */
   readonly xy: Float64Array;
-  /** lines + 1, counted in points. */
+  /** lines + 1 entries, in points. */
   readonly offsets: Uint32Array;
   readonly tag: Uint32Array;
 }
 
-/** Nearer than this two points are one: far below any machine's step, far above rounding. */
+/**
+ * Points closer than this, mm, are the same point. Far below any machine's step, far above rounding errors.
+ */
 export const SAME_POINT = 1e-6;
 
 export const lineCount = (lines: Lines): number => lines.tag.length;
 
-/** Collects lines point by point, leaving out points that repeat the one before. */
+/** Collects lines point by point, dropping points that repeat the previous one. */
 export class LineBuilder {
   private xy = new Float64Array(1024);
-  /** Longer than the tags by one at least. */
+  /** At least one entry longer than the tags. */
   private offsets = new Uint32Array(512);
   private tags = new Uint32Array(256);
   private points = 0;
   private lines = 0;
-  /** First point of the line that is being built. */
+  /** First point of the line being built. */
   private first = 0;
   private skipped = false;
   private skippedX = 0;
   private skippedY = 0;
 
-  /** Points of the line that is being built. */
+  /** Number of points in the line being built. */
   get openPoints(): number {
     return this.points - this.first;
   }
@@ -59,10 +61,10 @@ export class LineBuilder {
     this.points++;
   }
 
-  /** Ends the line; one without points leaves no trace. */
+  /** Ends the line. A line without points is not added. */
   end(tag: number): void {
     if (this.points === this.first) return;
-    // A line keeps its very last point, so that one closed in the input stays closed to the bit.
+    // Keep the exact last point, so that a line closed in the input stays exactly closed.
     if (this.skipped && this.points > this.first + 1) {
       this.xy[2 * this.points - 2] = this.skippedX;
       this.xy[2 * this.points - 1] = this.skippedY;
@@ -73,7 +75,7 @@ export class LineBuilder {
     this.offsets[++this.lines] = this.first = this.points;
   }
 
-  /** Forgets the line that is being built. */
+  /** Discards the line being built. */
   drop(): void {
     this.skipped = false;
     this.points = this.first;
@@ -89,7 +91,9 @@ export class LineBuilder {
     this.end(tag);
   }
 
-  /** As a line of its own and without a call for each point. False, and nothing done, where a point would be left out. */
+  /**
+   * Adds a whole line without a call per point. Returns false and adds nothing if a point would be dropped.
+   */
   private copyWhole(xy: Float64Array, first: number, last: number, reversed: boolean): boolean {
     if (this.points > this.first) return false;
     let at = 2 * this.points;
@@ -115,13 +119,15 @@ export class LineBuilder {
   /** Adds lines [from, to), each with its own tag. */
   copyRange(lines: Lines, from: number, to: number): void {
     for (let i = from; i < to; i++) {
-      i = this.copyWholes(lines, i, to);
+      i = this.copyWholeLines(lines, i, to);
       if (i < to) this.copy(lines, i, lines.tag[i]);
     }
   }
 
-  /** Of lines [from, to) those before the first of which a point would be left out; answers which that is. */
-  private copyWholes({ xy, offsets, tag }: Lines, from: number, to: number): number {
+  /**
+   * Adds lines from `from` on, up to the first in which a point would be dropped. Returns its index, or `to`.
+   */
+  private copyWholeLines({ xy, offsets, tag }: Lines, from: number, to: number): number {
     if (this.points > this.first) return from;
     this.reserve(offsets[to] - offsets[from]);
     this.reserveLines(to - from);
@@ -152,9 +158,9 @@ export class LineBuilder {
   }
 
   /**
-   * Adds polylines as lines of their own, without a call for each point: polyline i, from `from` up to `to`, has the
-   * numbers [offsets[i], offsets[i + 1]) of `coords`, to be mapped, and the tag i. Answers the first of which a point
-   * would be left out, which is not added, nor are those after it; `to` where there is none.
+   * Adds polylines as separate lines, mapped by `map`, without a call per point. Polyline i in [from, to) has
+   * the numbers [offsets[i], offsets[i + 1]) of `coords` and gets the tag i. Stops at the first polyline in
+   * which a point would be dropped and returns its index; it is not added. Returns `to` if all were added.
    */
   addMapped(coords: Float64Array, offsets: Uint32Array, from: number, to: number, map: Affine): number {
     if (this.points > this.first) return from;
@@ -227,7 +233,7 @@ export function totalLength(lines: Lines): number {
   return length;
 }
 
-/** True when line `i` ends where it began and is more than a dot. */
+/** True if line `i` ends at its first point and is more than a dot. */
 export function isClosedLine(lines: Lines, i: number): boolean {
   const { xy, offsets } = lines;
   const first = offsets[i];
@@ -242,7 +248,7 @@ export function pickLines(lines: Lines, indices: ArrayLike<number>): Lines {
   return builder.finish();
 }
 
-/** Faster than Math.hypot, and as good at these sizes. */
+/** Faster than Math.hypot, and as accurate at these magnitudes. */
 export function distance(x0: number, y0: number, x1: number, y1: number): number {
   const dx = x1 - x0;
   const dy = y1 - y0;

@@ -1,8 +1,8 @@
 /**
- * Areas of the plane and what of a line lies in them, on Clipper2 (A. Johnson; clipper2-ts).
+ * Areas of the plane, and the parts of lines inside them. Uses Clipper2 (A. Johnson; clipper2-ts).
  *
- * Clipper works on integers: one unit is 0.1 µm (SCALE), far below any pen, and products of two
- * coordinates on any paper stay exact in a double. A region is kept clean: its rings do not cross,
+ * Clipper works on integers. One unit is 0.1 µm (SCALE): far below any pen width, and products of two
+ * coordinates on any paper stay exact in a double. A region is always clean: its rings do not cross,
  * and their winding makes holes under the non-zero rule.
  */
 import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
@@ -17,7 +17,7 @@ export const SCALE = 10_000;
 export interface Region {
   readonly rings: Paths64;
   readonly box: Box;
-  /** Set when the region is exactly its box: then cutting needs no Clipper. */
+  /** True if the region is exactly its box: then clipping does not need Clipper. */
   readonly isBox: boolean;
 }
 
@@ -30,7 +30,7 @@ export function ringOf(lines: Lines, i: number): Path64 {
   return ring;
 }
 
-/** A region from rings that already are clean. */
+/** A region from rings that are already clean. */
 export function regionOf(rings: Paths64): Region {
   const box = boxOfPoints(rings.flatMap((ring) => ring.flatMap((p) => [p.x / SCALE, p.y / SCALE])));
   return { rings, box, isBox: rings.length === 1 && isRectangle(rings[0]) };
@@ -49,7 +49,7 @@ function isRectangle(ring: Path64): boolean {
 export const cleanRings = (rings: Paths64, rule: FillRule): Paths64 =>
   combine(ClipType.Union, rings, [], rule);
 
-/** A boolean operation of two sets of rings, both read under `rule`. */
+/** A boolean operation on two sets of rings, both filled under `rule`. */
 export function combine(
   op: ClipType,
   subject: Paths64,
@@ -65,7 +65,7 @@ export function combine(
   return closed;
 }
 
-/** What of line `i` lies inside the region (or outside, with `keepOutside`), added to `builder`. */
+/** Adds the parts of line `i` inside the region (or outside, with `keepOutside`) to `builder`. */
 export function cutLine(
   lines: Lines,
   i: number,
@@ -95,7 +95,7 @@ export function cutLine(
   writePieces(open, tag, builder);
 }
 
-/** Pieces of one line, put together again where the line was only cut at its own start. */
+/** Writes the pieces of one line. Pieces that were only split at the line's own start are joined again. */
 function writePieces(pieces: Paths64, tag: number, builder: LineBuilder): void {
   for (const piece of stitched(pieces)) {
     for (const p of piece) builder.point(p.x / SCALE, p.y / SCALE);
@@ -128,7 +128,7 @@ function stitched(pieces: Paths64): Paths64 {
   return [...out];
 }
 
-/** Winding number over all rings; on the border either answer may come. */
+/** True if the winding number over all rings is not 0. On the border the result may be either. */
 export function regionContains(region: Region, x: number, y: number): boolean {
   const px = x * SCALE;
   const py = y * SCALE;
@@ -146,7 +146,7 @@ export function regionContains(region: Region, x: number, y: number): boolean {
   return winding !== 0;
 }
 
-/** Cuts every line to the region of its tag; null leaves a line whole. */
+/** Clips every line to the region of its tag; null leaves the line unchanged. */
 export function cutLines(lines: Lines, regionOfTag: (tag: number) => Region | null): Lines {
   const builder = new LineBuilder();
   for (let i = 0; i < lineCount(lines); i++) {

@@ -1,8 +1,8 @@
 /**
- * The one recipe from prepared strokes to a job for a machine. Page, server, command line and library all call it,
- * so the preview is the plot.
+ * Turns prepared strokes into a job for a machine. Page, server, command line and library all call this
+ * function, so the preview always matches the plot.
  *
- *   settings ──layer codes──> what each layer asks for ──firmware's limits──> plan ──> trajectory ──compile──> commands
+ *   settings ──layer codes──> settings per layer ──firmware limits──> plan ──> trajectory ──compile──> commands
  */
 import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
 import type { BoardState, CommandStream } from "../drivers/ebb/compile/command-stream.js";
@@ -15,48 +15,48 @@ import type { MotionSettings } from "../settings/motion.js";
 import type { PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "../plan/trajectory.js";
 
-/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
+/** Firmware to plan for while no board is connected: every newer one is at least as capable. */
 export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
 
-/** The part of a job's settings that decides its motion. */
+/** The part of a job's settings that determines its motion. */
 export interface JobSettings {
   readonly motion: MotionSettings;
   readonly pen: PenSettings;
 }
 
 export interface JobOptions {
-  /** Where in the drawing to begin, in the middle of a stroke too; default: its beginning. */
+  /** Where in the drawing to begin, possibly within a stroke; default: at its start. */
   readonly from?: Place | null | undefined;
-  /** Number of the stroke before which to stop and go home; default: the end of the drawing. */
+  /** Index of the stroke before which to stop and go home; default: the end of the drawing. */
   readonly until?: number | null | undefined;
   /** Where the carriage is, mm from home; default 0, 0. The pen is up there. */
   readonly startXMm?: number | undefined;
   readonly startYMm?: number | undefined;
-  /** What the board's counters show there; default: at home, as they are after the motors were switched on. */
+  /** The board's counters at that position; default: at home, with the motors just switched on. */
   readonly board?: BoardState | undefined;
-  /** Of the board: "2.8.1". Default, and where it is null: the oldest that executes accelerations. */
+  /** The board's firmware: "2.8.1". Left out or null: the oldest that supports acceleration. */
   readonly firmware?: string | null | undefined;
-  /** Begin with a lift, because nobody knows where the pen is. Default false. */
+  /** Begin with a lift, because the pen's position is unknown. Default false. */
   readonly liftFirst?: boolean | undefined;
-  /** Where to go when everything is drawn, mm from home; default home itself. */
+  /** Where to go after the last stroke, mm from home; default home. */
   readonly endXMm?: number | undefined;
   readonly endYMm?: number | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
 
-/** What one machine will do: its motion, and the commands for it. */
+/** A planned job for one machine: its motion, and the commands for it. */
 export interface MachineJob {
   readonly trajectory: Trajectory;
-  /** Compiled on each call: a preview needs the motion only. */
+  /** Compiled on each call, because a preview needs only the motion. */
   commands(): CommandStream;
 }
 
 /**
- * Plans `strokes` for a machine, from any place to any stroke.
+ * Plans `strokes` for a machine, from any position in the drawing to any stroke.
  *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other or a firmware that is no version, "cancelled"
- * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
+ * @throws PlotwrightError "bad-setting" for contradictory settings or an invalid firmware version, "cancelled"
+ * @throws RangeError for coordinates that are not finite, or a start outside the drawing
  */
 export function planJob(
   { strokes }: { readonly strokes: StrokeSet },
@@ -83,7 +83,10 @@ export function planJob(
   };
 }
 
-/** The settings that a plan follows: with the codes of the layers' names, within what the firmware can execute. */
+/**
+ * The settings that a plan uses: with the codes from layer names applied, limited to what the firmware
+ * supports.
+ */
 export function followedSettings<S extends JobSettings>(
   settings: S,
   layers: readonly StrokeLayer[],
@@ -94,15 +97,15 @@ export function followedSettings<S extends JobSettings>(
 }
 
 /**
- * How far beside the drawing a pen may stand that was stopped on its line: what the planned line may leave it by, and
- * the rounding to steps.
+ * How far from the drawing a pen that was stopped on its line may be: the allowed deviation of the planned
+ * line plus the rounding to steps.
  */
 function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {
   const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);
   return Math.max(draw.cornerMm, ...corners) + (fit?.toleranceMm ?? 0) + 2 / machine.stepsPerMm;
 }
 
-/** A drawing without its last strokes; the others keep their numbers. */
+/** The first `count` strokes; they keep their indices. */
 function firstStrokes(strokes: StrokeSet, count: number | null): StrokeSet {
   if (count === null) return strokes;
   const { xy, offsets, layer, layers } = strokes;

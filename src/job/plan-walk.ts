@@ -1,4 +1,4 @@
-/** A straight move with the pen up, as a job of its own. */
+/** Plans a straight move with the pen up as a separate job. */
 import { compile } from "../drivers/ebb/compile/compile.js";
 import { motionForFirmware } from "../drivers/ebb/protocol/firmware-motion.js";
 import type { BoardState } from "../drivers/ebb/compile/command-stream.js";
@@ -15,7 +15,7 @@ export interface WalkOptions {
   readonly board: BoardState;
 }
 
-/** @throws PlotwrightError "bad-setting" for settings that contradict each other */
+/** @throws PlotwrightError "bad-setting" for contradictory settings */
 export function planWalk(settings: JobSettings, machine: MachineProfile, walk: WalkOptions): MachineJob {
   const { fromXMm, fromYMm, toXMm, toYMm, firmware, board } = walk;
   const motion = motionForFirmware(settings.motion, firmware);

@@ -1,11 +1,11 @@
 /**
- * Carriage to motors and back. Frames: machine mm, motor steps.
+ * Converts carriage positions to motor steps and back. Frames: machine mm, motor steps.
  *
- *   as wired                u = ±x, v = ±y (flipX, flipY), the two changed about with swapAxes
+ *   as wired                u = ±x, v = ±y (flipX, flipY), exchanged if swapAxes
  *   mixed (H-bot, CoreXY)   m1 = k (u + v)   m2 = k (u − v)      u = (m1 + m2)/2k   v = (m1 − m2)/2k
  *   direct                  m1 = k u         m2 = k v
  *
- * The map is linear, so velocities and accelerations go through it as places do.
+ * The map is linear, so it converts velocities and accelerations as well as positions.
  */
 import type { MachineProfile } from "./profile.js";
 
@@ -15,7 +15,7 @@ const wiredY = (machine: MachineProfile, y: number): number => (machine.flipY ? 
 export function motor1FromXy(machine: MachineProfile, x: number, y: number): number {
   const sx = wiredX(machine, x);
   const sy = wiredY(machine, y);
-  // The sum is the same whichever axis comes first.
+  // The sum does not depend on swapAxes.
   if (machine.motors === "mixed") return (sx + sy) * machine.stepsPerMm;
   return (machine.swapAxes ? sy : sx) * machine.stepsPerMm;
 }
@@ -28,7 +28,7 @@ export function motor2FromXy(machine: MachineProfile, x: number, y: number): num
   return (machine.motors === "mixed" ? u - v : v) * machine.stepsPerMm;
 }
 
-/** mm from home of motor steps (whole or not). */
+/** mm from home; the motor steps may be fractional. */
 export const xFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
   wiredX(
     machine,

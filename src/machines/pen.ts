@@ -1,7 +1,7 @@
-/** Pen height (percent, 100 = highest) to servo position (1/12 µs) and back. */
+/** Converts pen height (percent, 100 = highest) to servo position (1/12 µs) and back. */
 import type { MachineProfile } from "./profile.js";
 
-/** Whole servo units, kept within the machine's range. Throws RangeError for what is no number. */
+/** Whole servo units, clamped to the machine's range. Throws RangeError if the height is not finite. */
 export function servoPosFromPct({ controller }: MachineProfile, heightPct: number): number {
   if (!Number.isFinite(heightPct)) throw new RangeError(`pen height is ${heightPct}: expected 0 to 100 %`);
   const { servoPosAt0Pct, servoPosAt100Pct } = controller;

@@ -1,26 +1,26 @@
-/** A plotter as data: what the compiler and the page need to know of it. */
+/** A plotter as data: what the compiler and the page need to know about it. */
 export interface MachineProfile {
   readonly id: string;
   readonly name: string;
   /** Travel limits, mm from home. */
   readonly widthMm: number;
   readonly heightMm: number;
-  /** Microsteps for one mm along an axis (mixed axes: of the carriage, see `motors`). */
+  /** Microsteps per mm along an axis; on mixed machines along an axis of the carriage, see `motors`. */
   readonly stepsPerMm: number;
   /** "mixed": motor 1 = x + y, motor 2 = x − y (H-bot, CoreXY). "direct": motor 1 = x, motor 2 = y. */
   readonly motors: "mixed" | "direct";
-  /** The axis runs the other way than its motors are wired for. Left out: it does not. */
+  /** The axis runs opposite to its motor wiring. Left out: it does not. */
   readonly flipX?: boolean | undefined;
   readonly flipY?: boolean | undefined;
-  /** The motors are plugged in, or the machine stands, so that x and y have changed places. */
+  /** x and y are exchanged, because of how the motors are plugged in or how the machine is placed. */
   readonly swapAxes?: boolean | undefined;
   readonly controller: Controller;
 }
 
-/** What drives the motors and the pen. `kind` names the driver: see src/drivers. */
+/** What drives the motors and the pen. `kind` selects the driver in src/drivers. */
 export type Controller = EbbController;
 
-/** EiBotBoard: AxiDraw, NextDraw, EggBot and others. */
+/** EiBotBoard, used by AxiDraw, NextDraw, EggBot and others. */
 export interface EbbController {
   readonly kind: "ebb";
   /** 1 = 1/16 steps, 2 = 1/8, 3 = 1/4, 4 = 1/2, 5 = whole steps. */
@@ -30,7 +30,7 @@ export interface EbbController {
   readonly servoPosAt100Pct: number;
   /** Servo output: 4 = RB1 (standard), 5 = RB2 (brushless upgrade). */
   readonly servoPin: 4 | 5;
-  /** Switches at x = 0 and y = 0; null or left out: home is where the user puts the carriage. */
+  /** Switches at x = 0 and y = 0. Null or left out: home is where the user places the carriage. */
   readonly homing?: HomingSwitches | null | undefined;
 }
 
@@ -44,7 +44,7 @@ export interface SwitchInput {
   readonly port: (typeof INPUT_PORTS)[number];
   /** 0 … 7. */
   readonly pin: number;
-  /** What the pin reads while the switch is pressed. */
+  /** The pin's level while the switch is pressed. */
   readonly pressed: 0 | 1;
 }
 

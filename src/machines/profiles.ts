@@ -1,7 +1,8 @@
 /**
- * Plotters as data. Travel limits are the makers' published ones; home is the corner where x and y are 0.
+ * The built-in plotters. Travel limits are the makers' published figures. Home is the corner where x and y
+ * are 0.
  *
- * AxiDraw and NextDraw: 200-step motors, 5 full steps for one mm along an axis, so 80 at 1/16.
+ * AxiDraw and NextDraw: 200-step motors, 5 full steps per mm along an axis, so 80 at 1/16.
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
  */
 import { PlotwrightError } from "../errors.js";
@@ -40,7 +41,7 @@ const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): 
   controller: BRUSHLESS_SERVO,
 });
 
-/** A sphere of 40 mm turned by 3200 steps; the pen arm moves 1/4 of that either way. */
+/** 3200 steps turn a 40 mm sphere once; the pen arm's travel is 1/4 of a turn. */
 const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
@@ -77,7 +78,7 @@ export const MACHINES: readonly MachineProfile[] = [
   },
 ];
 
-/** The profile of that id. Throws `bad-setting` naming those there are. */
+/** The profile with that id. Throws `bad-setting` with the list of known ids. */
 export function machineById(id: string): MachineProfile {
   const machine = MACHINES.find((candidate) => candidate.id === id);
   if (machine === undefined) {
@@ -93,12 +94,12 @@ export interface MachineChoice {
 }
 
 /**
- * The machine of a job's settings: the profile that they carry when it is the one they name, else the known one.
- * Throws `bad-setting` for a name that is neither.
+ * The machine of a job's settings: their custom profile if its id matches, otherwise the built-in one.
+ * Throws `bad-setting` for an unknown id.
  */
 export const machineOf = ({ machine, customMachine }: MachineChoice): MachineProfile =>
   customMachine?.id === machine ? customMachine : machineById(machine);
 
-/** The same, null for a name that is neither. */
+/** As `machineOf`, but null for an unknown id. */
 export const findMachine = ({ machine, customMachine }: MachineChoice): MachineProfile | null =>
   customMachine?.id === machine ? customMachine : (MACHINES.find(({ id }) => id === machine) ?? null);

@@ -1,9 +1,10 @@
 /**
- * A machine made to fit what the user has seen it do: which way it went, and how large it drew.
+ * Corrects a machine profile by what the user observed: which direction the carriage moved, and how large it
+ * drew.
  *
- * The motors move the carriage by some signed change of axes P of what they are told, which nobody knows.
- * A profile tells them T (x, y), so a move is seen as M = P T. For M to become the identity, T has to become
- * T M⁻¹; and M is a change of axes with signs, so its inverse is its transpose.
+ * The wiring maps what is sent to the motors to carriage motion by an unknown signed permutation of the axes,
+ * P. The profile sends T (x, y), so the user observes M = P T. To make M the identity, replace T by T M⁻¹. M
+ * is a signed permutation too, so its inverse is its transpose.
  */
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "./profile.js";
@@ -20,11 +21,11 @@ const VECTORS: Readonly<Record<Direction, readonly [x: number, y: number]>> = {
 };
 
 /**
- * The profile with which the carriage goes to the right for x and down for y.
+ * The profile with which the carriage moves right for +x and down for +y.
  *
- * @param xWent where it went when it was told to go to the right by the profile as it is
+ * @param xWent where the carriage went when the current profile told it to go right
  * @param yWent the same for down
- * @throws PlotwrightError "bad-setting" when both lie on one line: then a motor does not turn
+ * @throws PlotwrightError "bad-setting" if both directions lie on one line: then one motor does not turn
  */
 export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: Direction): MachineProfile {
   const [xx, xy] = VECTORS[xWent];
@@ -32,7 +33,7 @@ export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: 
   if (xx * yx + xy * yy !== 0) {
     throw new PlotwrightError(
       "bad-setting",
-      `The carriage went ${xWent} and then ${yWent}, along one line: one motor does not turn, or is not plugged in. Look at its cable.`,
+      `The carriage went ${xWent} and then ${yWent}, along one line: one motor does not turn. Check that both motor cables are plugged in.`,
     );
   }
   const turned = (x: number, y: number): readonly [number, number] =>
@@ -42,22 +43,22 @@ export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: 
   return { ...machine, swapAxes: xu === 0, flipX: xu + xv < 0, flipY: yu + yv < 0 };
 }
 
-/** What the motors are told for a move, see `motors.ts`. */
+/** What is sent to the motors for a move, see `motors.ts`. */
 function wired(machine: MachineProfile, x: number, y: number): readonly [number, number] {
   const u = machine.flipX ? -x : x;
   const v = machine.flipY ? -y : y;
   return machine.swapAxes ? [v, u] : [u, v];
 }
 
-/** A measurement further off than this is a slip of the ruler or a wrong microstep mode, not a scale. */
-const MOST_SCALE = 20;
+/** A measurement further off than this factor is a mistake or a wrong microstep mode, not a scale error. */
+const MAX_SCALE = 20;
 
 /**
- * The steps for one mm that make a square come out at its size.
+ * The steps per mm that make a square come out at its true size.
  *
  * @param drawnMm what the square should have measured
- * @param measuredXMm, measuredYMm what the ruler says; the mean counts, since both axes share one figure
- * @throws PlotwrightError "bad-setting" for sizes that no square can have had
+ * @param measuredXMm, measuredYMm the measured sides; the mean is used, because both axes share one figure
+ * @throws PlotwrightError "bad-setting" for impossible measurements
  */
 export function stepsPerMmMeasured(
   machine: MachineProfile,
@@ -68,10 +69,10 @@ export function stepsPerMmMeasured(
   const measuredMm = (measuredXMm + measuredYMm) / 2;
   const scale = drawnMm / measuredMm;
   const isOneSize = Math.abs(measuredXMm - measuredYMm) <= 0.2 * measuredMm;
-  if (!(measuredXMm > 0 && measuredYMm > 0 && scale < MOST_SCALE && scale > 1 / MOST_SCALE && isOneSize)) {
+  if (!(measuredXMm > 0 && measuredYMm > 0 && scale < MAX_SCALE && scale > 1 / MAX_SCALE && isOneSize)) {
     throw new PlotwrightError(
       "bad-setting",
-      `A square of ${drawnMm} mm can't have come out as ${measuredXMm} × ${measuredYMm} mm: measure it again, in mm.`,
+      `A ${drawnMm} mm square cannot have come out as ${measuredXMm} × ${measuredYMm} mm. Measure it again, in mm.`,
     );
   }
   return machine.stepsPerMm * scale;

@@ -1,6 +1,6 @@
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
-/** How the pen moves. One set of limits with the pen down (`draw`), one with it up (`travel`). */
+/** How the pen moves: one set of limits with the pen down (`draw`), one with the pen up (`travel`). */
 export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
 export type MotionMode = (typeof MOTION_MODES)[number];
 
@@ -48,7 +48,7 @@ const jerk = {
 export const DRAW_TABLE = {
   speedMmPerS: {
     ...speed,
-    about: "largest speed, pen down",
+    about: "maximum speed, pen down",
     flag: "--speed",
     default: 50,
     slider: [5, 200],
@@ -60,16 +60,18 @@ export const DRAW_TABLE = {
     default: 500,
     slider: [50, 3_000],
   },
-  /** δ: what the line may leave the drawing by (blend), or may pretend to (junction). */
+  /**
+   * δ: how far the line may deviate from the drawing (blend), or is assumed to for speed limits (junction).
+   */
   cornerMm: {
     ...corner,
-    about: "how far corners and tight curves may leave the drawing, pen down",
+    about: "how far corners and tight curves may deviate from the drawing, pen down",
     flag: "--corner",
     default: 0.025,
   },
   jerkMmPerS3: {
     ...jerk,
-    about: "largest change of acceleration, pen down (scurve)",
+    about: "maximum change of acceleration, pen down (scurve)",
     flag: "--jerk",
     default: 10_000,
   },
@@ -79,7 +81,7 @@ export const DRAW_TABLE = {
 export const TRAVEL_TABLE = {
   speedMmPerS: {
     ...speed,
-    about: "largest speed, pen up",
+    about: "maximum speed, pen up",
     flag: "--travel-speed",
     default: 150,
     slider: [10, 400],
@@ -91,10 +93,10 @@ export const TRAVEL_TABLE = {
     default: 1_000,
     slider: [50, 5_000],
   },
-  cornerMm: { ...corner, about: "how far corners may be left, pen up", default: 0.5 },
+  cornerMm: { ...corner, about: "how far corners may be cut, pen up", default: 0.5 },
   jerkMmPerS3: {
     ...jerk,
-    about: "largest change of acceleration, pen up (scurve)",
+    about: "maximum change of acceleration, pen up (scurve)",
     flag: "--travel-jerk",
     default: 20_000,
   },
@@ -117,7 +119,7 @@ export const FIT_TABLE = {
   toleranceMm: {
     kind: "number",
     label: "Tolerance",
-    about: "how far merged commands may leave the plan",
+    about: "how far merged commands may deviate from the plan",
     default: 0.02,
     min: 0.001,
     max: 1,
@@ -128,7 +130,7 @@ export const FIT_TABLE = {
   floorMs: {
     kind: "number",
     label: "Commands of at least",
-    about: "shorter commands are made only where the geometry is that short",
+    about: "shorter commands are used only where the drawing needs them",
     default: 15,
     min: 0,
     max: 200,
@@ -137,7 +139,7 @@ export const FIT_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** A plan's blocks merged into fewer, longer ones. */
+/** Merging of a plan's blocks into fewer, longer ones. */
 export type FitSettings = ValuesOf<typeof FIT_TABLE>;
 
 export const EASE_TABLE = {
@@ -162,7 +164,7 @@ export type EaseSettings = ValuesOf<typeof EASE_TABLE>;
 export const MOTOR_ACCEL = {
   kind: "number",
   label: "motor acceleration",
-  about: "largest acceleration of one motor",
+  about: "maximum acceleration of one motor",
   default: 100_000,
   min: 0,
   minExcluded: true,
@@ -171,7 +173,7 @@ export const MOTOR_ACCEL = {
   step: 1_000,
 } as const satisfies NumberSetting;
 
-/** What one layer does differently; what is left out is as for all. */
+/** Overrides for one layer; what is left out is as for all layers. */
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
 
 export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
@@ -179,7 +181,7 @@ export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
   readonly travel: MotionLimits;
   readonly fit?: FitSettings | null | undefined;
   readonly ease?: EaseSettings | null | undefined;
-  /** Largest acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
+  /** Max acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
   readonly motorAccelStepsPerS2?: number | null | undefined;
   /** By layer id: limits with the pen down. */
   readonly layers?: Readonly<Record<string, LayerMotion>> | undefined;

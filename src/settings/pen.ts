@@ -30,7 +30,7 @@ export const PEN_TABLE = {
     default: 30,
     slider: [0, 100],
   },
-  /** With a rate this is a delay besides the time that the rate needs; without, the whole time. */
+  /** With a rate set, a delay on top of the time that the move takes; without, the whole time. */
   liftMs: {
     ...delay,
     label: "Wait after lifting",
@@ -47,7 +47,7 @@ export const PEN_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** How fast the pen rises and sinks where a rate is set; the default is what the page starts with. */
+/** How fast the pen rises and sinks if a rate is set. The default is the page's initial value. */
 export const LIFT_RATE = {
   ...rate,
   label: "Rises at",
@@ -93,24 +93,26 @@ export const HOP_TABLE = {
     unit: "mm",
     step: 0.5,
   },
-  upPct: { ...height, label: "Height", about: "height between strokes of a hop", default: 40 },
+  upPct: { ...height, label: "Height", about: "pen height during a hop", default: 40 },
 } as const satisfies SettingsTable;
 
-/** Short travels between strokes: the pen is lifted less high, and so faster, for hops up to `longestMm`. */
+/** Short travel moves: for hops up to `longestMm` the pen is lifted less, which is faster. */
 export type HopSettings = ValuesOf<typeof HOP_TABLE>;
 
-/** What one layer's pen does differently; what is left out is as for all. */
+/** Overrides for one layer's pen; what is left out is as for all layers. */
 export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undefined } & {
   /** A wait with the pen up before the layer's first stroke. */
   readonly beforeMs?: number | undefined;
 };
 
-/** Pen heights, and how long the queue waits for the pen. */
+/** Pen heights, and how long the motion queue waits for the pen. */
 export interface PenSettings extends ValuesOf<typeof PEN_TABLE> {
   /** How fast the pen rises and sinks; null or left out: as fast as the servo can. A low drop rate is gentle. */
   readonly liftPctPerS?: number | null | undefined;
   readonly dropPctPerS?: number | null | undefined;
-  /** Share of the lift after which the pen is clear and the carriage may start: 100 waits for the whole of it. */
+  /**
+   * Share of the lift after which the pen is clear and the carriage may start: 100 waits for the whole lift.
+   */
   readonly clearPct?: number | undefined;
   readonly hop?: HopSettings | null | undefined;
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
@@ -120,7 +122,7 @@ export const DEFAULT_PEN: PenSettings = defaultsOf(PEN_TABLE);
 
 const offset = { kind: "number", default: 0, min: -100, max: 100, unit: "mm", step: 0.05 } as const;
 
-/** A pen of the user's list: its line, and how far from the first pen it draws. */
+/** A pen of the user's list: its line width, and its offset from the first pen. */
 export const PLOT_PEN_TABLE = {
   widthMm: {
     kind: "number",

@@ -24,10 +24,10 @@ export interface FourMargins {
 export interface PlacedBox {
   readonly xMm: number;
   readonly yMm: number;
-  /** One of them null: the drawing keeps its proportions. Both null: its true size. */
+  /** One of the two null: the drawing keeps its proportions. Both null: its true size. */
   readonly widthMm: number | null;
   readonly heightMm: number | null;
-  /** A turn after that, clockwise about the box's middle: the size stays, and so does the middle. */
+  /** Then a clockwise rotation about the box's centre; size and centre stay the same. */
   readonly turnDeg?: number | undefined;
 }
 
@@ -38,17 +38,17 @@ export interface ShiftMm {
 
 const paperSide = { kind: "number", min: 1, max: 5_000, unit: "mm", step: 1 } as const;
 
-/** Paper of one's own size, upright. */
+/** Custom paper size, portrait. */
 export const PAPER_TABLE = {
-  widthMm: { ...paperSide, label: "Width", about: "width of the upright paper", default: 210 },
-  heightMm: { ...paperSide, label: "Height", about: "height of the upright paper", default: 297 },
+  widthMm: { ...paperSide, label: "Width", about: "width of the paper in portrait", default: 210 },
+  heightMm: { ...paperSide, label: "Height", about: "height of the paper in portrait", default: 297 },
 } as const satisfies SettingsTable;
 
 export const HATCH_TABLE = {
   spacingMm: {
     kind: "number",
     label: "Pen width",
-    about: "fill areas with lines so far apart; 0 leaves them empty",
+    about: "fill areas with lines this far apart; 0 leaves them empty",
     flag: "--hatch",
     default: 0,
     min: 0,
@@ -72,7 +72,7 @@ export const HATCH_TABLE = {
   cross: {
     kind: "switch",
     label: "A second set across",
-    about: "hatch both ways",
+    about: "hatch in both directions",
     flag: "--hatch-cross",
     default: false,
   },
@@ -86,13 +86,13 @@ export interface LayerHatch extends HatchSettings {
   readonly layer: string;
 }
 
-/** The settings of `prepare` that are one number, switch or choice each, in the order in which the page lists them. */
+/** The settings of `prepare` that are a single number, switch or choice, in the order of the page. */
 export const PREPARE_TABLE = {
   landscape: {
     kind: "switch",
     label: "Landscape",
-    about: "a named paper lies on its long side",
-    aboutOff: "a named paper stands upright",
+    about: "use a named paper size in landscape",
+    aboutOff: "use a named paper size in portrait",
     flag: "--landscape",
     default: true,
   },
@@ -112,7 +112,7 @@ export const PREPARE_TABLE = {
     kind: "switch",
     label: "Fit paper",
     about: "scale the drawing to the paper inside the margins",
-    aboutOff: "draw in true size, page corner on paper corner",
+    aboutOff: "draw at true size, page corner on paper corner",
     flag: "--fit",
     default: true,
   },
@@ -193,7 +193,7 @@ export const PREPARE_TABLE = {
   dropRepeatsMm: {
     kind: "number",
     label: "Leave out repeats within",
-    about: "leave out what is drawn already, this near; 0 keeps all",
+    about: "leave out lines already drawn within this distance; 0 keeps all",
     flag: "--drop-repeats",
     panel: "lines",
     default: 0,
@@ -219,7 +219,7 @@ export const PREPARE_TABLE = {
   flattenMm: {
     kind: "number",
     label: "Curve smoothness",
-    about: "largest gap between a curve and its chords, on paper",
+    about: "maximum gap between a curve and its chords, on paper",
     flag: "--flatten",
     panel: "lines",
     default: 0.02,
@@ -281,7 +281,7 @@ export const PREPARE_TABLE = {
   reinkMm: {
     kind: "number",
     label: "Take up ink every",
-    about: "split layers after so much drawing, to take up ink; 0 never",
+    about: "split layers after this length of drawing, to take up ink; 0 never",
     flag: "--reink",
     default: 0,
     min: 0,
@@ -312,28 +312,28 @@ export const LAYER_REPEATS = {
   step: 1,
 } as const satisfies NumberSetting;
 
-/** How the drawing is laid on the paper and made into strokes. What each plain setting does is in its table. */
+/** How the drawing is placed on the paper and turned into strokes. The table describes each plain setting. */
 export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
-  /** Portrait size; `landscape` turns it. */
+  /** Portrait size; `landscape` rotates it. */
   readonly paper: PaperSize;
   /** Layer ids to leave out. */
   readonly hiddenLayers: readonly string[];
-  /** Layers that are drawn although their name begins with "%". */
+  /** Layers to draw although their name begins with "%". */
   readonly shownLayers: readonly string[];
-  /** Layer ids that are drawn first, in this order; the rest follow in the file's order. */
+  /** Layer ids to draw first, in this order; the rest follow in the file's order. */
   readonly layerOrder: readonly string[];
-  /** By layer id: how many times it is drawn; default once. */
+  /** By layer id: how many times to draw it; default once. */
   readonly layerRepeats: Readonly<Record<string, number>>;
-  /** By layer id: by how much its strokes are moved last of all, so that a pen that sits askew meets the others. */
+  /** By layer id: an offset applied last, so that a pen mounted off-centre lines up with the others. */
   readonly layerShifts?: Readonly<Record<string, ShiftMm>> | undefined;
-  /** Each side by itself; null: `marginMm` all round. */
+  /** One margin per side; null: `marginMm` on all sides. */
   readonly margins: FourMargins | null;
-  /** The drawing's place by numbers, after turning and mirroring; overrides `fit`. Null: `fit` decides. */
+  /** Explicit position and size, after rotating and mirroring; overrides `fit`. Null: `fit` decides. */
   readonly place: PlacedBox | null;
-  /** Cut off what lies outside the machine's travel, from home; null: nothing is cut for it. */
+  /** The machine's travel from home: cut off what lies outside; null: do not cut. */
   readonly reach: PaperSize | null;
   readonly hatch: HatchSettings;
-  /** Layers that are filled differently. */
+  /** Layers with their own hatch settings. */
   readonly layerHatches: readonly LayerHatch[];
 }
 

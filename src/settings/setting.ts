@@ -1,15 +1,15 @@
 /**
- * What a row of the settings tables says. The tables are the only place where a default, a range, a unit or a flag
- * is written: the schema, the checks, the command line, the page's fields and docs/cli.md are made from them.
+ * The rows of the settings tables. The tables are the only place that defines a default, a range, a unit or a
+ * flag: the schema, the checks, the command line, the page's fields and docs/cli.md are derived from them.
  */
 interface Described {
-  /** On the page. */
+  /** Shown on the page. */
   readonly label: string;
-  /** On the command line and in its documentation. */
+  /** Shown on the command line and in its documentation. */
   readonly about: string;
   /** "--margin"; left out: the command line has no option for it. */
   readonly flag?: string;
-  /** The page's panel that lists it among its plain settings; left out: a panel shows it in a way of its own. */
+  /** The page's panel that lists it as a plain field; left out: it has custom UI. */
   readonly panel?: "lines";
 }
 
@@ -18,16 +18,16 @@ export interface NumberSetting extends Described {
   readonly default: number;
   readonly min: number;
   readonly max: number;
-  /** `min` itself is not allowed: speeds of 0, for example. */
+  /** `min` itself is not allowed, for example a speed of 0. */
   readonly minExcluded?: true;
   readonly isWhole?: true;
   /** "" for a plain count. */
   readonly unit: string;
-  /** What an arrow key adds in the page's field. */
+  /** The increment of an arrow key in the page's field. */
   readonly step: number;
-  /** Digits after the point in the page's field; default 2. */
+  /** Digits after the decimal point in the page's field; default 2. */
   readonly digits?: number;
-  /** Ends of the field's slider: the range in everyday use. */
+  /** Ends of the field's slider: the typical range. */
   readonly slider?: readonly [from: number, to: number];
 }
 

@@ -1,4 +1,4 @@
-/** All settings that have an option of their own, by where they stand in a job's settings ("": at the top). */
+/** All settings tables, by their path in a job's settings ("": top level). */
 import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
 import { PEN_TABLE } from "./pen.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
@@ -16,7 +16,7 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
 };
 
 export interface SettingFlag {
-  /** Where in the settings: "prepare.marginMm". */
+  /** Path in the settings: "prepare.marginMm". */
   readonly path: string;
   readonly flag: string;
   readonly row: Setting;
@@ -35,7 +35,7 @@ export function flagInWords({ flag, row }: SettingFlag): string {
   return `${flag} <${UNIT_WORDS[row.unit] ?? row.unit}>`;
 }
 
-/** "0 to 1000 mm, default 15"; of a choice or a switch, its default. */
+/** "0 to 1000 mm, default 15"; for a choice or a switch only the default. */
 export function valuesInWords({ row }: SettingFlag): string {
   if (row.kind === "switch") return `default ${row.default ? "on" : "off"}`;
   if (row.kind === "choice") return `default ${row.default}`;
