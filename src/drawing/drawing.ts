@@ -61,9 +61,9 @@ export interface DashPattern {
   readonly lengths: readonly number[];
   readonly offset: number;
   /**
-   * For a shape that was stretched together with its dashes: for measuring dashes, a vector dx, dy on the
-   * page has the length of (a dx + c dy, b dx + d dy). Absent if dashes are measured by the length on the
-   * page.
+   * For a shape that was stretched together with its dashes: for measuring dashes, a vector dx, dy on
+   * the page has the length of (a dx + c dy, b dx + d dy). Absent if dashes are measured by the
+   * length on the page.
    */
   readonly measure?: LinearMap;
 }

@@ -8,8 +8,8 @@ export interface StrokeSet {
   /** 2 × points numbers: x, y, x, y … mm. */
   readonly xy: Float64Array;
   /**
-   * strokes + 1 entries; stroke i has points [offsets[i], offsets[i+1]). Every stroke has at least one point
-   * (a dot).
+   * strokes + 1 entries; stroke i has points [offsets[i], offsets[i+1]). Every stroke has at least
+   * one point (a dot).
    */
   readonly offsets: Uint32Array;
   /** By stroke: index into `layers`. Strokes of a layer are contiguous, layers in order. */

@@ -1,21 +1,24 @@
 /**
- * What the driver needs of a serial line, and of time. Given in by whoever runs it
- * (serialport, Web Serial, the virtual board; a real or a manual clock), because src has neither.
+ * What the driver needs from a serial port and a clock. Injected by the host (serialport, Web Serial or the
+ * virtual board; a real or a manual clock), because src has no access to either.
  */
 export interface Transport {
-  /** Queues bytes for the board. Resolves when the system has taken them; rejects with a PlotwrightError when the line is gone. */
+  /**
+   * Queues bytes for the board. Resolves when the system has accepted them. Rejects with a PlotwrightError if
+   * the connection is gone.
+   */
   write(bytes: Uint8Array): Promise<void>;
   /** Called with every chunk that arrives. One listener at a time. */
   onData(listener: (bytes: Uint8Array) => void): void;
-  /** Called once when the line is closed or lost; `error` undefined after a plain close(). */
+  /** Called once when the connection is closed or lost; `error` is undefined after a plain close(). */
   onClose(listener: (error?: Error) => void): void;
   close(): Promise<void>;
 }
 
 export interface Clock {
-  /** Seconds; only differences mean anything; never runs backwards. */
+  /** Seconds since an arbitrary start. Never runs backwards. */
   nowS(): number;
-  /** Calls back once after `delayS`; returns a function that cancels it. */
+  /** Calls `callback` once after `delayS`. Returns a function that cancels it. */
   after(delayS: number, callback: () => void): () => void;
 }
 

@@ -1,4 +1,4 @@
-/** Layer names with the codes that say what the settings say, so that other software plots the file likewise. */
+/** Layer names with codes for the layers' settings, so that other software plots the file the same way. */
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { codeOfSpeed, withLayerCodes } from "../plan/coded-layers.js";
 import type { MotionSettings } from "../settings/motion.js";
@@ -11,8 +11,8 @@ import type { SvgOptions } from "./strokes-to-svg.js";
 type Settings = PenSetup & { readonly motion: MotionSettings; readonly pen: PenSettings };
 
 /**
- * A name for each layer of `strokes`: "!" where the plot stops before it, "+h", "+s" and "+d" where it has a
- * height, speed or wait of its own. Heights and speeds are whole percents.
+ * A name for each layer of `strokes`: "!" if the plot pauses before it; "+h", "+s" and "+d" if it has its own
+ * height, speed or wait. Heights and speeds are whole percents.
  */
 export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[] {
   const stops = new Set(penStopsOf(strokes, settings).map(({ strokeIndex }) => strokes.layer[strokeIndex]));
@@ -35,7 +35,7 @@ export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[
   return strokes.layers.map(nameOf);
 }
 
-/** How `toSvg` writes a job's prepared drawing: named with codes, in the widths and colours of its pens. */
+/** Options for `toSvg` to write a job's prepared drawing: coded layer names, pen widths and pen colours. */
 export function svgOptionsOf(
   { strokes, paperWidthMm, paperHeightMm }: Pick<Prepared, "strokes" | "paperWidthMm" | "paperHeightMm">,
   settings: Settings,

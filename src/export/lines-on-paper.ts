@@ -1,7 +1,7 @@
-/** Where the strokes lie on paper, which is what is saved of them. */
+/** The strokes' coordinates on paper, as saved in exports. */
 import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 
-/** Coordinates as `strokes.xy`, without the corrections for pens that sit askew: those belong to the plotter. */
+/** Like `strokes.xy`, but without the corrections for off-centre pens, which only concern the plotter. */
 export function linesOnPaper(strokes: StrokeSet): Float64Array {
   const { layers, layer, offsets } = strokes;
   if (layers.every(({ shiftMm }) => shiftMm === undefined)) return strokes.xy;

@@ -5,7 +5,7 @@ import { linesOnPaper } from "./lines-on-paper.js";
 export interface StrokesJson {
   readonly format: "plotwright-strokes";
   readonly version: 1;
-  /** mm; the paper as it lies, its top left corner at 0, 0. */
+  /** Paper size as placed, mm; its top left corner is at 0, 0. */
   readonly widthMm: number;
   readonly heightMm: number;
   readonly layers: readonly {

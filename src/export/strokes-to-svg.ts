@@ -1,17 +1,20 @@
-/** The prepared drawing as an SVG that is true to the plot: same strokes, same order, same layers, in mm. */
+/** The prepared drawing as an SVG that matches the plot: same strokes, order and layers, in mm. */
 import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import { linesOnPaper } from "./lines-on-paper.js";
 import { mmText, pathData, svgOpening, xmlText } from "./svg-text.js";
 
 export interface SvgOptions {
-  /** The paper as it lies. */
+  /** Paper size as placed. */
   readonly widthMm: number;
   readonly heightMm: number;
-  /** How wide strokes are shown; 0.3 if not given. */
+  /** Shown stroke width; default 0.3. */
   readonly penWidthMm?: number;
-  /** By layer index, from its pen: how wide and in which colour it is shown; null as if there were none. */
+  /** By layer index: width and colour from the layer's pen; null if it has no pen. */
   readonly pens?: readonly (LayerLook | null)[];
-  /** Layer names by layer index, for example with the codes of `formatLayerName`; the strokes' own if not given. */
+  /**
+   * Layer names by layer index, for example with the codes of `formatLayerName`; default:
+   * the names in `strokes`.
+   */
   readonly layerNames?: readonly string[];
 }
 
@@ -20,7 +23,7 @@ export interface LayerLook {
   readonly widthMm: number;
 }
 
-/** SVG text, one Inkscape layer for each layer that has strokes, one path for each stroke. */
+/** SVG text with one Inkscape layer per layer that has strokes, and one path per stroke. */
 export function toSvg(strokes: StrokeSet, options: SvgOptions): string {
   const parts = [svgOpening(options.widthMm, options.heightMm)];
   const count = strokeCount(strokes);

@@ -1,6 +1,6 @@
-/** The few words of SVG that exports are written in. Lengths in mm; one user unit is one mm. */
+/** Helpers to write SVG. Lengths in mm; one user unit is one mm. */
 
-/** Text for an attribute or element: markup escaped, characters that XML forbids left out. */
+/** Text for an attribute or element: markup is escaped, characters that XML forbids are removed. */
 export function xmlText(text: string): string {
   let out = "";
   for (const char of text) {
@@ -24,16 +24,16 @@ const ESCAPES: Readonly<Record<string, string>> = {
   '"': "&quot;",
 };
 
-/** To the micrometre, without trailing zeros. */
+/** Rounded to 1 µm, without trailing zeros. */
 export const mmText = (value: number): string => String(Math.round(value * 1000) / 1000 + 0);
 
-/** The opening tag of a page of that size. */
+/** The XML declaration and the opening tag of a page of that size. */
 export const svgOpening = (widthMm: number, heightMm: number): string =>
   `<?xml version="1.0" encoding="UTF-8"?>\n` +
   `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ` +
   `width="${mmText(widthMm)}mm" height="${mmText(heightMm)}mm" viewBox="0 0 ${mmText(widthMm)} ${mmText(heightMm)}">\n`;
 
-/** Path data of the points [from, to) of interleaved coordinates; one point is a dot. */
+/** Path data of points [from, to) of interleaved coordinates; a single point becomes a dot. */
 export function pathData(xy: Float64Array, from: number, to: number): string {
   let d = `M${mmText(xy[2 * from])} ${mmText(xy[2 * from + 1])}`;
   if (to === from + 1) return `${d}h0`;

@@ -1,25 +1,25 @@
 /**
- * A plan as a picture: what the pen draws, coloured by its speed, with a legend in mm/s under the paper.
+ * Draws a plan as SVG: the pen's path coloured by speed, with a legend in mm/s below the paper.
  *
- * Blocks are sampled so finely that a piece neither crosses a whole band of speed nor bends by more than
- * SAGITTA; pieces of one band that follow each other become one path, so the file stays small.
+ * Blocks are sampled so finely that a piece neither spans a whole speed band nor deviates from the curve by
+ * more than SAGITTA. Consecutive pieces of one band become one path, which keeps the file small.
  */
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
 
 export interface TrajectorySvgOptions {
-  /** The paper as it lies. */
+  /** Paper size as placed. */
   readonly widthMm: number;
   readonly heightMm: number;
-  /** Pen-up moves as thin grey lines; true if not given. */
+  /** Show pen-up moves as thin grey lines; default true. */
   readonly showTravel?: boolean;
   readonly penWidthMm?: number;
 }
 
 export const SPEED_BAND_COUNT = 24;
-/** mm: largest gap between a curved block and the lines that stand for it. */
+/** Max gap between a curved block and its line segments, mm. */
 const SAGITTA = 0.01;
-const MOST_PIECES = 200;
+const MAX_PIECES = 200;
 const LEGEND_HEIGHT = 14;
 
 /** SVG text of a planned drawing, mm. */
@@ -52,7 +52,7 @@ export function trajectoryToSvg(trajectory: Trajectory, options: TrajectorySvgOp
   return parts.join("");
 }
 
-/** mm/s, of drawing; the scale's upper end. */
+/** Max speed with the pen down, mm/s: the upper end of the colour scale. */
 function topSpeed(trajectory: Trajectory): number {
   const { runs } = trajectory;
   const state = newMotionState();
@@ -70,7 +70,7 @@ function topSpeed(trajectory: Trajectory): number {
   return top;
 }
 
-/** Into how many equal times a block is cut. A curve's gap over a time h is |a| h²/8. */
+/** The number of equal time steps to split a block into. The gap of a chord over a time h is |a| h²/8. */
 function piecesOf(trajectory: Trajectory, k: number, bandWidth: number): number {
   const t = trajectory.durationS[k];
   const jerkX = trajectory.jx ? trajectory.jx[k] : 0;
@@ -79,10 +79,10 @@ function piecesOf(trajectory: Trajectory, k: number, bandWidth: number): number 
   const forShape = t * Math.sqrt(a / (8 * SAGITTA));
   const forSpeed = (a * t) / bandWidth;
   const isStraight = jerkX === 0 && jerkY === 0 && isAlong(trajectory, k);
-  return Math.min(Math.max(Math.ceil(Math.max(isStraight ? 0 : forShape, 2 * forSpeed)), 1), MOST_PIECES);
+  return Math.min(Math.max(Math.ceil(Math.max(isStraight ? 0 : forShape, 2 * forSpeed)), 1), MAX_PIECES);
 }
 
-/** True when a block only speeds up or slows down. */
+/** True if a block's acceleration is along its velocity: it only speeds up or slows down. */
 function isAlong(trajectory: Trajectory, k: number): boolean {
   const { vx, vy, ax, ay } = trajectory;
   const cross = Math.abs(vx[k] * ay[k] - vy[k] * ax[k]);
@@ -132,7 +132,7 @@ function pathOfRun(trajectory: Trajectory, run: number): string {
   return path;
 }
 
-/** A bar of the bands under the paper, with the speeds at its ends and between. */
+/** A bar of the speed bands below the paper, labelled with speeds. */
 function legend(options: TrajectorySvgOptions, top: number): string {
   const width = Math.max(options.widthMm - 20, 40);
   const x0 = Math.max((options.widthMm - width) / 2, 0);
@@ -157,7 +157,7 @@ function legend(options: TrajectorySvgOptions, top: number): string {
   return parts.join("");
 }
 
-/** From slow to fast: lightness only rises, so that the order can be read in grey too. */
+/** From slow to fast, with increasing lightness, so that the order is readable in greyscale too. */
 const RAMP: readonly (readonly [number, number, number])[] = [
   [0x11, 0x1e, 0x77],
   [0x55, 0x28, 0xa9],

@@ -86,8 +86,8 @@ export function insideRange(
 }
 
 /**
- * One side: t · p ≤ q, with p the rate towards the side and q the distance to it. False if all of it lies
- * beyond.
+ * One side: t · p ≤ q, with p the rate towards the side and q the distance to it. False if all
+ * of it lies beyond.
  */
 function boundBySide(p: number, q: number, out: [number, number]): boolean {
   if (p === 0) return q >= 0;

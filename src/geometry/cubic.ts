@@ -28,10 +28,7 @@ const MAX_DEPTH = 16;
 /** If the accelerations at the two ends differ by more than this factor, equal steps are wasteful. */
 const UNEVEN = 3;
 
-/**
- * Stack of halves still to flatten, 8 numbers each. Shared by all calls, which is safe: the code is not
- * reentrant.
- */
+/** Stack of halves still to flatten, 8 numbers each. One per module is safe: nothing here calls out. */
 const stack = new Float64Array((MAX_DEPTH + 2) * 8);
 const depths = new Uint8Array(MAX_DEPTH + 2);
 

@@ -81,8 +81,8 @@ export class ColumnBuffer<T extends Column> {
   }
 
   /**
-   * The pushed values, without a copy. Do not push afterwards. The unwritten part of `data` takes no physical
-   * memory.
+   * The pushed values, without a copy. Do not push afterwards. The unwritten part of `data`
+   * takes no physical memory.
    */
   view(): T {
     return this.data.subarray(0, this.length) as T;

@@ -84,8 +84,8 @@ export function planJob(
 }
 
 /**
- * The settings that a plan uses: with the codes from layer names applied, limited to what the firmware
- * supports.
+ * The settings that a plan uses: with the codes from layer names applied, limited to
+ * what the firmware supports.
  */
 export function followedSettings<S extends JobSettings>(
   settings: S,

@@ -1,6 +1,6 @@
 /**
- * The built-in plotters. Travel limits are the makers' published figures. Home is the corner where x and y
- * are 0.
+ * The built-in plotters. Travel limits are the makers' published figures. Home is the corner where x
+ * and y are 0.
  *
  * AxiDraw and NextDraw: 200-step motors, 5 full steps per mm along an axis, so 80 at 1/16.
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.

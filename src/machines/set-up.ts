@@ -1,6 +1,6 @@
 /**
- * Corrects a machine profile by what the user observed: which direction the carriage moved, and how large it
- * drew.
+ * Corrects a machine profile by what the user observed: which direction the carriage moved, and
+ * how large it drew.
  *
  * The wiring maps what is sent to the motors to carriage motion by an unknown signed permutation of the axes,
  * P. The profile sends T (x, y), so the user observes M = P T. To make M the identity, replace T by T M⁻¹. M

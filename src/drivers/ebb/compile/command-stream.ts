@@ -1,14 +1,17 @@
 /**
- * EBB commands for one trajectory, with what the host knows to be true after each.
- * Columns only, no functions: it is transferred between threads. Read a line with `commandLine(stream, i)`.
+ * EBB commands for one trajectory, with the predicted board state after each. Columns only, no functions, so
+ * that it can be transferred between threads. Read a line with `commandLine(stream, i)`.
  */
 export interface CommandStream {
   readonly count: number;
-  /** ASCII of all commands, each ended by CR: ready to be written. */
+  /** ASCII of all commands, each terminated by CR: ready to be written. */
   readonly text: Uint8Array;
   /** count + 1 offsets into `text`. */
   readonly textOffsets: Uint32Array;
-  /** Board seconds from the stream's start to each command's start; count + 1 entries. Zero-length for set-up commands. */
+  /**
+   * Board seconds from the stream's start to each command's start; count + 1 entries. Set-up
+   * commands take no time.
+   */
   readonly boardS: Float64Array;
   /** Trajectory seconds at each command's start; count + 1 entries. */
   readonly planS: Float64Array;
@@ -20,11 +23,11 @@ export interface CommandStream {
   readonly acc2: Uint32Array;
   /** Trajectory run each command belongs to; −1 for pen and set-up commands. */
   readonly run: Int32Array;
-  /** Limits that had to be met by splitting or slowing, in words. */
+  /** Messages about limits that required splitting or slowing down. */
   readonly warnings: readonly string[];
 }
 
-/** Where the board stands between two command streams. */
+/** Step counters and accumulators of the board between two command streams. */
 export interface BoardState {
   readonly steps1: number;
   readonly steps2: number;

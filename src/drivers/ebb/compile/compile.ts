@@ -1,9 +1,11 @@
 /**
- * Trajectory to EBB commands: the pen's moves, and between them each run of the trajectory as the firmware does it
- * best: in legs, a ramp or a parabola each (leg-runs), or in slices of constant speed (write-slices).
+ * Compiles a trajectory to EBB commands: pen moves, and between them each run of the trajectory
+ * in the form that suits the firmware: legs with one ramp or parabola each (leg-runs), or slices
+ * of constant speed (write-slices).
  *
- * The host model knows after each command where the board truly is, step and phase, and the next one is aimed from
- * there: the step counters at the end are those of the plan.
+ * The host model predicts the exact board state (steps and accumulators) after each command, and the
+ * next command is computed from that state. So rounding never adds up, and the final step counters equal
+ * those of the plan.
  */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -30,25 +32,25 @@ import { TimedWriter } from "./write-timed.js";
 
 export interface CompileOptions {
   readonly machine: MachineProfile;
-  /** As in the board's answer to V: "2.8.1". */
+  /** As in the board's reply to V: "2.8.1". */
   readonly firmware: string;
   readonly pen: PenSettings;
-  /** Where the board stands; default: at home, as EM and CS leave it. */
+  /** State of the board at the start; default: at home, as after EM and CS. */
   readonly start?: BoardState | undefined;
 }
 
 /**
- * Commands that play a trajectory on a board of that firmware, from pen heights to the last pen move. Motors are
- * switched on and off by `setUpCommands` and `closingCommands`, once a session.
+ * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
+ * The motors are switched on and off by `setUpCommands` and `closingCommands`, once per session.
  *
- * @throws PlotwrightError "bad-setting" for a firmware that is no version
+ * @throws PlotwrightError "bad-setting" for an invalid firmware version
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
   return new Compiler(trajectory, options).run();
 }
 
-/** One command of a stream, without its end. */
+/** One command of a stream, without its line end. */
 export function commandLine(stream: CommandStream, index: number): string {
   if (!(index >= 0 && index < stream.count)) {
     throw new RangeError(`command ${index} of ${stream.count}: there is none`);
@@ -62,9 +64,9 @@ class Compiler {
   private readonly m1: MotorPlace;
   private readonly m2: MotorPlace;
   private readonly runs: RunWriter;
-  /** Where the pen was told to be, up and down. */
+  /** The pen heights set last, percent. */
   private readonly heights: { up: number; down: number };
-  /** The set-up lines that the board has, by "SC,number". */
+  /** The set-up lines sent so far, by "SC,number". */
   private readonly parameters = new Map<string, string>();
 
   constructor(
@@ -98,7 +100,7 @@ class Compiler {
     this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0);
   }
 
-  /** The pen's move, with its height and speed where they are others than before. */
+  /** A pen move, preceded by its height and speed if they changed. */
   private penMove(move: PenMove): void {
     const { machine, pen } = this.options;
     const { heights } = this;
@@ -118,7 +120,7 @@ class Compiler {
     this.still(penCommand(machine, way, waitMs), Math.max(1, waitMs * TICKS_PER_MS), move.startS);
   }
 
-  /** Writes the set-up lines that the board does not have yet. */
+  /** Writes the set-up lines that differ from those sent before. */
   private setUp(lines: readonly string[], planS: number): void {
     for (const line of lines) {
       const parameter = line.slice(0, line.lastIndexOf(","));
@@ -128,7 +130,7 @@ class Compiler {
     }
   }
 
-  /** A command in which the motors rest. */
+  /** A command during which the motors do not move. */
   private still(line: string, ticks: number, planS: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);

@@ -1,14 +1,14 @@
 /**
- * Runs for firmware with ramps (2.5.3 on): walks each run in time, cuts it into legs, and has each leg written as the
- * command that the firmware does best.
+ * Writes runs for firmware with ramps (2.5.3 and newer): walks each run in time, cuts it into legs, and
+ * writes each leg as one command of the kind that suits the firmware.
  *
  *   plan    |--block--|--block--|b|b|b|----------block----------|
  *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
  *
- * Cuts lie at the ends of blocks where they can, so that a leg is one parabola and its command exact; blocks too
- * short for a command are taken together. Every leg is aimed from where the board truly is (the host model knows,
- * step and phase) to where the plan is at the leg's end, with the plan's speeds at both ends: rounding never adds
- * up. Linear in the number of blocks.
+ * Cuts lie at block ends where possible, so that a leg is one parabola and its command exact. Blocks too
+ * short for a command are combined. Every leg leads from the predicted exact state of the board (steps and
+ * accumulators) to the plan's position at the leg's end, with the plan's speeds at both ends, so rounding
+ * never adds up. The run time is linear in the number of blocks.
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
@@ -17,23 +17,23 @@ import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
-/** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
+/** If one acceleration misses a leg's end speeds by more, the leg gets two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
 
-/** Off the line by half a step, as a rate for one tick. */
+/** A deviation of half a step from the line, as a rate for one tick. */
 const MOST_OFF_RATE = ACCUMULATOR_RANGE / 2;
 
-/** 32 steps/s, 0.4 mm/s at 80 steps/mm. */
+/** Max extra speed to make up for idle ticks: 32 steps/s, 0.4 mm/s at 80 steps/mm. */
 const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
 
-/** A command needs a tick to run in and one to rest in. */
+/** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
 const SHORTEST_TICKS = 26;
 
 export class LegRuns implements RunWriter {
   private readonly leg = newLeg();
   private readonly half = newLeg();
   private runIndex = 0;
-  /** Where the leg being made ends: its tick, the block whose law holds there, and whether the run ends too. */
+  /** Where the current leg ends: the tick, the block that holds up to there, and whether the run ends too. */
   private cutTick = 0;
   private cutBlock = 0;
   private cutIsRunEnd = false;
@@ -70,7 +70,10 @@ export class LegRuns implements RunWriter {
     this.rest(run);
   }
 
-  /** Waits out the end of a run in which no step is due any more: the plan's time holds on every firmware. */
+  /**
+   * Waits for the end of a run in which no more steps are due, so that it takes the planned
+   * time on every firmware.
+   */
   private rest(run: number): void {
     const { walk, columns, m1, m2 } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
@@ -80,7 +83,7 @@ export class LegRuns implements RunWriter {
     columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
-  /** Sets the next cut after `tick`, where `block` is under way; not before `notBefore`. */
+  /** Sets the next cut after `tick`, which lies in `block`; not before `notBefore`. */
   private cut(tick: number, block: number, notBefore: number): void {
     const { walk, writer } = this;
     const last = walk.end - 1;
@@ -90,7 +93,7 @@ export class LegRuns implements RunWriter {
     while (k < last && walk.endTick(k) < soonest) k++;
     let end = k === last ? runEnd : walk.endTick(k);
     if (k !== block) {
-      // Short blocks taken together: no more of a long one than it takes.
+      // Short blocks are combined: take no more of a long block than needed.
       if (end - soonest >= writer.minTicks) end = soonest;
     } else {
       end = this.withinBlock(tick, block, soonest, end);
@@ -102,7 +105,7 @@ export class LegRuns implements RunWriter {
         k = walk.blockAt(end, block);
       }
     }
-    // What is left of the run must be enough for a command.
+    // The rest of the run must be long enough for a command.
     if (end < runEnd && runEnd - end < writer.minTicks) {
       const earlier = runEnd - writer.minTicks;
       end = earlier >= soonest && earlier < end ? earlier : runEnd;
@@ -118,7 +121,7 @@ export class LegRuns implements RunWriter {
     this.cutIsRunEnd = end >= runEnd;
   }
 
-  /** Where to cut inside a block that is long enough: by the longest command. */
+  /** Where to cut a block that is long enough, given the longest possible command. */
   private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
     const { walk, writer } = this;
     const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
@@ -128,7 +131,7 @@ export class LegRuns implements RunWriter {
     return end;
   }
 
-  /** Where a motor turns back within a leg; Infinity where none does. */
+  /** The first tick at which a motor reverses within a leg; Infinity if none does. */
   private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
     const { walk, writer } = this;
     const earliest = Math.max(tick + writer.turnTicks, soonest - writer.minTicks);
@@ -142,8 +145,9 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * A motor that turns back too near to a leg's end for a leg of its own is driven without turning, which on a long leg
-   * takes it off the line by a quarter of that speed times the leg's time: then the turn gets the shortest leg. True: cut anew.
+   * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long
+   * leg that moves it off the line by a quarter of its reverse speed times the leg's time. If that is too
+   * far, the reversal gets the shortest possible leg. Returns true if the cut was changed.
    */
   private cutShort({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
     const { walk, writer } = this;
@@ -171,10 +175,14 @@ export class LegRuns implements RunWriter {
     this.slowDown(leg);
   }
 
-  /** Takes more time where a motor would have to step too fast, or a whole run is too short for a command. */
+  /**
+   * Extends the leg's time if a motor would have to step too fast, or if the run's end is too
+   * short for a command.
+   */
   private slowDown(leg: Leg): void {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
-    // An idle tick is made up for by speed, but not by more speed than may show: then the plot takes the tick.
+    // An idle tick is made up for by higher speed, unless the increase could be visible: then the leg takes
+    // longer.
     const idle = peak > HIGHEST_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
     const ticks = Math.max(
       leg.ticks + idle,
@@ -192,7 +200,10 @@ export class LegRuns implements RunWriter {
     leg.ticks = ticks;
   }
 
-  /** Writes a leg as one command, or two where one acceleration cannot join the speeds. False: nothing to do yet. */
+  /**
+   * Writes a leg as one command, or as two if one acceleration cannot join the speeds.
+   * False: nothing written yet.
+   */
   private writeLeg(leg: Leg): boolean {
     if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
       return this.put(leg);
@@ -232,17 +243,17 @@ const peakRate = (motor: MotorLeg, ticks: number): number =>
 const meanRate = (motor: MotorLeg, ticks: number): number =>
   Math.abs(rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S));
 
-/** The lesser of the speeds at its ends, where they are opposite ones. */
+/** The smaller of the end speeds if they have opposite signs, otherwise 0. */
 const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
 
-/** The way differs from what the mean of the two speeds would cover. */
+/** True if the distance differs from what the mean of the two speeds would cover. */
 function isBent(motor: MotorLeg, ticks: number): boolean {
   const mean = rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S);
   return Math.abs((motor.v0 + motor.v1) / 2 - mean) > JOIN_RATE;
 }
 
 /**
- * First of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
+ * The first of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
  * a₁ + a₂ = 2 Δv/T and 3 a₁ + a₂ = 8 (Δp − v₀ T)/T².
  */
 function halve(motor: MotorLeg, ticks: number, half: number, out: MotorLeg): void {

@@ -1,14 +1,14 @@
 /**
- * A leg: the piece of a run that one command shall carry, in motor terms.
+ * A leg: the part of a run that one command executes, in motor units.
  *
- * Places in steps (not whole), speeds in accumulator counts a tick. The board is free to be a fraction of a step
- * off at the start of a leg; the command is aimed from where it truly is at where it should be.
+ * Positions in steps (fractional), speeds in accumulator counts per tick. The board may be a fraction of a
+ * step off at the start of a leg. The command leads from the actual position to the planned one.
  */
 export interface MotorLeg {
-  /** Where the plan is at the start and the end. */
+  /** The plan's position at the start and the end. */
   p0: number;
   p1: number;
-  /** The plan's speed there, seen from inside the leg. */
+  /** The plan's speed there, within the leg. */
   v0: number;
   v1: number;
 }
@@ -18,40 +18,45 @@ export interface Leg {
   ticks: number;
   readonly m1: MotorLeg;
   readonly m2: MotorLeg;
-  /** The plan's acceleration is constant from end to end. */
+  /** The plan's acceleration is constant over the leg. */
   isParabola: boolean;
-  /** The trajectory ends with it: what is off has to be made good now. */
+  /** The trajectory ends with this leg: any remaining error must be corrected now. */
   isLast: boolean;
 }
 
-/** One motor as the host knows it. */
+/** Predicted state of one motor. */
 export interface MotorPlace {
   steps: number;
   acc: number;
 }
 
-/** Writes the commands for one run of the trajectory, from where the motors stand to its end. */
+/** Writes the commands for one run of the trajectory, from the motors' current positions to its end. */
 export interface RunWriter {
   write(run: number): void;
 }
 
-/** Writes the command for a leg, and moves `motors` on bit for bit. */
+/** Writes the command for a leg, and updates the motors' predicted states exactly. */
 export interface LegWriter {
-  /** Ticks that a command needs at least. */
+  /** Min ticks of a command. */
   readonly minTicks: number;
   readonly maxTicks: number;
   /**
-   * A motor must not turn back within a leg; but a turning point so near to one end of it, where the motor
-   * moves a few µm, is not worth a command. 0: motors may turn as they like.
+   * A motor must not reverse within a leg. But a reversal within this many ticks of an end of the leg, where
+   * the motor moves only a few µm, is not worth a separate command. 0: motors may reverse anywhere.
    */
   readonly turnTicks: number;
-  /** Ticks of every command in which the motors stand, and for which the rest of it runs faster. */
+  /**
+   * Ticks of every command in which the motors stand still; the rest of it runs faster to make up for them.
+   */
   readonly idleTicks: number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
-  /** Longest leg of a plan with this jerk (counts a tick³ of the faster motor); Infinity for none. */
+  /** Max ticks of a leg with this jerk (counts per tick³ of the faster motor). */
   maxTicksForJerk(jerk: number): number;
-  /** Ticks that it takes (normally `leg.ticks`); 0 when no motor has anything to do yet and nothing was written. */
+  /**
+   * Returns the ticks it takes (normally `leg.ticks`), or 0 if no motor has to move yet
+   * and nothing was written.
+   */
   write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number;
 }
 
@@ -63,12 +68,12 @@ export const newLeg = (): Leg => ({
   isLast: false,
 });
 
-/** How far (in steps) the board may be led back towards the plan in one command of so many ticks. */
+/** The part of the error, in steps, to correct in one command of `ticks` ticks. */
 export function correction(errorSteps: number, ticks: number, isLast: boolean): number {
   if (isLast) return errorSteps;
   const limit = MAX_CORRECTION_STEPS_PER_TICK * ticks;
   return Math.max(-limit, Math.min(limit, errorSteps));
 }
 
-/** 12 steps/s: 0.15 mm/s at 80 steps/mm, too little to be seen in the line's speed. */
+/** 12 steps/s: 0.15 mm/s at 80 steps/mm, too little to affect the line visibly. */
 const MAX_CORRECTION_STEPS_PER_TICK = 12 / 25_000;

@@ -1,11 +1,11 @@
-/** A whole plot as text: for files, and for reading. */
+/** A whole plot as text, to save or to read. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { closingCommands, setUpCommands } from "../protocol/commands.js";
 import type { CommandStream } from "./command-stream.js";
 import { commandLine } from "./compile.js";
 
-/** The lines that a plot sends, without their ends: motors on and pen set up, the commands, motors off. */
+/** The lines that a plot sends, without line ends: motors on and pen set-up, the commands, motors off. */
 export function plotLines(
   commands: CommandStream,
   options: { readonly machine: MachineProfile; readonly pen: PenSettings; readonly firmware: string },

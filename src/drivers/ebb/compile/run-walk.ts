@@ -1,9 +1,9 @@
 /**
- * A run of the trajectory seen from the motors: where the plan is and how fast, at any board tick.
+ * A run of the trajectory in motor units: the plan's position and speed at any board tick.
  *
  *   board tick = plan seconds × 25 000 + origin
  *
- * `origin` is set anew at each run's start, and moves on where the plan had to be slowed.
+ * `origin` is reset at each run's start, and increases whenever the plan had to be slowed down.
  */
 import { motor1FromXy, motor2FromXy } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -33,20 +33,20 @@ export class RunWalk {
     return (tick - this.origin) * S_PER_TICK;
   }
 
-  /** Tick nearest to a block's end. */
+  /** The tick nearest to a block's end. */
   endTick(block: number): number {
     const { startS, durationS } = this.trajectory;
     return Math.round(this.origin + (startS[block]! + durationS[block]!) * TICKS_PER_S);
   }
 
-  /** The block that goes on at `tick`, from `block` on. */
+  /** The block that contains `tick`, searched from `block` on. */
   blockAt(tick: number, block: number): number {
     let k = block;
     while (k + 1 < this.end && this.endTick(k) <= tick) k++;
     return k;
   }
 
-  /** Writes place and speed at `tick`, by the law of `block`, as the start of both motors' legs. */
+  /** Writes the position and speed at `tick`, evaluated in `block`, as the start of both motors' legs. */
   startLegs(tick: number, block: number, m1: MotorLeg, m2: MotorLeg): void {
     this.evaluate(this.planS(tick) - this.trajectory.startS[block]!, block);
     m1.p0 = this.p1;
@@ -55,7 +55,7 @@ export class RunWalk {
     m2.v0 = this.v2;
   }
 
-  /** The same as their end. At the run's end, the end itself. */
+  /** Writes them as the end of both legs. At the run's end, the exact end of the block. */
   endLegs(tick: number, block: number, isRunEnd: boolean, m1: MotorLeg, m2: MotorLeg): void {
     const { startS, durationS } = this.trajectory;
     this.evaluate(isRunEnd ? durationS[block]! : this.planS(tick) - startS[block]!, block);
@@ -70,7 +70,7 @@ export class RunWalk {
     return jx !== null && jy !== null && (jx[block] !== 0 || jy[block] !== 0);
   }
 
-  /** Jerk of the faster motor, counts a tick³. */
+  /** Jerk of the motor with the larger jerk, counts per tick³. */
   jerk(block: number): number {
     const { jx, jy } = this.trajectory;
     const x = jx?.[block] ?? 0;
@@ -80,7 +80,7 @@ export class RunWalk {
     return rateFromStepsPerS(Math.max(j1, j2)) * S_PER_TICK * S_PER_TICK;
   }
 
-  /** First tick in (from, to] at which a motor's speed passes zero by the block's law; Infinity if none does. */
+  /** First tick in (from, to] at which a motor's speed in the block crosses zero; Infinity if none does. */
   turnTick(block: number, from: number, to: number): number {
     const { startS, vx, vy, ax, ay, jx, jy } = this.trajectory;
     const { machine } = this;
@@ -118,13 +118,13 @@ export class RunWalk {
   }
 }
 
-/** Times at which v + a t + j t²/2 passes zero; touching does not count. */
+/** Times at which v + a t + j t²/2 crosses zero; touching zero does not count. */
 function rootsOfSpeed(v: number, a: number, j: number): number[] {
   if (j === 0) return a === 0 ? [] : [-v / a];
   const discriminant = a * a - 2 * j * v;
   if (discriminant <= 0) return [];
   const root = Math.sqrt(discriminant);
-  // The stable pair: one by the sum that does not cancel, the other by the product of the roots.
+  // Numerically stable: one root from the sum without cancellation, the other from the product of the roots.
   const q = -(a + (a < 0 ? -root : root));
   return q === 0 ? [0] : [q / j, (2 * v) / q];
 }

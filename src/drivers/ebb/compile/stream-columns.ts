@@ -1,4 +1,4 @@
-/** A command stream as it grows: one row of columns a command, and its text. */
+/** Builds a command stream: one row of columns per command, and its text. */
 import { CommandText } from "../protocol/commands.js";
 import type { CommandStream } from "./command-stream.js";
 import { sFromTicks } from "../../../units.js";
@@ -6,7 +6,7 @@ import { sFromTicks } from "../../../units.js";
 export class StreamColumns {
   readonly text = new CommandText();
   readonly warnings: string[] = [];
-  /** Ticks from the stream's start to the end of what is written. */
+  /** Ticks from the stream's start to the end of the last command written. */
   boardTicks = 0;
   private count = 0;
   private capacity = 1 << 10;
@@ -19,7 +19,7 @@ export class StreamColumns {
   private acc2 = new Uint32Array(this.capacity);
   private run = new Int32Array(this.capacity);
 
-  /** Closes the command whose text was just written: it takes `ticks` and leaves the motors as given. */
+  /** Completes the command whose text was just written: its `ticks`, and the motors' state after it. */
   add(
     ticks: number,
     planStartS: number,

@@ -1,13 +1,13 @@
 /**
- * Legs for firmware 3: LT where the acceleration is constant, T3 elsewhere.
+ * Writes legs for firmware 3: LT if the acceleration is constant, otherwise T3.
  *
- * A timed command of T ticks is followed by one idle tick, so a leg of n ticks is run in T = n − 1, its speeds
- * raised by n/T. With R, A, J the accumulator gains exactly (before the division by 2 and 6 is cut off)
+ * A timed command of T ticks is followed by one idle tick, so a leg of n ticks runs in T = n − 1, with speeds
+ * scaled by n/T. With R, A, J the accumulator gains exactly (before the divisions by 2 and 6 are truncated)
  *
  *   R T + A T²/2 + J T³/6
  *
- * J is chosen first, then A for the speed at the end, then R for the place at the end, each making good what
- * rounding did to the one before; what then remains is at most T/2 counts, a few millionths of a step.
+ * J is chosen first, then A for the end speed, then R for the end position. Each compensates the rounding
+ * error of the previous one. The remaining error is at most T/2 counts, a few millionths of a step.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { rateAt, registersFor, sumOfRates } from "../model/accumulator.js";
@@ -17,7 +17,10 @@ import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } 
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/** J counts in units of 91 mm/s³: held for longer, half a unit would bend the line by more than 2 µm. */
+/**
+ * The unit of J is 91 mm/s³. Over a longer time, an error of half a unit would bend the line by
+ * more than 2 µm.
+ */
 const MAX_JERK_TICKS = 4_000;
 
 interface Arguments {
@@ -80,7 +83,7 @@ function aim(
   const way = (planned + correction(error, ticks, leg.isLast)) * RANGE;
   const v0 = motor.v0 * stretch;
   const v1 = motor.v1 * stretch;
-  // The trapezoid of the two speeds misses the way by J T³/12.
+  // The trapezoid of the two end speeds misses the distance by J T³/12.
   const excess = (v0 + v1) / 2 - (planned * RANGE) / ticks;
   out.jerk = leg.isParabola ? 0 : Math.round((12 * excess) / (ticks * ticks));
   out.accel = Math.round((v1 - v0 - (out.jerk * ticks * ticks) / 2) / ticks);
@@ -89,7 +92,7 @@ function aim(
   keepInRange(out, ticks);
 }
 
-/** Rates are checked against the plan beforehand; this holds them where rounding and correction meet the limit. */
+/** Rates were limited before; this keeps them in range if rounding and correction exceed the limit. */
 function keepInRange(a: Arguments, ticks: number): void {
   const registers = registersFor("signed", a.rate, a.accel, a.jerk);
   const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);

@@ -1,9 +1,9 @@
 /**
- * Runs for firmware before 2.5.3, which has no ramps: SM at constant speed, in slices of about 10 ms.
+ * Writes runs for firmware before 2.5.3, which has no ramps: SM at constant speed, in slices of about 10 ms.
  *
- * SM takes whole milliseconds and whole steps and works out the rate itself, rounded down. Each slice leads to the step
- * nearest to where the plan is at the slice's end, so rounding never adds up. How long a slice really takes is known to
- * the tick, and the next one makes good what is missing.
+ * SM takes whole milliseconds and whole steps and computes the rate itself, rounded down. Each slice leads to
+ * the step nearest to the plan at the slice's end, so rounding never adds up. The exact duration of a slice
+ * in ticks is known, and the next slice compensates for it.
  */
 import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
@@ -14,18 +14,18 @@ import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
 /**
- * The board reads a command in 4 to 7 ms (firmware before 2.7, EBB command reference, "Performance"): with shorter slices
- * it would stand still between them. With longer ones the speed jumps more.
+ * The board reads a command in 4 to 7 ms (firmware before 2.7, EBB command reference, "Performance"). With
+ * shorter slices it would pause between them. With longer ones the speed jumps are larger.
  */
 const SLICE_MS = 10;
 const SLICE_TICKS = SLICE_MS * TICKS_PER_MS;
 
-/** Steps a millisecond that a motor can make. */
+/** Max steps per millisecond of one motor. */
 const MOST_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
 
 export class SliceRuns implements RunWriter {
   private readonly leg = newLeg();
-  /** Ticks by which the last run ended after its plan. */
+  /** Ticks by which the last run ended later than planned. */
   private lateTicks = 0;
 
   constructor(
@@ -48,7 +48,8 @@ export class SliceRuns implements RunWriter {
       const leftTicks = walk.endTick(last) - columns.boardTicks;
       isLast = leftTicks < 1.5 * SLICE_TICKS;
       const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
-      // Where the slice will end: so whole milliseconds make no error of speed, except in the last slice.
+      // Aim at the plan's position at the slice's real end: then whole milliseconds cause no speed error,
+      // except in the last slice.
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
       walk.endLegs(tick, block, isLast, leg.m1, leg.m2);
@@ -72,12 +73,12 @@ export class SliceRuns implements RunWriter {
     columns.text.number(steps2);
     columns.text.end();
     const stepping = Math.max(this.step(m1, ms, steps1), this.step(m2, ms, steps2));
-    // Without a step it is a plain delay, with no idle tick after it.
+    // Without steps it is a plain delay, with no idle tick after it.
     const ticks = stepping > 0 ? stepping + features.idleTicks : ms * TICKS_PER_MS;
     columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
-  /** Moves one motor on; returns the ticks until its last step. */
+  /** Updates one motor's state. Returns the ticks until its last step. */
   private step(motor: MotorPlace, ms: number, steps: number): number {
     if (steps === 0) return 0;
     const rate = slowRate(this.features.arithmetic, ms, Math.abs(steps));

@@ -1,13 +1,14 @@
 /**
- * Legs for firmware 2.5.3 to 2.6: LM, where each motor stops after its own count of steps.
+ * Writes legs for firmware 2.5.3 to 2.6: LM, where each motor stops after its own number of steps.
  *
- * The count is the nearest whole step to the plan's place, from the board's true count. The rate is then set so
- * that the last step falls on the leg's last tick: both motors end together, and neither waits. There the
- * accumulator holds little more than zero, so every leg begins like the one before.
+ * Each motor goes to the whole step nearest to the plan, counted from the predicted counter. The rate is set
+ * so that the last step falls on the leg's last tick: both motors end together, and neither waits. The
+ * accumulator is then just above zero, so every leg starts from nearly the same state.
  *
- *   tick k adds R + (k − 1) A, magnitudes; one idle tick follows
+ *   tick k adds R + (k − 1) A (magnitudes); one idle tick follows
  *
- * LM must not come down to a rate of zero: the last step would never come. Rates are kept above 1 % of the mean.
+ * The rate of an LM must not reach zero, or the last step would never come. Rates are
+ * kept above 1 % of the mean.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { registersFor, sumOfRates, type Registers } from "../model/accumulator.js";
@@ -20,7 +21,7 @@ const RANGE = ACCUMULATOR_RANGE;
 const JERK_ERROR_RATE = (0.5 * 80 * RANGE) / 25_000;
 
 interface Arguments {
-  /** Magnitude; the direction is in the sign of `steps`. */
+  /** Magnitude; the sign of `steps` gives the direction. */
   rate: number;
   accel: number;
   steps: number;
@@ -74,11 +75,11 @@ function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments):
   const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
   const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
   out.accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
-  // Rounded up: the last step comes on the last tick, never a tick too late.
+  // Rounded up: the last step comes on the last tick, never later.
   out.rate = Math.ceil(mean - (out.accel * (ticks - 1)) / 2);
 }
 
-/** Runs the motor until its count is reached; returns the ticks that took. */
+/** Advances the motor until its steps are done. Returns the ticks that takes. */
 function run(a: Arguments, ticks: number, place: MotorPlace): number {
   if (a.steps === 0) return 0;
   const registers = registersFor("late", a.rate, a.accel);
@@ -89,11 +90,11 @@ function run(a: Arguments, ticks: number, place: MotorPlace): number {
   return last;
 }
 
-/** First tick at which the sum of rates reaches `way`; it does so by `ticks`. */
+/** First tick at which the sum of rates reaches `way`, which happens by tick `ticks` at the latest. */
 function tickOfSum(way: number, ticks: number, { rate, accel }: Registers): number {
   let low = 1;
   let high = ticks;
-  // Nearly always the last tick: look there first.
+  // It is nearly always the last tick: check that first.
   if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < way) return ticks;
   while (low < high) {
     const middle = (low + high) >> 1;

@@ -1,13 +1,13 @@
 /**
- * Legs for firmware 2.7 to 2.8: LT with a constant acceleration a motor.
+ * Writes legs for firmware 2.7 to 2.8: LT with a constant acceleration per motor.
  *
- * Here LT takes the direction from the sign of Rate and applies Accel to its magnitude, and a magnitude that
- * falls below zero wraps to full speed. So a motor never turns back within a leg (the compiler cuts there),
- * and its speeds are held at or above zero.
+ * This LT takes the direction from the sign of Rate and applies Accel to its magnitude. A magnitude that
+ * falls below zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there),
+ * and its speeds are kept at or above zero.
  *
- * An accumulator of magnitudes does not know where between two steps the motor stands once it turns back:
- * forward, acc is what is left behind; backward, what lies ahead. Where starting from zero is nearer to the
- * truth, the command clears it.
+ * The accumulator holds the fraction of a step moved since the last step, in the direction of travel.
+ * After a reversal that fraction counts from the wrong side. If zero is nearer to the true position, the
+ * command clears the accumulator.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";
@@ -16,9 +16,11 @@ import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } 
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/** A speed error at a leg's ends, mm/s × 80 steps/mm, that a constant acceleration may make of a jerk. */
+/**
+ * Max speed error at a leg's ends from replacing a jerk by a constant acceleration: 0.25 mm/s at 80 steps/mm.
+ */
 const JERK_ERROR_RATE = (0.25 * 80 * RANGE) / 25_000;
-/** Below this (steps) an accumulator is left as it is. */
+/** An accumulator is cleared only if that reduces the error by more than this, steps. */
 const CLEAR_WORTH_STEPS = 0.1;
 
 interface Arguments {
@@ -46,7 +48,7 @@ export class TimedWriter implements LegWriter {
     const { a1, a2, text } = this;
     aim(leg, leg.m1, m1, a1);
     aim(leg, leg.m2, m2, a2);
-    // Both rates zero is refused by the board; nothing is lost by waiting for the next leg.
+    // The board refuses a command with both rates zero. Nothing is lost by waiting for the next leg.
     if (a1.rate === 0 && a2.rate === 0) return 0;
     text.name("LT");
     text.number(leg.ticks);
@@ -82,13 +84,13 @@ function aim(leg: Leg, motor: MotorLeg, place: MotorPlace, out: Arguments): void
   const steepest = (2 * Math.min(mean, HIGHEST_RATE - mean)) / (ticks + 1);
   const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
   const start = Math.round(mean - (accel * (ticks + 1)) / 2) + Math.trunc(accel / 2);
-  // At least 1: the direction is in the sign of the rate, and both rates zero would be refused.
+  // At least 1: the sign of the rate gives the direction, and the board refuses both rates zero.
   out.rate = direction * Math.max(1, start);
   out.accel = accel;
   keepAboveZero(out, ticks);
 }
 
-/** Every tick's rate from 0 up: the first and the last one are the extremes. */
+/** Raises the rate until no tick's rate is negative; the extremes are at the first and last tick. */
 function keepAboveZero(a: Arguments, ticks: number): void {
   const { rate } = registersFor("half", a.rate, a.accel);
   const lowest = Math.min(rate + a.accel, rate + ticks * a.accel);

@@ -1,5 +1,5 @@
 /**
- * The board's step generator, bit for bit, without counting ticks one by one.
+ * An exact model of the board's step generator, without simulating every tick.
  *
  * Every tick (40 µs) the interrupt adds a rate to each motor's 31-bit accumulator and steps when it
  * overflows. A command loads three registers, and the rate of tick k = 1, 2, … is
@@ -8,15 +8,15 @@
  *   S(t) = t rate + accel t(t+1)/2 + jerk t(t+1)(t+2)/6
  *   net steps = floor((acc + S)/2^31),  accumulator afterwards = (acc + S) mod 2^31
  *
- * The generations of firmware differ in how a command's arguments R, A, J become registers:
+ * Firmware generations differ in how a command's arguments R, A, J become registers:
  *
  *   late   (to 2.6)      rate = R − A           accel = A        magnitudes; direction from the steps
  *   half   (2.7 – 2.8)   rate = R − A/2         accel = A        magnitudes; direction from the steps or rate
  *   signed (3.0 on)      rate = R − A/2 + J/6   accel = A − J    signed, 32 bits, division towards zero
  *
  * Source: ebb.c of each generation (evil-mad/EggBot). Exact in doubles: while |r| ≤ 2^31 every term of S
- * stays below 2^53 up to MAX_PIECE_TICKS ticks; longer commands are taken piece by piece. A rate that
- * leaves its range wraps as the registers do; the piece ends there and the next goes on with the wrapped rate.
+ * stays below 2^53 up to MAX_PIECE_TICKS ticks; longer commands are split into pieces. A rate that leaves
+ * its range wraps as the registers do: the piece ends there and the next continues with the wrapped rate.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import type { TickArithmetic } from "../protocol/firmware.js";
@@ -24,10 +24,10 @@ import type { TickArithmetic } from "../protocol/firmware.js";
 const RANGE = ACCUMULATOR_RANGE;
 const WORD = 2 ** 32;
 const MAX_PIECE_TICKS = 2 ** 16;
-/** A command that wraps its registers more often than this counts as one that never ends. */
+/** A command that wraps its registers more often than this is treated as never ending. */
 const MAX_PIECES = 100_000;
 
-/** One motor's registers; see the legend above. `forward` = false: its steps count down (late and half only). */
+/** One motor's registers; see the legend above. `forward` = false: steps count down (late and half only). */
 export interface Registers {
   readonly rate: number;
   readonly accel: number;
@@ -54,20 +54,20 @@ export const rateAt = (k: number, rate: number, accel: number, jerk: number): nu
 export const sumOfRates = (t: number, rate: number, accel: number, jerk: number): number =>
   t * rate + accel * ((t * (t + 1)) / 2) + jerk * ((t * (t + 1) * (t + 2)) / 6);
 
-/** A stretch of ticks in which the rate keeps its sign and stays in range. */
+/** A range of ticks in which the rate keeps its sign and stays in range. */
 interface Piece {
-  /** Ticks before it. */
+  /** Ticks of the command before this piece. */
   readonly fromTick: number;
   readonly ticks: number;
   readonly rate: number;
   readonly accel: number;
   readonly jerk: number;
-  /** Accumulator and net steps where it begins. */
+  /** Accumulator and net steps at its start. */
   readonly acc: number;
   readonly net: number;
 }
 
-/** Where one motor stands after some ticks of a command. */
+/** State of one motor after some ticks of a command. */
 export interface AxisPlace {
   /** Signed steps since the command began. */
   net: number;
@@ -75,12 +75,12 @@ export interface AxisPlace {
 }
 
 /**
- * One motor under one command, from its first tick to its last.
+ * One motor during one command, from its first tick to its last.
  * `stepLimit`: the motor stops after that many steps in either direction (LM, L3, SM).
- * `tickLimit`: it stops after that many ticks (LT, T3). One of both is Infinity.
+ * `tickLimit`: it stops after that many ticks (LT, T3). One of the two is Infinity.
  */
 export class AxisMotion {
-  /** Ticks until this motor is done; Infinity when it never is. */
+  /** Ticks until this motor is done; Infinity if it never is. */
   readonly ticks: number;
   /** Steps made in either direction. */
   readonly stepsMade: number;
@@ -139,7 +139,7 @@ export class AxisMotion {
     this.lastRate = lastRate;
   }
 
-  /** The place after `tick` ticks (0 … ticks; later ones stay at the end). */
+  /** The state after `tick` ticks; after the last tick, the final state. */
   placeAt(tick: number, out: AxisPlace): AxisPlace {
     const piece = this.pieceAt(tick);
     if (piece === undefined || tick >= this.ticks) {
@@ -154,7 +154,9 @@ export class AxisMotion {
     return out;
   }
 
-  /** Signed rate (counts a tick) during tick `tick` = 1 … ticks; 0 when the motor is done or has not begun. */
+  /**
+   * Signed rate (counts per tick) during tick `tick` = 1 … ticks; 0 if the motor is done or has not started.
+   */
   rateDuring(tick: number): number {
     if (tick < 1 || tick > this.ticks) return 0;
     const piece = this.pieceAt(tick - 1);
@@ -162,7 +164,7 @@ export class AxisMotion {
     return this.signed(rateAt(tick - piece.fromTick, piece.rate, piece.accel, piece.jerk));
   }
 
-  /** The registers as they stand after `tick` ticks: with them a motion can be taken up again. */
+  /** The registers after `tick` ticks, from which the motion can be continued. */
   registersAfter(tick: number): Registers {
     const piece = this.pieceAt(tick);
     if (piece === undefined) return { rate: 0, accel: 0, jerk: 0, forward: this.forward };
@@ -199,14 +201,14 @@ export class AxisMotion {
   }
 }
 
-/** At a constant rate the sum stays exact for this long. */
+/** Number of ticks for which the sum of a constant rate is exact. */
 const longestConstantTicks = (rate: number): number => Math.floor(2 ** 52 / Math.max(1, Math.abs(rate)));
 
-/** Net steps within a piece after t of its ticks, counted in the sense of the rate. */
+/** Net steps within a piece after t of its ticks, with the sign of the rate. */
 const stepsAfter = (t: number, rate: number, accel: number, jerk: number, acc: number): number =>
   Math.floor((acc + sumOfRates(t, rate, accel, jerk)) / RANGE);
 
-/** First tick of a piece by which `steps` steps were made; the piece makes at least that many. */
+/** First tick of a piece at which `steps` steps were made. The piece must make at least that many. */
 function tickOfStep(
   steps: number,
   ticks: number,
@@ -225,14 +227,14 @@ function tickOfStep(
   return low;
 }
 
-/** Brings the rate register into the range from which the coming tick's rate is in range. */
+/** Wraps the rate register so that the next tick's rate is in range. */
 function normalRate(arithmetic: TickArithmetic, rate: number, accel: number, jerk: number): number {
   const first = rate + accel + jerk;
   if (arithmetic === "signed") return rate - first + int32(first);
   return rate - first + (((first % RANGE) + RANGE) % RANGE);
 }
 
-/** How many ticks (1 … limit) the rate stays in range and keeps the sign of the first one. */
+/** For how many ticks (1 … limit) the rate stays in range and keeps the sign of the first tick. */
 function sameSignTicks(
   arithmetic: TickArithmetic,
   rate: number,
@@ -247,7 +249,7 @@ function sameSignTicks(
     const r = rateAt(k, rate, accel, jerk);
     return r >= low && r <= high;
   };
-  // Between its ends and its vertex the rate is monotone, so one comparison at each tells all.
+  // The rate is monotone up to its vertex, so checking the end is enough.
   let end = limit;
   if (jerk !== 0) {
     const vertex = -accel / jerk - 0.5;
@@ -265,7 +267,7 @@ function sameSignTicks(
   return good;
 }
 
-/** The acceleration register is 32 bits as well. */
+/** The acceleration register has 32 bits too. */
 function ticksBeforeAccelWraps(accel: number, jerk: number): number {
   const room = jerk > 0 ? RANGE - 1 - accel : accel + RANGE;
   return Math.max(1, Math.floor(room / Math.abs(jerk)));

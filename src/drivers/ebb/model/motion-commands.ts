@@ -1,4 +1,7 @@
-/** SM, XM, LM, L3, LT, T3, TD, HM: from parameters to orders for the queue, as each firmware reads them. */
+/**
+ * Parses the parameters of SM, XM, LM, L3, LT, T3, TD and HM into orders for the queue,
+ * as each firmware does.
+ */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
 import { slowMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
@@ -9,7 +12,7 @@ const INT31 = 2 ** 31 - 1;
 export class MotionCommands {
   constructor(
     private readonly features: FirmwareFeatures,
-    /** CU,251: the last parameter is where the accumulators begin. */
+    /** CU,251: the last parameter is the initial value of the accumulators. */
     private readonly isTestMode: () => boolean,
   ) {}
 
@@ -57,7 +60,7 @@ export class MotionCommands {
     return [this.move(p, true, axis1, axis2, ticks)];
   }
 
-  /** An S of speed in two halves: jerk up, then down. */
+  /** An S-shaped speed profile in two halves: positive jerk, then negative. */
   timedDouble(p: Parameters): readonly Order[] {
     const ticks = p.uint();
     if (ticks === 0) throw new BoardFault(6, "Err: Invalid parameter value");
@@ -100,7 +103,7 @@ export class MotionCommands {
     return Math.min(3, p.uint(max));
   }
 
-  /** HM: where to is known at once, from where only when the motors rest. */
+  /** HM: the target is known at once, the start only when the motors have stopped. */
   home(p: Parameters): (steps1: number, steps2: number) => readonly Order[] {
     const takesTarget = this.features.motion === "timed" || this.features.motion === "jerk";
     const fastest = Math.min(TICKS_PER_S, Math.max(1, p.uint()));

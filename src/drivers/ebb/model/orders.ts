@@ -1,6 +1,6 @@
 /**
- * What stands in the board's motion queue: moves, delays, pen and motor switches, as parsed from commands.
- * Each firmware's way from arguments to rates is here; what a move then does tick by tick is in ebb/accumulator.ts.
+ * Entries of the board's motion queue, parsed from commands: moves, delays, pen and motor switches. This file
+ * converts arguments to rates for each firmware. accumulator.ts models what a move then does tick by tick.
  */
 import { AxisMotion, registersFor, type Registers } from "./accumulator.js";
 import type { FirmwareFeatures, TickArithmetic } from "../protocol/firmware.js";
@@ -10,7 +10,7 @@ import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
 const RANGE = ACCUMULATOR_RANGE;
 
 export interface AxisOrder {
-  /** Signed arguments; on older firmware the sign of `rate` is the direction. */
+  /** Signed arguments; on older firmware the sign of `rate` gives the direction. */
   readonly rate: number;
   readonly accel: number;
   readonly jerk: number;
@@ -29,7 +29,7 @@ export interface MoveOrder {
   readonly idleTicks: number;
   /** Bit 0: motor 1's accumulator is cleared first; bit 1: motor 2's. */
   readonly clear: number;
-  /** Both accumulators before the move, in test mode; null = as they are. */
+  /** Initial value of both accumulators in test mode; null: unchanged. */
   readonly startAcc: number | null;
 }
 
@@ -39,14 +39,17 @@ export type Order =
   | {
       readonly kind: "servo";
       readonly position: number;
-      /** Change of position a 24 ms frame; 0 = at once. */
+      /** Change of position per 24 ms frame; 0: at once. */
       readonly rate: number;
       readonly ticks: number;
-      /** The machine's pen hangs on this output. */
+      /** The machine's pen is connected to this output. */
       readonly movesPen: boolean;
-      /** What the board's pen flag becomes; null leaves it, and the pen goes the way of the servo. */
+      /**
+       * New value of the board's pen flag. Null: unchanged, and the servo's direction decides
+       * whether the pen lifts.
+       */
       readonly penUp: boolean | null;
-      /** Pen command (SP, TP), whose target SP,3 may rewrite. */
+      /** True for pen commands (SP, TP), whose target SP,3 can change. */
       readonly isPen: boolean;
     }
   | { readonly kind: "enable"; readonly mode1: number; readonly mode2: number | null }
@@ -54,7 +57,7 @@ export type Order =
 
 const still: AxisOrder = { rate: 0, accel: 0, jerk: 0, steps: 0 };
 
-/** SM and XM. Returns null when a rate is out of range. */
+/** SM and XM. Returns null if a rate is out of range. */
 export function slowMove(
   firmware: FirmwareFeatures,
   ms: number,
@@ -88,7 +91,7 @@ function constantAxis(arithmetic: TickArithmetic, ms: number, steps: number): Ax
   return { rate: Math.sign(steps) * rate, accel: 0, jerk: 0, steps: Math.abs(steps) };
 }
 
-/** One motor of LM or L3: negative steps turn the move round. Null for arguments that are refused. */
+/** One motor of LM or L3; negative steps reverse the move. Null for arguments that the board refuses. */
 export function steppedAxis(
   arithmetic: TickArithmetic,
   rate: number,
@@ -105,9 +108,9 @@ export function steppedAxis(
   return { rate: 0 - rate, accel: 0 - accel, jerk, steps: -steps };
 }
 
-/** A move on its way: both motors, from the board's state when it began. */
+/** A running move: both motors, from the board's state at its start. */
 export class RunningMove {
-  /** Until the next order may begin, idle ticks included. */
+  /** Ticks until the next order can begin, idle ticks included. */
   readonly ticks: number;
 
   private constructor(
@@ -129,7 +132,7 @@ export class RunningMove {
     return new RunningMove(order, load(order.axis1, acc1, 1), load(order.axis2, acc2, 2), arithmetic);
   }
 
-  /** What is left of it after `ticks` ticks, with accumulators that may have been set anew. */
+  /** The rest of the move after `ticks` ticks, with accumulators that may have been changed. */
   restAfter(ticks: number, acc1: number, acc2: number): RunningMove {
     const rest = (motion: AxisMotion, axis: AxisOrder, acc: number): AxisMotion => {
       const done = Math.min(ticks, motion.ticks);
@@ -153,7 +156,10 @@ export class RunningMove {
   }
 }
 
-/** Firmware 3 begins a backward move just below the overflow, so that its first step takes as long as a forward one's. */
+/**
+ * Firmware 3 starts a backward move just below the overflow, so that its first step takes as long
+ * as a forward one.
+ */
 function clearedAccumulator(arithmetic: TickArithmetic, registers: Registers): number {
   if (arithmetic !== "signed") return 0;
   const { rate, accel, jerk } = registers;

@@ -1,6 +1,6 @@
-/** Reads a command's parameters as the board does: comma, digits, `-` only where a sign is allowed. */
+/** Parses a command's parameters as the board does: comma, digits, `-` only where a sign is allowed. */
 
-/** An error line of the board, "!n text". */
+/** An error that the board reports as "!n text". */
 export class BoardFault extends Error {
   constructor(
     readonly code: number,
@@ -14,7 +14,7 @@ export class Parameters {
   private readonly fields: string[];
   private next = 0;
 
-  /** `rest`: what follows the name, beginning with a comma or empty. */
+  /** `rest`: the text after the command name; empty or starting with a comma. */
   constructor(rest: string) {
     this.fields = rest === "" ? [] : rest.slice(1).split(",");
   }

@@ -1,5 +1,5 @@
 /**
- * The rate that the board itself works out for SM and XM: so many steps in so many milliseconds.
+ * The rate that the board computes for SM and XM from a number of steps and milliseconds.
  * Source: ebb.c of firmware 2.x and 3.x (evil-mad/EggBot).
  */
 import type { TickArithmetic } from "../protocol/firmware.js";
@@ -7,8 +7,9 @@ import type { TickArithmetic } from "../protocol/firmware.js";
 const SLOWEST_SHORT_MS = 30;
 
 /**
- * Accumulator counts a tick for `steps` ≥ 0 in `ms` milliseconds; rounded down, so a move ends late, never early.
- * Firmware 3 computes in single precision; older ones in integers, with only 15 bits up to 30 ms.
+ * Accumulator counts per tick for `steps` ≥ 0 in `ms` milliseconds. Rounded down, so a move may end
+ * late, never early. Firmware 3 computes in single precision; older ones with integers, with only 15
+ * bits up to 30 ms.
  */
 export function slowRate(arithmetic: TickArithmetic, ms: number, steps: number): number {
   if (ms <= 0) return Infinity;

@@ -1,22 +1,23 @@
 /**
- * Command lines of the EiBotBoard: those a plot begins and ends with, and a writer for the stream between.
+ * Command lines of the EiBotBoard: those at the start and end of a plot, and a writer
+ * for the commands between.
  */
 import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { firmwareFeatures } from "./firmware.js";
 
-/** The servo goes its way in this part of the wait for it; the rest lets it come to rest. */
+/** The servo moves during this part of the wait for it; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
 const SERVO_FRAME_MS = 24;
-/** The standard servo's output: the only one that SP moves. */
+/** The standard servo output: the only one that SP moves. */
 const STANDARD_PIN = 4;
 
 /** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
   const features = firmwareFeatures(firmware);
   const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
-  // Older boards keep their accumulators through EM: CS makes them known.
+  // On older boards EM does not clear the accumulators: CS sets them to a known value.
   if (!features.enableClearsAccumulators && features.hasStepQuery) lines.push("CS");
   return [...lines, ...penSetUpCommands(machine, pen)];
 }
@@ -24,7 +25,7 @@ export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmwar
 /** After the last plot: motors off, so that the carriage can be moved by hand. */
 export const closingCommands = (): string[] => ["EM,0,0"];
 
-/** Heights and speeds of the pen; they hold for every SP that follows. Empty where S2 moves the pen. */
+/** Pen heights and speeds; they apply to every SP that follows. Empty if S2 moves the pen. */
 export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
   const lift = penMoveOf(pen, true);
   const drop = penMoveOf(pen, false);
@@ -33,15 +34,15 @@ export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): str
   return [upLine, downLine, upRateLine, downRateLine].filter((line) => line !== undefined);
 }
 
-/** One move of the pen from height to height. */
+/** One move of the pen from one height to another. */
 export interface PenWay {
   readonly up: boolean;
-  /** Where it ends, and how far that is, percent of the servo's range. */
+  /** Target height and distance, percent of the servo's range. */
   readonly heightPct: number;
   readonly wayPct: number;
-  /** The whole time from the command to a pen at rest. */
+  /** Total time from the command until the pen has settled. */
   readonly timeMs: number;
-  /** As fast as asked for; null: as fast as it takes to be there in good time. */
+  /** Requested speed; null or left out: fast enough to arrive within `timeMs`. */
   readonly ratePctPerS?: number | null | undefined;
 }
 
@@ -55,7 +56,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
   return { up, heightPct, wayPct, timeMs, ratePctPerS };
 }
 
-/** Height and speed of the SP of one direction; empty where S2 moves the pen. */
+/** Height and speed of SP in one direction. Empty if S2 moves the pen. */
 export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
   if (machine.controller.servoPin !== STANDARD_PIN) return [];
   const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
@@ -65,7 +66,9 @@ export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
   ];
 }
 
-/** One pen move, holding the queue for `waitMs`. Heights and speeds of SP come from the set-up commands. */
+/**
+ * One pen move that holds the queue for `waitMs`. The set-up commands define the heights and speeds of SP.
+ */
 export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
   if (machine.controller.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
@@ -73,10 +76,10 @@ export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number 
   return `S2,${position},${machine.controller.servoPin},${servoRate(machine, way)},${delayMs}`;
 }
 
-/** The longest delay that SP and S2 take. */
+/** Max delay of SP and S2. */
 export const MAX_DELAY_MS = 65_535;
 
-/** Change of servo position a 24 ms frame: the rate asked for, or one that is done with the way in good time. */
+/** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
 function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
   const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
   const frames = ratePctPerS
@@ -91,7 +94,7 @@ const COMMA = 44;
 const MINUS = 45;
 const ZERO = 48;
 
-/** Writes command lines into one growing block of ASCII. */
+/** Writes command lines into a growing ASCII buffer. */
 export class CommandText {
   private bytes: Uint8Array = new Uint8Array(1 << 12);
   private length = 0;
@@ -101,7 +104,7 @@ export class CommandText {
     return this.length;
   }
 
-  /** A whole line, without its end. */
+  /** Adds a whole line; `text` has no line end. */
   line(text: string): void {
     this.name(text);
     this.end();
@@ -112,7 +115,7 @@ export class CommandText {
     for (let i = 0; i < text.length; i++) this.bytes[this.length++] = text.charCodeAt(i);
   }
 
-  /** A comma and a whole number. */
+  /** Adds a comma and an integer. */
   number(value: number): void {
     this.reserve(18);
     this.bytes[this.length++] = COMMA;

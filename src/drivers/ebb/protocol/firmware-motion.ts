@@ -1,23 +1,26 @@
-/** What a firmware asks of the plan itself, before there are commands. */
+/** Limits that a firmware puts on the plan itself, before commands are compiled. */
 import type { LayerMotion, MotionLimits, MotionSettings } from "../../../settings/motion.js";
 import { firmwareFeatures } from "./firmware.js";
 
 /**
- * mm/s². A slice of constant speed is at least 5 ms long, so that speed comes in stairs of A · 5 ms, to which whole
- * steps add up to 2 mm/s: from here on stairs of over 5 mm/s can't be helped.
+ * mm/s². Slices of constant speed last about 10 ms, so the speed changes in jumps of A · 10 ms: 5 mm/s at
+ * this acceleration. Rounding to whole steps adds up to 2 mm/s.
  */
 const SLICED_ACCEL_MM_PER_S2 = 500;
 
-/** True for firmware that `motionForFirmware` slows; null: not known. Throws `bad-setting` for what is no version. */
+/**
+ * True if `motionForFirmware` limits this firmware. Null: unknown. Throws `bad-setting`
+ * for an invalid version.
+ */
 export const firmwareLimitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
 
 /**
- * The settings as this firmware can follow them smoothly: before 2.5.3, which knows constant speeds only, no
- * acceleration is over 500 mm/s². Doing it twice changes nothing; newer firmware, and one that is not known (null), gets the
- * settings as they are.
+ * The settings limited to what this firmware can execute smoothly: before 2.5.3, which has only
+ * constant speeds, accelerations are limited to 500 mm/s². Idempotent. Newer or unknown (null) firmware
+ * gets the settings unchanged.
  *
- * Throws `bad-setting` for what is no version.
+ * Throws `bad-setting` for an invalid version.
  */
 export function motionForFirmware(motion: MotionSettings, firmware: string | null): MotionSettings {
   if (!firmwareLimitsMotion(firmware)) return motion;

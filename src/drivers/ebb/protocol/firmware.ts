@@ -1,17 +1,21 @@
 /**
- * What each firmware of the EiBotBoard can do: the one table that compiler, driver and virtual board read.
+ * The capabilities of each EiBotBoard firmware: one table, used by the compiler, the driver
+ * and the virtual board.
  *
  * Source: the firmware's release notes and ebb.c (repository evil-mad/EggBot).
  */
 import { PlotwrightError } from "../../../errors.js";
 
-/** Which commands carry a plot: constant-rate slices, step-limited ramps, timed ramps, timed ramps with jerk. */
+/**
+ * The kind of motion commands used: constant-rate slices, step-limited ramps, timed ramps,
+ * timed ramps with jerk.
+ */
 export type MotionCommands = "slices" | "steps" | "timed" | "jerk";
 
 /**
- * How the 25 kHz interrupt adds up rates.
- * "late": the acceleration is added after the accumulator. "half": before it, with half a tick taken back,
- * magnitudes only. "signed": as "half" with signed 32-bit rates and a jerk term.
+ * How the 25 kHz interrupt adds up rates. "late": the acceleration is added after the accumulator is updated.
+ * "half": before it, with half a tick's acceleration subtracted first, magnitudes only. "signed": as "half",
+ * with signed 32-bit rates and a jerk term.
  */
 export type TickArithmetic = "late" | "half" | "signed";
 
@@ -19,13 +23,13 @@ export interface FirmwareFeatures {
   readonly version: string;
   readonly motion: MotionCommands;
   readonly arithmetic: TickArithmetic;
-  /** Ticks that pass at rest after every motion command. */
+  /** Idle ticks after every motion command. */
   readonly idleTicks: number;
-  /** The same after a timed command (LT, T3). */
+  /** Idle ticks after a timed command (LT, T3). */
   readonly idleTicksTimed: number;
-  /** Most commands that wait behind the running one (set by CU,4 where more than 1). */
+  /** Max number of commands waiting behind the running one (set by CU,4 if more than 1). */
   readonly maxFifoDepth: number;
-  /** LM, LT, L3, T3 take a last argument that clears accumulators. */
+  /** LM, LT, L3 and T3 accept a last argument that clears accumulators. */
   readonly hasClear: boolean;
   /** EM zeroes the accumulators too (it always zeroes the step counters). */
   readonly enableClearsAccumulators: boolean;
@@ -34,9 +38,9 @@ export interface FirmwareFeatures {
   readonly hasGeneralQuery: boolean;
   readonly hasLimitQuery: boolean;
   readonly hasHome: boolean;
-  /** SP,2: lift at once, past the queue. */
+  /** SP,2: lift at once, bypassing the queue. */
   readonly hasImmediateLift: boolean;
-  /** ES drops a running LT too. */
+  /** ES also stops a running LT. */
   readonly stopEndsTimed: boolean;
   /** Replies can be switched to one line each, `NAME,values` (CU,10,1). */
   readonly hasFutureSyntax: boolean;
@@ -44,7 +48,7 @@ export interface FirmwareFeatures {
   readonly stopReplyValues: 1 | 5;
 }
 
-/** [version from which it holds, what changes]; later rows win. */
+/** [first version, changes from that version on]; later rows override earlier ones. */
 const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
   [
     "0.0.0",
@@ -99,13 +103,15 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
   ["3.0.1", { hasImmediateLift: true }],
 ];
 
-/** The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null when there is none. */
+/** The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null if there is none. */
 export function firmwareFromReply(reply: string): string | null {
   const match = /EBB.*?(\d+\.\d+(?:\.\d+)?)\s*$/.exec(reply.trim());
   return match?.[1] ?? null;
 }
 
-/** −1, 0, 1 as `a` is older than, equal to or newer than `b`. Throws `bad-setting` for what is no version. */
+/**
+ * −1, 0 or 1 if `a` is older than, equal to or newer than `b`. Throws `bad-setting` for an invalid version.
+ */
 export function compareFirmware(a: string, b: string): number {
   const x = parseVersion(a);
   const y = parseVersion(b);
@@ -116,7 +122,9 @@ export function compareFirmware(a: string, b: string): number {
   return 0;
 }
 
-/** Looks a version up in the table. Versions between and after those listed take the row before them. */
+/**
+ * Looks up a version in the table. A version that is not listed has the features of the nearest older one.
+ */
 export function firmwareFeatures(version: string): FirmwareFeatures {
   let features = { version } as FirmwareFeatures;
   for (const [from, change] of TABLE) {

@@ -1,18 +1,18 @@
 /**
- * What the board answers, in both of its syntaxes. Which answer belongs to which command: board/answer-queue.ts.
+ * The board's replies in both syntaxes. stream/answer-queue.ts matches replies to commands.
  *
- * Legacy (boot default): values end "\r\n" or "\n\r" depending on the command, most commands add "OK\r\n".
- * Future (CU,10,1; firmware 3.0 on): one line a command, its name first.
+ * Legacy (boot default): values end with "\r\n" or "\n\r" by command; most commands add "OK\r\n".
+ * Future (CU,10,1; firmware 3.0 and newer): one line per command, starting with its name.
  * So lines are split at any run of CR and LF.
  */
 export interface ReplyShape {
-  /** How the line of values ends in legacy; null when the command answers none. */
+  /** Line end of the values in legacy syntax; null if the command returns no values. */
   readonly valueEnd: "\r\n" | "\n\r" | null;
-  /** Legacy adds OK. */
+  /** The legacy syntax adds OK. */
   readonly ok: boolean;
-  /** The name stands before the values in legacy too. */
+  /** The name precedes the values in legacy syntax too. */
   readonly isNamed: boolean;
-  /** No answer at all: the line drops. */
+  /** No reply at all: the connection drops. */
   readonly isSilent: boolean;
 }
 
@@ -45,7 +45,7 @@ const SHAPES: Readonly<Record<string, ReplyShape>> = {
   BL: SILENT,
 };
 
-/** The shape of the answer to a command of this name (upper case). */
+/** The shape of the reply to a command with this name (upper case). */
 export const replyShape = (name: string): ReplyShape => SHAPES[name] ?? PLAIN;
 
 /** "sp,1,250" -> "SP". */
@@ -54,13 +54,16 @@ export function commandName(line: string): string {
   return (comma < 0 ? line : line.slice(0, comma)).trim().toUpperCase();
 }
 
-/** `m1,m2` of `QS`. */
+/** Parses the reply `m1,m2` of `QS`. */
 export function parseSteps(reply: string): readonly [number, number] {
   const [first, second] = reply.split(",").map(Number);
   return [first ?? 0, second ?? 0];
 }
 
-/** Commands waiting in the board's queue, as the answers to these queries tell it; null: they do not say. */
+/**
+ * Number of commands waiting in the board's queue, from the reply to a query; null if the query
+ * does not report it.
+ */
 export function waitingCount(line: string, reply: string): number | null {
   if (line === "QU,6") return Number(reply.split(",").pop());
   if (line === "QG") return Number.parseInt(reply, 16) & 1;
@@ -68,7 +71,10 @@ export function waitingCount(line: string, reply: string): number | null {
   return null;
 }
 
-/** What `ES` tells of the move that it ended: steps still to be made, of each motor; null: firmware 3 does not tell. */
+/**
+ * Remaining steps of each motor in the move that `ES` stopped; null on firmware 3, which
+ * does not report them.
+ */
 export function stepsLeft(reply: string): readonly [number, number] | null {
   const [, , , left1, left2] = reply.split(",").map(Number);
   return left1 === undefined || left2 === undefined ? null : [left1, left2];
@@ -76,10 +82,13 @@ export function stepsLeft(reply: string): readonly [number, number] | null {
 
 const CR = 13;
 const LF = 10;
-/** The board never answers more than this; what is longer is noise on the line. */
+/** The board never sends longer lines; anything beyond is noise. */
 const MAX_LINE_BYTES = 256;
 
-/** Cuts incoming bytes into lines at any run of CR and LF; empty lines vanish. Control bytes and bytes above 126 are dropped. */
+/**
+ * Splits incoming bytes into lines at any run of CR and LF. Drops empty lines, control bytes
+ * and bytes above 126.
+ */
 export class LineSplitter {
   private pending = "";
 

@@ -1,25 +1,26 @@
 /**
- * Which reply line belongs to which command.
+ * Matches reply lines to commands.
  *
- * The board answers in order, but its answers have no number, some end in `OK`, some do not, an error may or
- * may not be followed by an `OK`, and after `CU,10,1` the name of the command comes first (firmware 3.x).
- * So every waiting command knows the shape of its answer, and a line is given to the first command that it
- * can belong to. A value that only a later command can have asked for proves that the answers before it were
- * lost: a plot goes on over that, and the count of lost answers says so.
+ * The board answers in order, but its replies have no number, some end in `OK` and some do not, an error may
+ * or may not be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). So
+ * every waiting command knows the shape of its reply, and a line is assigned to the first command that it
+ * fits. A value that fits only a later command proves that the replies before it were lost. The plot
+ * continues, and the lost replies are counted.
  *
- * A line that fits nothing is put aside. An `OK` where a value is due is one too many, unless the value was lost:
- * then a second one follows. Either way the order is in doubt until the answer to `V` comes, which looks like no
- * other; values asked for before it may be another command's and are not believed.
+ * A line that fits no command is ignored and logged. An `OK` where a value is due is either surplus, or
+ * the value was lost and a second `OK` follows. In both cases the order is in doubt until the reply to
+ * `V` arrives, which cannot be confused with any other. Until then, values may belong to another
+ * command and are discarded.
  */
 import { commandName, replyShape, type ReplyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 
 const NUMBER = /^\d+$/;
 const TWO_NUMBERS = /^-?\d+,-?\d+$/;
-/** Two readings of the converter, 10 bits each. */
+/** Two readings of the A/D converter, 10 bits each. */
 const TWO_READINGS = /^(0*\d{1,3}|0*10[01]\d|0*102[0-3]),(0*\d{1,3}|0*10[01]\d|0*102[0-3])$/;
 
-/** What a value looks like, by command, without the name: tells a command's own answer from another's. */
+/** Pattern of each command's value, without the name. Tells the replies of different commands apart. */
 const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
   V: /firmware version \d/i,
   QM: /^\d,\d,\d(,\d)?$/,
@@ -39,7 +40,7 @@ const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
 };
 const NO_VALUE = /^$/;
 
-/** A command under way. `settle` is called exactly once. */
+/** A command that waits for its reply. `settle` is called exactly once. */
 export interface AwaitedAnswer {
   readonly line: string;
   settle(error: PlotwrightError | null, value: string): void;
@@ -51,31 +52,33 @@ interface Waiting {
   readonly shape: ReplyShape;
   readonly pattern: RegExp;
   value: string | null;
-  /** An OK came while its value was due. */
+  /** An OK arrived while the value was due. */
   hadOk: boolean;
 }
 
-/** After noise too, which may have no line end of its own. */
+/** Not anchored at the start: noise without a line end may precede the error. */
 const ERROR_LINE = /!(\d+)\s*Err:\s*(.*)$/;
 
-/** The answer did not come, or cannot be told from another's. A question may be asked again. */
+/** The reply was lost, or cannot be told apart from another command's. Queries may be repeated. */
 export class LostAnswer extends PlotwrightError {
   constructor(line: string) {
-    super("board-error", `The board's answer to ${line} was lost on the line.`);
+    super("board-error", `The board's reply to ${line} was lost on the connection.`);
   }
 }
 
 export class AnswerQueue {
-  /** Lines that belong to no command: garbage, a late answer, or another program's conversation. */
+  /** Number of lines that belong to no command: noise, late replies, or replies to another program. */
   strayCount = 0;
-  /** Answers that never came, proved by the answer to a later command. */
+  /** Number of replies that never came, as shown by the reply to a later command. */
   lostCount = 0;
-  /** The order of answers is in doubt: set by whoever then asks for `V`, whose answer ends it. */
+  /**
+   * The order of replies is in doubt. Set by the session, which then sends `V`; the reply to `V` clears it.
+   */
   inDoubt = false;
-  /** A ring would save nothing: the queue is a few commands long. `head` avoids shifting the array. */
+  /** Only a few commands long, so no ring buffer is needed. `head` avoids shifting the array. */
   private waiting: Waiting[] = [];
   private head = 0;
-  /** An error was just answered; the OK that some firmware sends after it belongs to no one. */
+  /** An error was just received: ignore the OK that some firmware sends after it. */
   private forgivesOk = false;
   private lastLine = "";
 
@@ -95,7 +98,7 @@ export class AnswerQueue {
     this.waiting.push({ awaited, name, shape: replyShape(name), pattern, value: null, hadOk: false });
   }
 
-  /** One reply line without its line end; empty lines carry nothing in any syntax. */
+  /** Takes one reply line without its line end. Empty lines have no meaning in either syntax. */
   take(line: string): void {
     if (line === "") return;
     const error = ERROR_LINE.exec(line);
@@ -104,7 +107,7 @@ export class AnswerQueue {
     else if (!this.takeValue(line)) this.stray(line);
   }
 
-  /** Settles everything that waits with one error: the line is gone or no longer to be trusted. */
+  /** Fails all waiting commands with one error, because the connection is lost or unreliable. */
   failAll(error: PlotwrightError): void {
     const rest = this.waiting.slice(this.head);
     this.waiting = [];
@@ -112,13 +115,13 @@ export class AnswerQueue {
     for (const { awaited } of rest) awaited.settle(error, "");
   }
 
-  /** Gives up on the first command only. */
+  /** Fails the first command only. */
   failFirst(error: PlotwrightError): void {
     if (this.count > 0) this.shift().awaited.settle(error, "");
   }
 
   private takeError(code: number, words: string, line: string): void {
-    // "Extra parameter" is found after the command has run and been answered: it names the one before.
+    // The board reports "Extra parameter" after the command was answered: it concerns the previous command.
     const lateFor = code === 7 ? this.lastLine : "";
     if (lateFor !== "" || this.count === 0) {
       this.stray(lateFor === "" ? line : `${line} (to ${lateFor})`);
@@ -136,7 +139,7 @@ export class AnswerQueue {
       this.forgivesOk = false;
       return;
     }
-    // A board without a name answers QT by an empty line, which vanishes.
+    // A board without a name answers QT with an empty line, which the line splitter drops.
     if (isPlain(first.shape) || first.value !== null || first.name === "QT") {
       this.finish(this.shift(), first.value ?? "");
       return;
@@ -150,12 +153,12 @@ export class AnswerQueue {
       this.stray("OK");
       return;
     }
-    // Two, and no value: it was lost, and this OK belongs to the next.
+    // A second OK and no value: the value was lost, and this OK belongs to the next command.
     this.loseFirst();
     if (this.count > 0) this.takeOk();
   }
 
-  /** False when no waiting command can have asked for this. */
+  /** False if the line fits no waiting command. */
   private takeValue(line: string): boolean {
     for (let i = this.head; i < this.waiting.length; i++) {
       const candidate = this.waiting[i]!;
@@ -163,9 +166,9 @@ export class AnswerQueue {
       const value = named ? line.slice(candidate.name.length + 1) : line;
       if (!candidate.pattern.test(value)) continue;
       if (!named && (value === "" || candidate.shape.isNamed)) continue;
-      // A second value for the same question: one of the two is not its answer.
+      // A second value for the same query: one of the two is not its reply.
       if (candidate.value !== null) return false;
-      // A plain name is also what any later command of that name would send: never skip others for it.
+      // Later commands with the same name send the same line, so do not skip other commands because of it.
       if (isPlain(candidate.shape) && i > this.head) return false;
       for (let before = i - this.head; before > 0; before--) this.loseFirst();
       candidate.value = value;
@@ -179,7 +182,8 @@ export class AnswerQueue {
   private loseFirst(): void {
     const lost = this.shift();
     this.lostCount++;
-    // What got its value and lacks its OK was answered all the same; an OK says nothing but "taken".
+    // The later reply proves that this command was processed, so a lost OK does no harm. Only
+    // a lost value does.
     if (isPlain(lost.shape) || (lost.value !== null && !this.inDoubt)) {
       lost.awaited.settle(null, lost.value ?? "");
       return;
@@ -212,10 +216,10 @@ export class AnswerQueue {
 
 const isPlain = (shape: ReplyShape): boolean => shape.valueEnd === null;
 
-/** What the board's error numbers mean for the user, where its own words do not say it. */
+/** Advice for error codes whose own text does not tell the user what to do. */
 const ERROR_ADVICE: Readonly<Record<number, string>> = {
   0: "the move is too fast or too slow for the board",
-  8: "this firmware does not know the command: update it, or check that the right firmware was chosen",
+  8: "this firmware does not know the command: update the firmware, or check that the right firmware was chosen",
   10: "the board expects checksums, set by another program: unplug the board and plug it in again",
 };
 

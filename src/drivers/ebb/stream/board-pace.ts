@@ -1,23 +1,25 @@
 /**
- * Where the board stands on its own time line, seen from the host.
+ * The host's estimate of the board's position on its own time line.
  *
- * The host cannot ask the board for the time, and an answer may have lain unread for as long as the host was
- * stalled. What it does know: a command cannot begin before it was written, and an answer that needed a free
- * place in the board's queue proves that some command had begun *by then*.
+ * The host cannot query the board's time, and a reply may have been waiting unread while the host was
+ * stalled. But a command cannot begin before it was written, and a reply that needed a free slot in the
+ * board's queue proves that some command had begun *by then*.
  *
- *   origin   host clock at the board's time 0, seconds; board time now = clock − origin
- *   proof    "command beginning at board time t has begun", heard at host time h:  origin ≤ h − t
+ *   origin   host clock at board time 0, seconds; board time now = clock − origin
+ *   proof    "the command starting at board time t has begun", received at host time h:  origin ≤ h − t
  *
- * A proof is late by the line's delay and the host's own stalls. So the estimate follows it upward slowly: one late
- * answer does not make the host believe that the board is behind, many in a row (a board whose seconds are longer
- * than ours) do.
+ * A proof is late by the connection's latency and the host's own stalls. So the origin increases only
+ * slowly: one late reply does not make the board seem late, but many in a row (a board whose clock is slower
+ * than the host's) do.
  *
- * An answer can also be counted one command too early or too late: a stray OK, or one lost on the line. A single
- * acknowledgement therefore moves the estimate by no more than the two clocks can have drifted apart. What the board
- * says when it is asked how many commands wait is sure, and is believed at once.
+ * A stray or lost OK can also shift the count of replies by one command. So a single acknowledgement moves
+ * the estimate by no more than the two clocks can have drifted apart. The reply to a query for the number of
+ * waiting commands is reliable and applies at once.
  */
 const UPWARD_SHARE = 0.1;
-/** What one acknowledgement can move the estimate by: this and a share of the time since the one before. */
+/**
+ * Max change of the estimate by one acknowledgement: this plus a share of the time since the previous one.
+ */
 const STEP_S = 0.005;
 const DRIFT_SHARE = 0.01;
 
@@ -32,8 +34,8 @@ export class BoardPace {
   }
 
   /**
-   * A command that begins at `startS` is written now. Returns how long the board has stood dry waiting for
-   * it, seconds; its time line stood still meanwhile.
+   * A command that starts at `startS` is written now. Returns how long the board has been without commands,
+   * seconds; its time line stood still meanwhile.
    */
   written(startS: number, nowS: number): number {
     if (!this.running) {
@@ -47,7 +49,10 @@ export class BoardPace {
     return Math.max(0, dryS);
   }
 
-  /** An acknowledgement: the command beginning at `startS` has begun. `waited`: it came when that had just begun. */
+  /**
+   * An acknowledgement: the command starting at `startS` has begun. `waited`: the reply had to wait for that,
+   * so the command has only just begun.
+   */
   acknowledged(startS: number, nowS: number, waited: boolean): void {
     const mostS = STEP_S + DRIFT_SHARE * (nowS - this.lastBegunS);
     const byS = Math.min(mostS, Math.max(-mostS, nowS - startS - this.originS));
@@ -56,7 +61,7 @@ export class BoardPace {
     this.lastBegunS = nowS;
   }
 
-  /** Proof that the command beginning at `startS` has begun. */
+  /** Proof that the command starting at `startS` has begun. */
   begun(startS: number, nowS: number): void {
     this.originS = Math.min(this.originS, nowS - startS);
   }

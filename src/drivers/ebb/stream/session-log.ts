@@ -1,4 +1,4 @@
-/** What was said on the line, newest last: a ring of fixed size, so that it costs the same after a day. */
+/** Log of the communication, newest last: a ring buffer of fixed size, so that memory use does not grow. */
 import type { Clock } from "../../transport.js";
 
 export type LogDirection = "sent" | "received" | "note";
@@ -30,14 +30,14 @@ export class SessionLog {
     this.total++;
   }
 
-  /** One line each: seconds since the session began, `>` sent, `<` received, `#` a remark. */
+  /** One line per entry: seconds since the session began; `>` sent, `<` received, `#` note. */
   text(): string {
     return this.tail(this.sizeLines)
       .map((line) => `${line}\n`)
       .join("");
   }
 
-  /** The last lines, for an error message or a panel. */
+  /** The last `count` lines, for an error message or a panel. */
   tail(count: number): readonly string[] {
     const out: string[] = [];
     for (let i = Math.max(0, this.total - Math.min(count, this.sizeLines)); i < this.total; i++) {

@@ -1,10 +1,10 @@
 /**
- * One EiBotBoard over one transport: commands out in order, each reply given to its command, a watch on
- * silence, and a log of what was said. Knows nothing of motion.
+ * One EiBotBoard over one transport: sends commands in order, matches replies to commands, detects a silent
+ * board, and logs the communication. Knows nothing about motion.
  *
- * The board parses one command at a time and answers each when it has been queued or done; a motion command
- * whose turn in the queue has not come is answered late by design. So the watch measures how long the
- * *first* unanswered command has kept everything waiting, and each command says how much patience it needs.
+ * The board parses one command at a time and answers each once it is queued or done. A motion command that
+ * has to wait for a slot in the queue is answered late by design. So the time-out applies to the *first*
+ * unanswered command, from the time it became the first, and each command states how long it may take.
  */
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
 import { commandName, LineSplitter, replyShape } from "../protocol/replies.js";
@@ -15,16 +15,16 @@ import type { Clock, Transport } from "../../transport.js";
 
 export interface SessionOptions {
   readonly clock: Clock;
-  /** Silence on an unanswered command before the board counts as gone. Default 1.5 s. */
+  /** Time without a reply after which the board counts as gone. Default 1.5 s. */
   readonly patienceS?: number;
-  /** Lines kept for the log. Default 20 000. */
+  /** Max number of lines in the log. Default 20 000. */
   readonly logLines?: number;
 }
 
-/** A command to be written. Its answer, or what became of it, arrives at `onReply`, exactly once. */
+/** A command to be written. `onReply` is called exactly once, with its reply or an error. */
 export interface Outgoing {
   readonly line: string;
-  /** Silence that is normal before this command's answer, beyond the session's patience: motion ahead of it. */
+  /** Expected wait for the reply on top of the session's patience, because of motion queued before it. */
   readonly waitS?: number;
   readonly onReply?: (error: PlotwrightError | null, value: string) => void;
 }
@@ -32,22 +32,22 @@ export interface Outgoing {
 export interface BoardIdentity {
   /** For example "2.8.1". */
   readonly firmware: string;
-  /** The whole answer to `V`. */
+  /** The whole reply to `V`. */
   readonly text: string;
 }
 
 interface SentCommand extends AwaitedAnswer {
   readonly waitS: number;
-  /** Running out of patience with it is this command's failure alone, not the session's. */
+  /** A time-out fails only this command, not the session. */
   readonly alone: boolean;
 }
 
 const IDENTIFY_TRIES = 3;
 const IDENTIFY_PATIENCE_S = 0.7;
 const OVERSLEPT_S = 0.25;
-/** How often a question is asked whose answers are lost. */
+/** How often a query is sent if its replies are lost. */
 const QUESTION_TRIES = 3;
-/** Of the log, for the message about a device that is no EiBotBoard. */
+/** Log lines to search for the message about a device that is not an EiBotBoard. */
 const HEARD_LINES = 6;
 
 export class BoardSession {
@@ -61,13 +61,13 @@ export class BoardSession {
   private readonly lines = new LineSplitter();
   private fault: PlotwrightError | null = null;
   private closed = false;
-  /** Since when the first unanswered command has been the first. */
+  /** When the first unanswered command became the first. */
   private firstSinceS = 0;
   private cancelWatch: (() => void) | null = null;
   private watchDueS = 0;
-  /** `V` was asked only to know which answer is which, and has not been answered yet. */
+  /** A `V` that was sent to restore the order of replies has not been answered yet. */
   private isFindingOrder = false;
-  /** Something has come from the other end since it was last asked who it is. */
+  /** Something was received since the last attempt to identify the board. */
   private hasHeard = false;
 
   constructor(
@@ -85,40 +85,40 @@ export class BoardSession {
     transport.onClose((error) => this.lineClosed(error));
   }
 
-  /** Why the session can no longer be used; null while it can. */
+  /** Why the session can no longer be used; null while it is usable. */
   get failure(): PlotwrightError | null {
     return this.fault;
   }
 
-  /** Commands written whose answers are still to come. */
+  /** Number of written commands without a reply yet. */
   get unansweredCount(): number {
     return this.answers.count;
   }
 
-  /** Lines that answered no command of ours: line noise, or a second program on the port. */
+  /** Number of lines that match none of our commands: noise, or a second program on the port. */
   get strayCount(): number {
     return this.answers.strayCount;
   }
 
-  /** Answers that never came although later ones did. */
+  /** Number of replies that never came although later ones did. */
   get lostReplyCount(): number {
     return this.answers.lostCount;
   }
 
-  /** Told once, when the line is lost or the board has gone silent. */
+  /** Called once, when the connection is lost or the board stops answering. */
   onFault(listener: (error: PlotwrightError) => void): void {
     this.faultListeners.push(listener);
   }
 
   /**
-   * Asks who is there and brings the board to the plain reply syntax. Rejects with `board-timeout` when
-   * nothing answers, `no-board` when something else does. What an earlier program left on the line is ignored.
+   * Identifies the board and switches it to the legacy reply syntax. Rejects with `board-timeout` if nothing
+   * answers, with `no-board` if another device does. Ignores what an earlier program left unread.
    */
   async identify(): Promise<BoardIdentity> {
     for (let attempt = 1; ; attempt++) {
       this.hasHeard = false;
       try {
-        // The try before may have ended in the middle of a line of its own.
+        // An earlier program may have left an unfinished line, so a failed attempt must not end the session.
         const text = await this.ask("V", IDENTIFY_PATIENCE_S, true);
         this.identity = { firmware: firmwareFromReply(text) ?? "0.0.0", text };
         break;
@@ -126,31 +126,31 @@ export class BoardSession {
         if (this.fault) throw this.fault;
         if (attempt < IDENTIFY_TRIES) continue;
         const last = this.log.tail(HEARD_LINES);
-        // A board's own answer that comes too late is none of another device.
+        // A late reply of an EiBotBoard is not a sign of another device.
         const isBoard = last.some((line) => firmwareFromReply(line) !== null);
         throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
       }
     }
-    // An earlier program may have left it in its other reply syntax.
+    // An earlier program may have switched it to the other reply syntax.
     if (firmwareFeatures(this.identity.firmware).hasFutureSyntax) await this.send("CU,10,0");
     return this.identity;
   }
 
   /**
-   * One command whose answer is a value; resolves with the value without name and line ends. A question whose answer
-   * is lost on the line is asked again.
+   * Sends a command that returns a value. Resolves with the value without name and line end. A query is
+   * repeated if its reply is lost.
    */
   query(line: string, waitS = 0): Promise<string> {
     const isQuestion = /^(Q|PI|V)/.test(commandName(line));
     return this.ask(line, waitS, false, isQuestion ? QUESTION_TRIES : 1);
   }
 
-  /** One command that is answered by OK. Resolves at the answer: queued or done, see the board's protocol. */
+  /** Sends a command that is answered by OK. Resolves at the reply: the command is then queued or done. */
   async send(line: string, waitS = 0): Promise<void> {
     await this.ask(line, waitS, false);
   }
 
-  /** Writes several commands in one go. Never throws: each command's `onReply` is told what became of it. */
+  /** Writes several commands at once. Never throws: errors go to each command's `onReply`. */
   write(commands: readonly Outgoing[]): void {
     if (this.fault || this.closed) {
       const error = this.fault ?? closedError();
@@ -169,7 +169,7 @@ export class BoardSession {
     for (const command of silent) command.onReply?.(null, "");
   }
 
-  /** Ends the session; what still waits is rejected as `disconnected`. */
+  /** Ends the session. Waiting commands are rejected with `disconnected`. */
   async close(): Promise<void> {
     if (this.closed) return;
     this.closed = true;
@@ -201,8 +201,8 @@ export class BoardSession {
   }
 
   /**
-   * A line came that belongs to no command: answers may have been lost or be one too many. `V` has an answer of a
-   * shape of its own, so with it everything before is answered.
+   * A line arrived that belongs to no command: replies may have been lost or be surplus. The reply to `V` is
+   * unmistakable, so once it arrives, all earlier commands have been answered.
    */
   private findOrder(): void {
     if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
@@ -246,8 +246,8 @@ export class BoardSession {
   }
 
   /**
-   * One timer for the whole queue: it looks at the first command when the soonest possible time-out has
-   * come, and goes to sleep again for what is left. No timer is set or cleared per command.
+   * One timer for the whole queue: it checks the first command at the earliest possible time-out and sleeps
+   * again for the remaining time. No timer is set or cleared per command.
    */
   private watch(): void {
     const first = this.answers.first as SentCommand | null;
@@ -257,10 +257,11 @@ export class BoardSession {
     }
     const nowS = this.clock.nowS();
     const leftS = this.firstSinceS + this.patienceOf(first) - nowS;
-    // Fired far too late: it was we who slept (suspended, stopped). Answers that came meanwhile are read first.
+    // The timer fired far too late: this process was suspended. First read the
+    // replies that arrived meanwhile.
     const overslept = this.cancelWatch !== null && nowS - this.watchDueS > OVERSLEPT_S;
     if (leftS > 0 || overslept) {
-      // Timers may fire a little early; a millisecond more is cheaper than a second timer for the rest.
+      // Timers may fire slightly early; an extra millisecond avoids a second timer for the rest.
       const delayS = overslept ? OVERSLEPT_S : Math.min(leftS, this.patienceS) + 0.001;
       this.watchDueS = nowS + delayS;
       this.cancelWatch = this.clock.after(delayS, () => this.watch());
@@ -296,7 +297,7 @@ export class BoardSession {
 
 const hasNoReply = (line: string): boolean => replyShape(commandName(line)).isSilent;
 
-/** Commands are ASCII by construction. */
+/** Commands are always ASCII. */
 function asciiBytes(text: string): Uint8Array {
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
@@ -322,7 +323,7 @@ const silent = (line: string): PlotwrightError =>
 const silentAtStart = (cause: unknown): PlotwrightError =>
   new PlotwrightError(
     "board-timeout",
-    "Nothing answers on this port: check that it is the plotter's, that its cable is firm, and that no other program uses the port; then unplug the board, plug it in and connect again.",
+    "Nothing answers on this port: check that it is the plotter's port, that the cable is plugged in firmly, and that no other program uses the port. Then unplug the board, plug it in and connect again.",
     { cause },
   );
 

@@ -1,16 +1,19 @@
 /**
- * Where in its plan a board was stopped at once (ES). Its step counters alone do not say: a line may pass the same
- * steps again and again, as at a narrow tip or where it goes back over itself.
+ * Finds the position in the plan at which an emergency stop (ES) stopped the board. The step counters
+ * alone are ambiguous: a line may pass the same steps several times, for example at a narrow tip or
+ * where it retraces itself.
  *
- *   which command   The question before ES, and the answer to it, say how many commands waited in the queue; all that
- *                   were written are answered by then, so the one that ran is as many before the last one. It may
- *                   have ended between question and ES: then it was the next.
- *   where in it     the ticks after which its motors have made just the steps that the counters say, by the same
- *                   arithmetic as the board's
- *   which of these  Before firmware 3, ES tells how many steps of the command were left. Else the time of the stop:
- *                   a motor that turns back within a command passes the same steps twice.
+ *   which command   The query before ES reports how many commands waited in the queue. All written
+ *                   commands are answered by then, so the running command is that many before the last
+ *                   one. It may have ended between the query and ES: then it was the next one.
+ *   where in it     The ticks after which its motors have made exactly the counted steps, computed with
+ *                   the same arithmetic as the board's.
+ *   which of these  Before firmware 3, ES reports how many steps of the command were left. Otherwise the
+ *                   time of the stop decides: a motor that reverses within a command passes the same
+ *                   steps twice.
  *
- * Firmware 2.7 and 2.8 does not stop at all but plays what it has got: it stands where the last command ends.
+ * Firmware 2.7 and 2.8 does not stop but finishes all received commands: it is at the end
+ * of the last command.
  */
 import type { BoardState } from "../compile/command-stream.js";
 import { commandLine } from "../compile/compile.js";
@@ -25,32 +28,32 @@ import { Parameters } from "../model/parameters.js";
 type Steps = readonly [motor1: number, motor2: number];
 
 const NO_STEPS: Steps = [0, 0];
-/** Rounding of a plan's times against the board's. */
+/** Tolerance in steps for the rounding of plan times to board times. */
 const SAME_STEPS = 2;
 
-/** What is noted at a stop. */
+/** Recorded at a stop. */
 export interface StopNotes {
-  /** The board's time when it was told to stop, as the host has it. */
+  /** Estimated board time when the stop was sent. */
   readonly boardS: number;
-  /** How many commands waited behind the running one just before; null: not told. */
+  /** How many commands waited behind the running one just before the stop; null: not reported. */
   waitingCount: number | null;
-  /** Of the running command, each motor's; null: not told. */
+  /** Remaining steps of the running command, by motor; null: not reported. */
   stepsLeft: readonly [number, number] | null;
 }
 
 export interface StopEvidence extends Readonly<StopNotes> {
   /** The commands written last, in order. */
   readonly commands: readonly InFlight[];
-  /** The one of them that the board has refused, so that it never ran. */
+  /** The one of them that the board refused, and so never ran. */
   readonly refused?: InFlight | null;
 }
 
-/** `number`: of the command, as in `InFlight`. */
+/** `number`: the command's number, as in `InFlight`. */
 export interface NumberedPlace extends StreamPlace {
   readonly number: number;
 }
 
-/** The place of a stop whose counters say `steps1`, `steps2`, in the terms of the streams; null when nothing had run. */
+/** The position in the streams of a stop at the counters `steps1`, `steps2`; null if nothing had run. */
 export function placeOfStop(
   evidence: StopEvidence,
   features: FirmwareFeatures,
@@ -59,7 +62,8 @@ export function placeOfStop(
 ): NumberedPlace | null {
   const { waitingCount, stepsLeft: left, refused } = evidence;
   const commands = evidence.commands.filter((one) => one !== refused);
-  // Without the steps of a refused command, those after it run as much beside their plan.
+  // The steps of a refused command are missing, so the commands after it run with that
+  // offset from their plan.
   const missing = refused ? stepsOf(refused, evidence.commands) : NO_STEPS;
   const missingBefore = ({ number }: InFlight): Steps =>
     refused && number > refused.number ? missing : NO_STEPS;
@@ -82,7 +86,7 @@ export function placeOfStop(
   return nearest.command && placeIn(nearest.command, nearest.boardS);
 }
 
-/** The place nearest to a board time at which the counters stood so; null where none of the commands passes there. */
+/** The position with these counters that is nearest to a board time; null if no command passes there. */
 export function placeOfCounters(
   commands: readonly InFlight[],
   features: FirmwareFeatures,
@@ -98,7 +102,7 @@ export function placeOfCounters(
   return nearest.command && nearest.offSteps <= SAME_STEPS ? placeIn(nearest.command, nearest.boardS) : null;
 }
 
-/** Whether a command's ends have the counters between them: most of them need no closer look. */
+/** Whether the counters lie between a command's start and end. A cheap test that rules out most commands. */
 function passes({ stream, index }: InFlight, before: BoardState, steps1: number, steps2: number): boolean {
   const isBetween = (from: number, to: number, steps: number): boolean =>
     steps >= Math.min(from, to) - SAME_STEPS && steps <= Math.max(from, to) + SAME_STEPS;
@@ -106,14 +110,14 @@ function passes({ stream, index }: InFlight, before: BoardState, steps1: number,
   return isBetween(before.steps1, end1, steps1) && isBetween(before.steps2, end2, steps2);
 }
 
-/** What a command adds to the counters. */
+/** The steps that a command adds to the counters. */
 function stepsOf(command: InFlight, commands: readonly InFlight[]): Steps {
   const before = stateBefore(command, commands);
   const { stream, index } = command;
   return before ? [stream.steps1[index]! - before.steps1, stream.steps2[index]! - before.steps2] : NO_STEPS;
 }
 
-/** What the board held before a command; null for the very first one. */
+/** The board's state before a command; null for the very first one. */
 function stateBefore({ number, stream, index }: InFlight, commands: readonly InFlight[]): BoardState | null {
   const before = index > 0 ? { stream, index: index - 1 } : commands.find((one) => one.number === number - 1);
   if (!before) return null;
@@ -128,7 +132,9 @@ function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: numb
   return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1]! - fromS) };
 }
 
-/** Of the ticks at which the counters come nearest to those told (they should be the same), the nearest in time. */
+/**
+ * Among the ticks at which the counters are nearest to those reported (ideally equal), the nearest in time.
+ */
 class NearestTick {
   command: InFlight | null = null;
   boardS = 0;
@@ -142,7 +148,7 @@ class NearestTick {
     private readonly stopS: number,
   ) {}
 
-  /** `missing`: steps that the counters lack against the command's plan. */
+  /** `missing`: the steps by which the counters are short of the command's plan. */
   lookIn(command: InFlight, before: BoardState | null, [missing1, missing2]: Steps): void {
     const { stream, index, startS, endS } = command;
     const move = before && moveOf(commandLine(stream, index), this.features, before);
@@ -158,7 +164,7 @@ class NearestTick {
         before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
       );
       this.offer(command, off, startS + tick / TICKS_PER_S);
-      // A motor makes one step a tick at most.
+      // A motor makes at most one step per tick, so no tick before that can be nearer.
       tick += Math.max(1, off - this.offSteps);
     }
   }
@@ -177,7 +183,7 @@ class NearestTick {
   }
 }
 
-/** Null for a command in which the motors rest. */
+/** Null for a command during which the motors do not move. */
 function moveOf(line: string, features: FirmwareFeatures, before: BoardState): RunningMove | null {
   const name = commandName(line);
   const parameters = new Parameters(line.slice(name.length));

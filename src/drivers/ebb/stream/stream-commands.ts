@@ -5,14 +5,14 @@ import { Streamer } from "./streamer.js";
 import type { StreamPlace } from "./timeline.js";
 import type { Cancellation } from "../../transport.js";
 
-/** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */
+/** Plays one stream to its end, or after `cancel` is raised, until the commands already written are done. */
 export async function streamCommands(
   session: BoardSession,
   stream: CommandStream,
   options: StreamOptions & {
     readonly cancel?: Cancellation;
     readonly onProgress?: (place: StreamPlace) => void;
-    /** Board seconds between two calls of `onProgress`, and two looks at `cancel`. Default 0.06. */
+    /** Board seconds between calls of `onProgress`, and between checks of `cancel`. Default 0.06. */
     readonly progressEveryS?: number;
   },
 ): Promise<StreamReport & { readonly underrunCount: number }> {

@@ -1,26 +1,29 @@
-/** What goes into a `Streamer`, and what comes out of it. */
+/** Inputs and results of a `Streamer`. */
 import type { InFlight, StreamPlace } from "./timeline.js";
 import type { Clock } from "../../transport.js";
 
 export interface StreamOptions {
   /** Counts board seconds. */
   readonly clock: Clock;
-  /** Motion kept ahead of the pen, board seconds. Default 0.3. */
+  /** Motion sent ahead of the pen, board seconds. Default 0.3. */
   readonly windowS?: number;
-  /** Commands that wait in the board's queue before its parser blocks: 1, or what `CU,4` has set. */
+  /** Commands that the board's queue holds before its parser blocks: 1, or the value set by `CU,4`. */
   readonly queueDepth?: number;
-  /** "acks": for comparison only, the next command is written when the one before is acknowledged. */
+  /** "acks", for comparison only: the next command is written when the previous one is acknowledged. */
   readonly pacing?: "window" | "acks";
-  /** Queries sent during the stream, every so many board seconds. `QU,6`, `QG` or `QM` as the first keep the time line true. */
+  /**
+   * Queries sent during the stream, every `everyS` board seconds. `QU,6`, `QG` or `QM` as the first keeps
+   * the time line accurate.
+   */
   readonly poll?: { readonly lines: readonly string[]; readonly everyS: number };
-  /** Board seconds beyond the plan before a board that does not get on counts as stuck. Default 2. */
+  /** Board seconds beyond the plan after which a board that makes no progress counts as stuck. Default 2. */
   readonly stuckS?: number;
   readonly onPoll?: (line: string, reply: string, asked: PollTime) => void;
-  /** What to add to the board's step counters for the places of the streams. Default 0, 0. */
+  /** Offset to add to the board's step counters to get the streams' steps. Default 0, 0. */
   readonly origin?: readonly [number, number];
 }
 
-/** When a poll was written: the board takes its reading then or a little later. */
+/** When a poll was written. The board reads its counters then or slightly later. */
 export interface PollTime {
   readonly boardS: number;
   readonly place: StreamPlace;
@@ -28,18 +31,18 @@ export interface PollTime {
 
 export interface RefusedCommand {
   readonly at: StreamPlace;
-  /** Null for one that takes no time. */
+  /** Null for a command that takes no time. */
   readonly command: InFlight | null;
 }
 
 export interface StreamReport {
-  /** The board's step counters, `origin` added; null where its firmware cannot say. */
+  /** The board's step counters plus `origin`; null if its firmware does not report them. */
   readonly steps1: number | null;
   readonly steps2: number | null;
-  /** True when they equal the prediction (or cannot be read). */
+  /** True if they equal the prediction (or cannot be read). */
   readonly exact: boolean;
-  /** The last command written: the state after it is where the board stands. */
+  /** The last command written; the board is in the state after it. */
   readonly end: StreamPlace;
-  /** False after a cut that nothing followed. */
+  /** False if the stream was cut and not replaced. */
   readonly complete: boolean;
 }

@@ -1,18 +1,19 @@
 /**
  * Sends command streams by a window of board time instead of by acknowledgement.
  *
- * Board, USB and system buffers together always hold about `windowS` of motion (0.8 of it to, for commands of
- * 150 ms, 1.3 times as much), so the board goes on while the host is stalled. The price: on firmware with a queue of one, the board's parser stands blocked behind
- * what was written ahead, and an emergency stop waits for it. Hence a window of 0.3 s, not 3 s. Where the
- * board's own queue is deeper, no more is written than it can take, and a stop is read at once.
+ * Board, USB and system buffers together always hold about `windowS` of motion (0.8 to 1.3 times as much with
+ * commands of 150 ms), so that the board keeps moving while the host is stalled. The drawback: on firmware
+ * with a queue of one, the board's parser is blocked by the commands written ahead, and an emergency stop has
+ * to wait for them. Hence a window of 0.3 s, not 3 s. If the board's own queue is deeper, no more is written
+ * than fits into it, and a stop is read at once.
  *
  *      executed        executing     waiting in the board      not yet written
  *   ───────────────|───────^──────|────────────────────────|- - - - - - - - - -
  *                  board time now  <------- windowS ------->
  *
- * Time here is board time on the driver's clock: with a virtual board that runs 20 times faster, the clock
- * given in runs 20 times faster too. A stream can be cut at any command and another put in its place while
- * the board plays what it has: so a hold, a change of speed and a resume need no gap.
+ * Times are board times on the injected clock: with a virtual board that runs 20 times faster, that clock
+ * runs 20 times faster too. A stream can be cut at any command and replaced by another while the board plays
+ * what it has received, so a hold, a change of speed or a resume causes no gap.
  */
 import { commandLine } from "../compile/compile.js";
 import type { CommandStream } from "../compile/command-stream.js";
@@ -24,27 +25,27 @@ import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from
 import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
 import { BoardTimeline, type InFlight, type StreamPlace } from "./timeline.js";
 
-/** Wake-ups closer than this are one. */
+/** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
-/** Dryness too short to tell from the line's own delay. */
+/** Shorter underruns cannot be told apart from the connection's latency. */
 const DRY_S = 0.002;
 const IDLE_POLL_S = 0.02;
-/** Of the window: so much motion is always ahead, also where the next command is longer than the rest of it. */
+/** Share of the window that is always filled, even if the next command is longer than the rest. */
 const RESERVE_SHARE = 0.8;
 
 /**
- * Seconds of motion that are ahead of the pen at most, with commands of up to `commandS`: the window, or its reserve
- * and one command, or one command that runs and one that waits.
+ * Max seconds of motion sent ahead of the pen, with commands of up to `commandS`: the window, or its reserve
+ * plus one command, or one running and one waiting command.
  */
 export const mostAheadS = (windowS: number, commandS: number): number =>
   Math.max(windowS, RESERVE_SHARE * windowS + commandS, 2 * commandS);
 
 export class Streamer {
-  /** Times that the board ran dry in the middle of a run. */
+  /** Number of times that the board ran out of commands during a run. */
   underrunCount = 0;
-  /** Seconds that it stood still for that. */
+  /** Total time of these underruns, seconds. */
   underrunS = 0;
-  /** A command that the board has refused: it never ran, though those written after it may have. */
+  /** The command that the board refused. It never ran, but those written after it may have. */
   refused: RefusedCommand | null = null;
 
   private readonly session: BoardSession;
@@ -54,9 +55,9 @@ export class Streamer {
 
   private stream: CommandStream | null = null;
   private next = 0;
-  /** Board time line at `stream`'s second 0. */
+  /** Board time at second 0 of `stream`. */
   private offsetS = 0;
-  /** Nothing from `atIndex` on is written; the streams of `then`, when there are any, go on from there. */
+  /** Nothing from `atIndex` on is written; the streams in `then`, if any, continue from there. */
   private limit: { readonly atIndex: number; readonly then: readonly CommandStream[] } | null = null;
   private unanswered = 0;
   private lastWritten: StreamPlace | null = null;
@@ -75,8 +76,8 @@ export class Streamer {
   }
 
   /**
-   * Plays a stream to its end, or to a cut that nothing follows: resolves when the board is idle and its
-   * step counters have been read. Rejects when a command is refused or the board is lost or stuck.
+   * Plays a stream to its end, or to a cut without a replacement. Resolves when the board is idle and its
+   * step counters have been read. Rejects if a command is refused or the board is lost or stuck.
    */
   play(stream: CommandStream): Promise<StreamReport> {
     if (this.settle) throw new TypeError("a stream is already being played");
@@ -88,35 +89,35 @@ export class Streamer {
     });
   }
 
-  /** The first command not written yet. */
+  /** Index of the first command not written yet. */
   get nextIndex(): number {
     return this.next;
   }
 
-  /** Other streams follow the present one already, and nothing was cut since. */
+  /** True if other streams are set to follow the current one, without a later cut. */
   get isGoingOver(): boolean {
     return this.playing && (this.limit?.then.length ?? 0) > 0;
   }
 
-  /** The stream that it belongs to. */
+  /** The stream of the command `nextIndex`. */
   get nextStream(): CommandStream {
     if (!this.stream) throw new TypeError("nothing is being played");
     return this.stream;
   }
 
-  /** Writes nothing more of the stream. Returns the first command that the board will not get. */
+  /** Stops writing the stream. Returns the position of the first command that is not sent. */
   cut(): StreamPlace {
     const stream = this.stream;
     if (!stream || !this.playing) throw new TypeError("nothing is being played");
     this.limit = { atIndex: this.next, then: [] };
-    // Not before the caller has had the chance to put another stream in its place.
+    // Later, so that the caller can replace the stream first.
     this.sleep(0);
     return { stream, commandIndex: this.next, planS: stream.planS[this.next]! };
   }
 
   /**
-   * Ends the stream before `atIndex`, or goes over to other streams there, one after the other; the first was
-   * compiled from the state at that command. False when the command has been written already: too late.
+   * Ends the stream before `atIndex`, or continues there with other streams, one after the other. The first
+   * must be compiled from the state at that command. Returns false if the command has already been written.
    */
   cutAt(atIndex: number, ...then: readonly CommandStream[]): boolean {
     if (!this.playing || this.next > atIndex) return false;
@@ -125,22 +126,22 @@ export class Streamer {
     return true;
   }
 
-  /** After a cut: goes on with streams compiled from the state at the cut. False: the board has come to rest. */
+  /** After a cut: continues with streams compiled from the state at the cut. False if the board has stopped. */
   replace(...then: readonly CommandStream[]): boolean {
     return this.cutAt(this.next, ...then);
   }
 
-  /** True while a stream can still be cut and replaced without the board coming to rest. */
+  /** True while a stream can still be cut and replaced without a stop. */
   get playing(): boolean {
     return this.settle !== null && !this.ending;
   }
 
-  /** Motion that the board still has to play, seconds. */
+  /** Motion that the board still has to execute, seconds. */
   inFlightS(): number {
     return Math.max(0, this.timeline.endS - this.timeline.boardS());
   }
 
-  /** Where the board is now, by its time line. */
+  /** Estimated current position of the board. */
   place(): StreamPlace {
     const boardS = this.timeline.boardS();
     const entry = this.timeline.at(boardS);
@@ -159,8 +160,8 @@ export class Streamer {
   }
 
   /**
-   * Tells the board to drop what it has (ES); `play` rejects with `error`. Where it was then, `placeOfStop` tells from the
-   * step counters read after this.
+   * Makes the board stop at once and drop its queue (ES); `play` rejects with `error`. Afterwards
+   * `placeOfStop` finds the position of the stop from the step counters.
    */
   stopAtOnce(error: PlotwrightError): void {
     const query = this.options.queueDepth > 1 ? "QU,6" : "QM";
@@ -181,14 +182,14 @@ export class Streamer {
     this.fail(error);
   }
 
-  /** Where the board was when it stopped at once; null when it had nothing to run. */
+  /** Where the board was at the emergency stop; null if it had nothing to run. */
   placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): NumberedPlace | null {
     if (!this.stop) throw new TypeError("nothing was stopped");
     const refused = this.refused?.command ?? null;
     return placeOfStop({ ...this.stop, commands: this.timeline.recent(), refused }, features, steps1, steps2);
   }
 
-  /** Where the board was when it answered a poll with these counters; null where its commands do not pass there. */
+  /** Where the board was when it answered a poll with these counters; null if no command passes there. */
   placeOfCounters(
     features: FirmwareFeatures,
     steps1: number,
@@ -198,7 +199,7 @@ export class Streamer {
     return placeOfCounters(this.timeline.recent(), features, steps1, steps2, asked.boardS);
   }
 
-  /** Stops writing and gives up waiting; what the board has is not touched. */
+  /** Stops writing and waiting. The board finishes the commands it has received. */
   abandon(error: PlotwrightError): void {
     this.fail(error);
   }
@@ -215,12 +216,12 @@ export class Streamer {
     this.take(then[0]!, then.slice(1));
   }
 
-  /** Writes what is due, and sleeps until more is. */
+  /** Writes the commands that are due, and sleeps until the next one is. */
   private pump(): void {
     this.cancelWake?.();
     this.cancelWake = null;
     const { stream } = this;
-    // Without a stream: an answer that comes when the play is over.
+    // There is no stream if a reply arrives after the end.
     if (this.failure || this.ending || !stream) return;
     const boardS = this.timeline.boardS();
     this.timeline.forgetExecuted(boardS);
@@ -239,15 +240,15 @@ export class Streamer {
   private mayWrite(stream: CommandStream, boardS: number): boolean {
     if (this.options.pacing === "acks") return this.unanswered === 0;
     const waiting = this.timeline.count;
-    // One whole command always waits behind the executing one, however long they are.
+    // Always keep one whole command waiting behind the executing one, however long they are.
     if (waiting < 2) return true;
     if (this.options.queueDepth > 1 && waiting >= this.options.queueDepth) return false;
     return this.dueS(stream) <= boardS;
   }
 
   /**
-   * Board time at which the next command is to be written: when it ends within the window, and a long one
-   * before what is ahead of it has shrunk to the window's reserve.
+   * Board time at which to write the next command: when its end enters the window, or for a long command
+   * before the motion sent ahead has shrunk to the window's reserve.
    */
   private dueS(stream: CommandStream): number {
     const { windowS } = this.options;
@@ -256,7 +257,7 @@ export class Streamer {
     return Math.min(endS - windowS, startS - RESERVE_SHARE * windowS);
   }
 
-  /** Until the next command comes into the window, or the executing one ends. */
+  /** Seconds until the next command is due, or the executing one ends. */
   private wakeInS(stream: CommandStream, boardS: number): number {
     if (this.options.pacing === "acks") return this.options.stuckS;
     const dueInS = this.dueS(stream) - boardS;
@@ -294,7 +295,7 @@ export class Streamer {
     const run = stream.run[index]!;
     if (!last || run < 0) return false;
     if (last.stream === stream) return stream.run[last.commandIndex] === run;
-    // A stream that replaced another in motion goes on with the run that was cut.
+    // A stream that replaced another in motion continues the run that was cut.
     return last.stream.run[last.commandIndex]! >= 0 && index === 0;
   }
 
@@ -309,7 +310,7 @@ export class Streamer {
     this.pump();
   }
 
-  /** What follows a refused command would be drawn beside its place. */
+  /** Stops the plot: everything after a refused command would be drawn in the wrong place. */
   private refusedAt(at: StreamPlace, error: PlotwrightError): void {
     if (this.failure) return;
     const isIt = ({ stream, index }: InFlight): boolean => stream === at.stream && index === at.commandIndex;
@@ -324,7 +325,7 @@ export class Streamer {
 
   private schedulePoll(): void {
     const poll = this.options.poll;
-    // An answer may come when the play is over: then it is the last.
+    // The last reply may arrive after the end.
     if (!poll || !this.playing) return;
     this.cancelPoll?.();
     this.cancelPoll = this.options.clock.after(poll.everyS, () => {
@@ -350,19 +351,19 @@ export class Streamer {
     this.options.onPoll?.(line, reply, asked);
     const waiting = tellsTime ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting)) {
-      // What it still holds must not be drawn when it gets on again.
+      // What it still holds must not be drawn if it recovers.
       this.session.write([{ line: "ES" }]);
       this.fail(stuck());
     }
     if (!this.failure) this.pump();
   }
 
-  /** All that there is has been written: sleeps until the last of it should be over, then asks. */
+  /** Everything has been written: sleeps until the last command should be over, then queries the board. */
   private awaitEnd(boardS: number): void {
     if (this.ending) return;
     const leftS = this.timeline.endS - boardS;
     if (this.unanswered > 0 || leftS > 0) {
-      // The last answers wake us; so does time, for a board whose time we have misjudged.
+      // The last replies wake the streamer; so does this timer, in case the time estimate is wrong.
       if (this.unanswered === 0) this.sleep(Math.max(MIN_WAKE_S, leftS));
       return;
     }
@@ -414,7 +415,7 @@ export class Streamer {
       const [origin1, origin2] = this.options.origin ?? [0, 0];
       return [counter1 + origin1, counter2 + origin2];
     } catch (error) {
-      // Firmware before 2.4.3 has no step counters to ask for.
+      // Firmware before 2.4.3 does not report step counters.
       if (this.session.failure) throw error;
       return null;
     }
@@ -438,4 +439,8 @@ const stuck = (): PlotwrightError =>
   );
 
 const internal = (cause: unknown): PlotwrightError =>
-  new PlotwrightError("internal", "The stream to the board broke off for a reason of our own.", { cause });
+  new PlotwrightError(
+    "internal",
+    "Sending commands to the board failed because of an internal error: connect again, set home and plot again.",
+    { cause },
+  );

@@ -1,9 +1,9 @@
 /**
- * What the board has been given and where it is on its way through it: the host's picture of board time.
+ * The commands sent to the board, and the host's estimate of which one is running.
  *
- * Commands that take time follow one another on the board's time line. Which of them runs now is estimated from
- * the clock, and put right by what the board lets us know: its answers (a full queue frees a place when a command
- * ends) and, when asked, how many commands still wait.
+ * Commands that take time follow one another on the board's time line. The running one is estimated from the
+ * clock and corrected by the board's replies (a full queue frees a slot when a command ends) and by the
+ * number of waiting commands that it reports.
  *
  *    acknowledged ──────────────────────┐   unacknowledged: the queue before them is full
  *    [begun][running][waits in the queue]  [in the system's buffers]
@@ -12,7 +12,7 @@ import type { CommandStream } from "../compile/command-stream.js";
 import { BoardPace } from "./board-pace.js";
 import type { Clock } from "../../transport.js";
 
-/** Where in which stream the board is. */
+/** A position in a stream. */
 export interface StreamPlace {
   readonly stream: CommandStream;
   readonly commandIndex: number;
@@ -20,7 +20,7 @@ export interface StreamPlace {
   readonly planS: number;
 }
 
-/** A command that takes board time, written and not yet known to be over. */
+/** A written command that takes board time and may not be over yet. */
 export interface InFlight {
   readonly number: number;
   readonly startS: number;
@@ -30,24 +30,26 @@ export interface InFlight {
   readonly index: number;
 }
 
-/** An answer later than this after the write means that the board's queue was full. Board seconds. */
+/**
+ * A reply that comes later than this after the write means that the board's queue was full. Board seconds.
+ */
 const WAITED_S = 0.02;
-/** How long an estimate of the board's time may be ahead of what it acknowledges. */
+/** How far the estimate of the board's time may be ahead of its acknowledgements. Board seconds. */
 const ACK_SLACK_S = 0.05;
 
-/** Commands remembered that should be over: some more than a board can still have. */
+/** Number of finished commands to remember: more than a board can still hold. */
 const KEPT_COUNT = 64;
 
 export class BoardTimeline {
-  /** Where the last command written ends. */
+  /** Board time at which the last written command ends. */
   endS = 0;
   private readonly pace = new BoardPace();
   private flight: InFlight[] = [];
-  /** Those before them. */
+  /** The commands before those in `flight`. */
   private readonly over: InFlight[] = [];
   private writtenCount = 0;
   private ackedCount = 0;
-  /** The command that polls find executing, and since when. */
+  /** The number of the command that polls report as executing, and since when. */
   private executing = -1;
   private executingSinceS = 0;
 
@@ -58,21 +60,21 @@ export class BoardTimeline {
   ) {}
 
   /**
-   * Estimated board time. Where an answer is overdue, the board may not have got that command at all: then it plays
-   * what it has acknowledged and stops there.
+   * Estimated board time. If a reply is overdue, the board may not have received that command: then it plays
+   * the acknowledged commands and stops there.
    */
   boardS(): number {
     const nowS = this.clock.nowS();
     const estimateS = Math.min(this.pace.boardS(nowS), this.endS);
     const unacked = this.entry(this.ackedCount);
     if (!unacked || nowS - unacked.writtenS < WAITED_S) return estimateS;
-    // Number n without an answer may also mean that the queue before it is full: n − depth has not begun.
+    // Command n without a reply may also mean that the queue before it is full: then n − depth has not begun.
     const blocked = this.entry(this.ackedCount - this.queueDepth);
     const begunS = blocked ? blocked.startS + ACK_SLACK_S : Infinity;
     return Math.min(estimateS, begunS, unacked.startS);
   }
 
-  /** Commands written and not known to be over. */
+  /** Number of written commands not known to be over. */
   get count(): number {
     return this.flight.length;
   }
@@ -81,20 +83,20 @@ export class BoardTimeline {
     return this.flight[0];
   }
 
-  /** The command under way at a board time; undefined after the last one. */
+  /** The command that runs at a board time; undefined after the last one. */
   at(boardS: number): InFlight | undefined {
-    // An overdue answer takes the estimate back: what seemed to be over may not be.
+    // An overdue reply moves the estimate back, so a command that seemed to be over may still be running.
     return this.recent().find((entry) => boardS < entry.endS);
   }
 
-  /** The longest that the board can rightly keep silent: its queue frees a place when a command ends. */
+  /** Max time that the board may take to reply: its queue frees a slot when a command ends. */
   longestS(): number {
     let longestS = 0;
     for (const entry of this.flight) longestS = Math.max(longestS, entry.endS - entry.startS);
     return longestS;
   }
 
-  /** A command is written that runs in [startS, endS]. Returns how long the board has stood dry before it, s. */
+  /** A command that runs in [startS, endS] was written. Returns the underrun before it, seconds. */
   written(stream: CommandStream, index: number, startS: number, endS: number): number {
     const nowS = this.clock.nowS();
     const dryS = this.pace.written(startS, nowS);
@@ -104,7 +106,7 @@ export class BoardTimeline {
     return dryS;
   }
 
-  /** The next command is acknowledged: the one that left its place in the queue has begun. */
+  /** The next command was acknowledged, so the command that freed its slot in the queue has begun. */
   acknowledged(): void {
     const nowS = this.clock.nowS();
     const entry = this.entry(this.ackedCount);
@@ -113,7 +115,10 @@ export class BoardTimeline {
     if (entry && begun) this.pace.acknowledged(begun.startS, nowS, nowS - entry.writtenS > WAITED_S);
   }
 
-  /** The board says how many commands wait: that puts the time line right from both sides. True: it is stuck. */
+  /**
+   * The board reports how many commands wait, which bounds its time from both sides. Returns true
+   * if it is stuck.
+   */
   waiting(count: number): boolean {
     const nowS = this.clock.nowS();
     const executing = this.entry(this.ackedCount - 1 - count);
@@ -136,12 +141,12 @@ export class BoardTimeline {
     if (this.over.length > 2 * KEPT_COUNT) this.over.splice(0, this.over.length - KEPT_COUNT);
   }
 
-  /** The commands written last, those in flight and some that should be over. */
+  /** The last commands written: those in flight and some that should be over. */
   recent(): readonly InFlight[] {
     return [...this.over, ...this.flight];
   }
 
-  /** One of the commands written last, by its number. */
+  /** One of the last commands written, by its number. */
   private entry(number: number): InFlight | undefined {
     const firstNumber = this.flight[0]?.number ?? this.writtenCount;
     return number < firstNumber

@@ -1,8 +1,8 @@
 /**
- * The board behind its parser: motors, pen and the motion queue, as events in ticks.
+ * The virtual board without its parser: motors, pen and motion queue, as events in ticks.
  *
- * One order runs, up to `fifoDepth` wait. An order that waited begins at the very tick at which the one
- * before it ends; one that comes later begins when it comes, and if the pen was moving that gap is an underrun.
+ * One order runs and up to `fifoDepth` wait. A waiting order begins exactly when the previous one ends. An
+ * order that arrives later begins on arrival, and if the pen was moving, the gap is an underrun.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
@@ -12,7 +12,7 @@ import { DrawnLine, type DrawnPolyline } from "./drawn-line.js";
 import { RunningMove, type Order } from "../model/orders.js";
 import { Servo } from "./servo.js";
 
-/** Below this a motor that stops between two commands has not been interrupted. */
+/** A gap after a slower move does not count as an underrun. */
 const MOVING_MM_PER_S = 1;
 const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
@@ -25,18 +25,18 @@ export interface BoardStatistics {
   /** Seconds in moves, pen waits and delays. */
   readonly busyS: number;
   readonly penMoveCount: number;
-  /** Times the queue ran dry while the pen was moving, and for how long it stood. */
+  /** Number of times that the queue ran empty while the pen was moving, and the total time. */
   readonly underrunCount: number;
   readonly underrunS: number;
   readonly longestUnderrunS: number;
-  /** Largest change of velocity from one move to the next, rest included. */
+  /** Max change of velocity between consecutive moves, starts from rest included. */
   readonly largestJumpMmPerS: number;
-  /** Longest time that one motor of a step-limited move stood while the other went on. */
+  /** Max time that one motor of a step-limited move waited for the other. */
   readonly longestMotorWaitS: number;
   /** mm moved with the pen down, by motor path. */
   readonly drawnMm: number;
   readonly travelMm: number;
-  /** Moves that began while the pen's servo was still on its way. */
+  /** Number of moves that began while the pen's servo was still moving. */
   readonly movesBeforePenArrivedCount: number;
 }
 
@@ -48,15 +48,15 @@ interface Running {
 }
 
 export class BoardCore {
-  /** Board time in ticks of 40 µs; not always whole, since commands arrive when they do. */
+  /** Board time in ticks of 40 µs. May be fractional, because commands arrive at any time. */
   nowTick = 0;
   steps1 = 0;
   steps2 = 0;
   acc1 = 0;
   acc2 = 0;
-  /** What the board says of its pen; it knows only the standard output. */
+  /** The pen state that the board reports; it only tracks the standard output. */
   penUp = true;
-  /** EM modes 1 … 5, 0 = off. */
+  /** EM modes 1 … 5; 0: off. */
   mode1 = 0;
   mode2 = 0;
   lastMode = 1;
@@ -69,16 +69,16 @@ export class BoardCore {
   servoUsed = false;
   readonly fifo: Order[] = [];
 
-  /** Where the pen really is. */
+  /** The actual pen state. */
   private isLifted = true;
   private running: Running | null = null;
   private servo = new Servo(BOOT_SERVO_UP);
   private line: DrawnLine | null;
-  /** Since when the motion stands still (a fault); null while it runs. */
+  /** When the motion froze (a simulated fault); null while it runs. */
   private frozenTick: number | null = null;
-  /** False: moves take their time and make no step (a fault). */
+  /** False: moves take their time but make no steps (a simulated fault). */
   private makesSteps = true;
-  /** False: steps are counted, but the motors do not turn (no supply), so nothing is drawn. */
+  /** False: steps are counted, but the motors do not turn (no motor supply), so nothing is drawn. */
   private turnsMotors = true;
   private readonly totals = {
     moveCount: 0,
@@ -94,7 +94,7 @@ export class BoardCore {
     travelMm: 0,
     movesBeforePenArrivedCount: 0,
   };
-  /** How the last move ended; null once anything but a move came after it. */
+  /** End tick and end rates of the last move; null if any other order came after it. */
   private lastMove: { endTick: number; v1: number; v2: number } | null = null;
 
   constructor(
@@ -113,12 +113,12 @@ export class BoardCore {
     return this.running === null || this.fifo.length < this.fifoDepth;
   }
 
-  /** Tick of the running order's end; Infinity when nothing runs or it never ends. */
+  /** Tick at which the running order ends; Infinity if nothing runs or it never ends. */
   get nextEventTick(): number {
     return this.frozenTick === null ? (this.running?.endTick ?? Infinity) : Infinity;
   }
 
-  /** Whether the running order stands still, neither moving nor ending. Later it goes on where it stood. */
+  /** Freezes the running order: it neither moves nor ends. When unfrozen it continues where it was. */
   setFrozen(isFrozen: boolean): void {
     if (isFrozen === (this.frozenTick !== null)) return;
     if (isFrozen) {
@@ -134,13 +134,13 @@ export class BoardCore {
     this.frozenTick = null;
   }
 
-  /** Whether moves make steps, or pass without any. */
+  /** Sets whether moves make steps. */
   setMakesSteps(makesSteps: boolean): void {
     this.splitRunning();
     this.makesSteps = makesSteps;
   }
 
-  /** Whether the motors follow the steps that are counted. */
+  /** Sets whether the motors follow the counted steps. */
   setTurnsMotors(turnsMotors: boolean): void {
     if (turnsMotors === this.turnsMotors) return;
     this.splitRunning();
@@ -148,7 +148,7 @@ export class BoardCore {
     this.line?.begin(!this.isLifted, ...this.stepsNow());
   }
 
-  /** Where on its way the running order is. */
+  /** The current tick for the running order; stands still while frozen. */
   private get motionTick(): number {
     return this.frozenTick === null
       ? this.nowTick
@@ -160,7 +160,7 @@ export class BoardCore {
     else this.fifo.push(order);
   }
 
-  /** The running order has ended (at `nowTick`); the next begins. */
+  /** Ends the running order (at `nowTick`) and starts the next. */
   finishRunning(): void {
     const running = this.running;
     if (running === null) return;
@@ -170,7 +170,7 @@ export class BoardCore {
     if (next !== undefined) this.start(next);
   }
 
-  /** ES. Returns whether moves were lost, and what was left of them. */
+  /** ES. Returns whether moves were dropped, and the steps that were left of them. */
   stop(): {
     hit: boolean;
     waiting1: number;
@@ -180,7 +180,7 @@ export class BoardCore {
   } {
     const running = this.running;
     const { arithmetic, stopEndsTimed } = this.features;
-    // Before firmware 3 the pen's moves and delays go on.
+    // Before firmware 3, pen moves and delays continue.
     const isStoppable = (order: Order): boolean =>
       arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !order.isTimed));
     let hit = false;
@@ -213,7 +213,7 @@ export class BoardCore {
     };
   }
 
-  /** Step counters at this instant. */
+  /** The current step counters. */
   stepsNow(): [number, number] {
     const { running } = this;
     if (running === null || running.move === null || !this.makesSteps) return [this.steps1, this.steps2];
@@ -224,7 +224,7 @@ export class BoardCore {
     return [this.steps1 + net1, this.steps2 + net2];
   }
 
-  /** CS, and EM on every firmware; the running move goes on. */
+  /** CS, and EM on every firmware. The running move continues. */
   clearSteps(clearAccumulators: boolean): void {
     this.splitRunning(() => {
       this.steps1 = this.steps2 = 0;
@@ -237,7 +237,7 @@ export class BoardCore {
     const running = this.running;
     if (running === null || running.move === null) return [false, false];
     const tick = this.motionTick - running.startTick;
-    // Timed moves keep their ticks in motor 1's step field, so only its flag shows, whichever runs.
+    // The firmware stores a timed move's ticks in motor 1's step field, so only that motor's flag is set.
     if (running.move.order.isTimed) return [true, false];
     return [tick < running.move.motion1.ticks, tick < running.move.motion2.ticks];
   }
@@ -251,7 +251,7 @@ export class BoardCore {
     return this.servo.positionAt(this.nowTick);
   }
 
-  /** The real pen goes up or down: a new stroke, or the end of one. */
+  /** The actual pen goes up or down, which ends or starts a stroke. */
   liftPen(up: boolean): void {
     if (up === this.isLifted) return;
     this.isLifted = up;
@@ -267,7 +267,9 @@ export class BoardCore {
     this.clearSteps(this.features.enableClearsAccumulators);
   }
 
-  /** The same board after a reset: boot defaults, queue and counters lost, time and drawn line kept. */
+  /**
+   * The same board after a reset: boot defaults; queue and counters are lost, time and drawn line are kept.
+   */
   rebooted(): BoardCore {
     const running = this.running;
     if (running !== null) this.settle(running, this.motionTick);
@@ -281,9 +283,9 @@ export class BoardCore {
     return fresh;
   }
 
-  /** What was drawn until now, the running move included. */
+  /** The line drawn so far, including the running move. */
   drawn(): DrawnPolyline[] {
-    // The line is sampled as orders end: settle the part that is done, then go on from there.
+    // The line is sampled when orders end: settle the finished part, then continue from there.
     this.splitRunning();
     return this.line?.polylines() ?? [];
   }
@@ -339,7 +341,7 @@ export class BoardCore {
     this.running = { order, startTick: this.nowTick, endTick: this.nowTick + move.ticks, move };
   }
 
-  /** Gap and jump between the last move and this one. */
+  /** Records the gap and the velocity jump between the last move and this one. */
   private noteJoint(move: RunningMove): void {
     const { totals } = this;
     let before = this.lastMove;
@@ -364,10 +366,10 @@ export class BoardCore {
     return Math.hypot(xFromMotors(this.machine, s1, s2), yFromMotors(this.machine, s1, s2));
   }
 
-  /** Takes over what a running order has done up to `tick`. */
+  /** Applies what a running order has done up to `tick`. */
   private settle(running: Running, tick: number): void {
     const { move } = running;
-    // The difference of two late times is not exactly the whole ticks of the move.
+    // At large tick values, the floating-point difference may not equal the move's whole ticks.
     const isOver = move !== null && tick >= running.endTick;
     const ticks = isOver ? move.ticks : Math.max(0, Math.min(tick, running.endTick) - running.startTick);
     this.totals.busyTicks += ticks;
@@ -395,7 +397,7 @@ export class BoardCore {
     };
   }
 
-  /** Takes over what a running move has done, lets something be changed, and goes on with the rest of it. */
+  /** Applies what a running move has done, calls `change`, and continues with the rest of the move. */
   private splitRunning(change: () => void = () => undefined): void {
     const { running } = this;
     if (running === null || running.move === null) {

@@ -1,6 +1,6 @@
 /**
- * The line that the virtual board has drawn: where both motors stood, sampled closely enough
- * that the straight connection of two samples is never further from the true path than a microstep.
+ * The line that the virtual board has drawn: positions of both motors, sampled so closely that the straight
+ * line between two samples is never further than a microstep from the true path.
  */
 import type { AxisPlace } from "../model/accumulator.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
@@ -8,7 +8,7 @@ import type { MachineProfile } from "../../../machines/profile.js";
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import type { RunningMove } from "../model/orders.js";
 
-/** A sample at least every so many microsteps of the faster motor. */
+/** Max microsteps of the faster motor between samples. */
 const SAMPLE_STEPS = 4;
 
 export interface DrawnPolyline {
@@ -20,7 +20,7 @@ export interface DrawnPolyline {
 export class DrawnLine {
   private points = new Int32Array(1024);
   private pointCount = 0;
-  /** First point of each polyline, and whether the pen was down. */
+  /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
   private readonly downs: boolean[] = [];
   private readonly place1: AxisPlace = { net: 0, acc: 0 };
@@ -34,7 +34,7 @@ export class DrawnLine {
     this.add(0, 0);
   }
 
-  /** The pen was lifted or dropped where the carriage stands, or the counters were set anew. */
+  /** Starts a new polyline: the pen was lifted or lowered, or the counters were reset. */
   begin(penDown: boolean, steps1: number, steps2: number): void {
     const isEmpty = this.pointCount - this.firsts[this.firsts.length - 1]! < 2;
     if (isEmpty && !this.downs[this.downs.length - 1]!) {
@@ -47,7 +47,7 @@ export class DrawnLine {
     this.add(steps1, steps2);
   }
 
-  /** Adds what a move has drawn in its first `ticks` ticks, begun at these step counts. */
+  /** Adds the line of a move's first `ticks` ticks, starting at these step counts. */
   addMove(move: RunningMove, ticks: number, steps1: number, steps2: number): void {
     const end = Math.min(ticks, Math.max(move.motion1.ticks, move.motion2.ticks));
     const stride = sampleTicks(move, end);
@@ -84,7 +84,7 @@ export class DrawnLine {
     this.add(steps1 + this.place1.net, steps2 + this.place2.net);
   }
 
-  /** Points that change nothing (a rest, or straight on) are not kept. */
+  /** Adds a point. Drops points that do not change the line (no motion, or straight on). */
   private add(m1: number, m2: number): void {
     const first = this.firsts[this.firsts.length - 1]!;
     const n = this.pointCount;

@@ -1,4 +1,4 @@
-/** Bytes on their way into the board: cut into lines, each with the tick at which its end arrives. */
+/** Received bytes, split into lines, each with the tick at which its end arrives. */
 const CR = 13;
 const LF = 10;
 const BACKSPACE = 8;
@@ -17,10 +17,10 @@ export class InputLines {
   private partialBytes = 0;
   private lastWasCr = false;
   private lastArrivalTick = 0;
-  /** Received and not parsed yet. */
+  /** Number of bytes received and not parsed yet. */
   byteCount = 0;
 
-  /** `ticksPerByte`: 0 for a line that is fast enough not to matter. */
+  /** `ticksPerByte`: 0 for a connection whose speed does not matter. */
   receive(bytes: Uint8Array, nowTick: number, ticksPerByte: number): void {
     for (const byte of bytes) {
       this.lastArrivalTick = Math.max(this.lastArrivalTick + ticksPerByte, nowTick);
@@ -38,7 +38,7 @@ export class InputLines {
     }
   }
 
-  /** Tick at which the next line is complete; Infinity when there is none. */
+  /** Tick at which the next line is complete; Infinity if there is none. */
   get nextArrivalTick(): number {
     return this.lines[this.head]?.arrivalTick ?? Infinity;
   }

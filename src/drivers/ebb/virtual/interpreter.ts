@@ -1,8 +1,9 @@
 /**
- * The board's commands: one table from name to what it does, and the bytes with which it answers.
+ * The board's commands: a table of handlers by name, and the replies.
  *
- * A command is answered when it has been taken (queued, or done where it acts at once). One that has to wait
- * (full queue, CU,4 and HM until all is still) blocks everything behind it, as the board's parser does.
+ * A command is answered when it has been queued, or done if it acts at once. A command that has to
+ * wait (for room in the queue; CU,4 and HM for the motors to stop) blocks everything behind it, as
+ * in the board's parser.
  */
 import { commandName, replyShape } from "../protocol/replies.js";
 import { compareFirmware } from "../protocol/firmware.js";
@@ -15,29 +16,29 @@ import { TICKS_PER_S } from "../../../units.js";
 
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
-/** SP moves the servo on RB1; others go by S2. */
+/** SP moves the servo on RB1; S2 moves others. */
 const STANDARD_PIN = 4;
 const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
 /** What a command does once it is parsed. */
 interface Action {
-  /** Orders for the queue, each taken as soon as there is room. */
+  /** Orders for the queue, each added as soon as there is room. */
   readonly orders?: readonly Order[];
-  /** Waits until nothing runs, then does this. */
+  /** Called once nothing runs any more. */
   readonly whenIdle?: () => readonly Order[];
-  /** Values to answer; read when the command is answered. */
+  /** The values of the reply, read when the command is answered. */
   readonly values?: () => string;
-  /** No answer at all. */
+  /** No reply at all. */
   readonly isSilent?: boolean;
-  /** Exactly these bytes. */
+  /** The reply is exactly this text. */
   readonly raw?: string;
-  /** After the answer. */
+  /** Called after the reply. */
   readonly then?: () => void;
 }
 
 type Handler = (parameters: Parameters) => Action;
 
-/** Switches of the board that outlive a command but not a reset. */
+/** Settings of the board that last until a reset. */
 interface Switches {
   future: boolean;
   sendsOk: boolean;
@@ -46,9 +47,9 @@ interface Switches {
 
 export interface InterpreterHooks {
   readonly send: (text: string) => void;
-  /** R: boot defaults, the USB line stays. */
+  /** R: restores boot defaults; the USB connection stays open. */
   readonly reset: () => void;
-  /** RB, BL: the USB line drops. */
+  /** RB, BL: the USB connection drops. */
   readonly restart: () => void;
 }
 
@@ -69,12 +70,12 @@ export class Interpreter {
     this.handlers = this.commands();
   }
 
-  /** A command waits for room or rest; nothing more is parsed until it is through. */
+  /** A command waits for room or for the motors to stop. Nothing else is parsed until it is done. */
   get isBlocked(): boolean {
     return this.blocked !== null;
   }
 
-  /** Parses one line (without its end) and does what it says. */
+  /** Parses and executes one line (without its line end). */
   run(line: string): void {
     if (line.length > MAX_LINE_BYTES) {
       this.sendError("", new BoardFault(3, "Err: RX Buffer overrun"));
@@ -98,7 +99,7 @@ export class Interpreter {
     }
   }
 
-  /** Called whenever the queue has moved on. */
+  /** Called whenever the queue has advanced. */
   resume(): void {
     const { blocked, core } = this;
     if (blocked === null) return;
@@ -208,7 +209,7 @@ export class Interpreter {
   private enable(p: Parameters): Action {
     const mode1 = p.uint(5);
     if (!p.hasMore) {
-      // One argument: firmware from 2.8 on reads it and does nothing.
+      // Firmware 2.8 and newer ignores EM with one argument.
       return this.core.features.enableIsQueued
         ? { isSilent: !this.switches.future, raw: "EM" }
         : this.done(() => this.core.enableMotors(mode1, null));
@@ -262,7 +263,7 @@ export class Interpreter {
     };
   }
 
-  /** SP,3: waiting pen-down orders go up too, and down means up from now on. */
+  /** SP,3: waiting pen-down orders lift the pen instead, and the down height becomes the up height. */
   private liftForGood(): void {
     const { core } = this;
     core.servoDown = core.servoUp;
@@ -281,7 +282,7 @@ export class Interpreter {
     const rate = p.optionalUint(0, MS16);
     const delayMs = p.optionalUint(0, MS16);
     if (position === 0) return {};
-    // On the standard output, the board takes the pen for up only at exactly the height of SC,4.
+    // On the standard output, the board treats the pen as up only at exactly the height of SC,4.
     const penUp = pin === STANDARD_PIN ? position === this.core.servoUp : null;
     return {
       orders: [

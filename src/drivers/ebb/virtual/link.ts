@@ -1,4 +1,6 @@
-/** The host's end of an in-process line to the virtual board, with the system's buffer in between. */
+/**
+ * The host's end of an in-process connection to the virtual board, including the operating system's buffer.
+ */
 import { PlotwrightError } from "../../../errors.js";
 import type { Transport } from "../../transport.js";
 
@@ -11,7 +13,9 @@ interface LinkTarget {
 interface OutboxEntry {
   readonly bytes: Uint8Array;
   taken: number;
-  /** When the host wrote it: it waits in the system's buffer, so it is at hand the moment the board reads. */
+  /**
+   * When the host wrote it. It waits in the system's buffer, so it is available as soon as the board reads.
+   */
   readonly tick: number;
   readonly resolve: () => void;
   readonly reject: (error: Error) => void;
@@ -34,7 +38,7 @@ export class VirtualLink implements Transport {
   write(bytes: Uint8Array): Promise<void> {
     if (this.closed) {
       return Promise.reject(
-        new PlotwrightError("disconnected", "The virtual board's line is closed: open it again."),
+        new PlotwrightError("disconnected", "The connection to the virtual board is closed: open it again."),
       );
     }
     return new Promise((resolve, reject) => {
@@ -56,12 +60,14 @@ export class VirtualLink implements Transport {
     return Promise.resolve();
   }
 
-  /** Ends the line; `error` says why, undefined after a plain close. */
+  /** Closes the connection. `error` is the reason; undefined for a plain close. */
   drop(error?: Error): void {
     if (this.closed) return;
     this.closed = true;
     for (const entry of this.outbox.splice(0)) {
-      entry.reject(error ?? new PlotwrightError("disconnected", "The line was closed before this was sent."));
+      entry.reject(
+        error ?? new PlotwrightError("disconnected", "The connection was closed before this was sent."),
+      );
     }
     this.closeListener?.(error);
   }
@@ -70,7 +76,7 @@ export class VirtualLink implements Transport {
     if (!this.closed) this.dataListener?.(bytes);
   }
 
-  /** Hands over packets while the board reads; a write counts as taken once the rest fits into the system's buffer. */
+  /** Delivers packets while the board reads. A write resolves once its rest fits into the system's buffer. */
   pump(): void {
     if (this.isPumping) return;
     this.isPumping = true;

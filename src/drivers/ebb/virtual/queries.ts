@@ -1,8 +1,8 @@
-/** The values with which the board answers queries, as each firmware writes them. */
+/** The values of the board's replies to queries, as each firmware formats them. */
 import { compareFirmware } from "../protocol/firmware.js";
 import type { BoardCore } from "./core.js";
 
-/** Things outside the motion queue that queries read. */
+/** State outside the motion queue that queries report. */
 export interface BoardInputs {
   buttonLatched: boolean;
   buttonDown: boolean;
@@ -30,7 +30,7 @@ export const factoryInputs = (): BoardInputs => ({
   servoTimeoutMs: 60_000,
 });
 
-/** What a reset leaves: the name in flash, and what is outside the board. */
+/** What survives a reset: the name in flash memory, and inputs from outside the board. */
 export const inputsAfterReset = ({ name, motorVolts, buttonDown }: BoardInputs): BoardInputs => ({
   ...factoryInputs(),
   name,
@@ -88,7 +88,7 @@ export class BoardQueries {
     return `${divisor(this.core.mode1)},${divisor(this.core.mode2)}`;
   }
 
-  /** Firmware before 3 pads numbers with zeros. */
+  /** Firmware before 3.0 pads numbers with zeros. */
   padded(value: number, digits: number): string {
     return this.isFrom("3.0.0") ? `${value}` : `${value}`.padStart(digits, "0");
   }
@@ -98,7 +98,7 @@ export class BoardQueries {
   }
 }
 
-/** Reading of the motor supply: through a divider of 9.2 and a diode, 1023 = 3.3 V. */
+/** A/D reading of the motor supply: behind a diode and a divider of 9.2; 1023 = 3.3 V. */
 export function supplyReading(volts: number): number {
   return Math.max(0, Math.min(1_023, Math.round((((volts - 0.3) / 9.2) * 1_023) / 3.3)));
 }

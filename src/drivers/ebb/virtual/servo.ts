@@ -1,4 +1,4 @@
-/** The pen's servo: goes to its target at a set rate, as the board's 24 ms frames move it. */
+/** The pen's servo: moves to its target at a set rate, in the board's 24 ms frames. */
 const FRAME_TICKS = 600;
 
 export class Servo {
@@ -12,7 +12,7 @@ export class Servo {
     this.target = position;
   }
 
-  /** `rate`: change a frame; 0 = at once. */
+  /** `rate`: change per frame; 0: at once. */
   moveTo(position: number, rate: number, tick: number): void {
     this.from = this.positionAt(tick);
     this.target = position;
@@ -29,7 +29,7 @@ export class Servo {
       : this.from + Math.sign(way) * Math.max(0, frames) * this.rate;
   }
 
-  /** Tick at which it has reached its target. */
+  /** Tick at which it reaches its target. */
   get arrivalTick(): number {
     if (this.rate === 0) return this.startTick;
     return this.startTick + Math.ceil(Math.abs(this.target - this.from) / this.rate) * FRAME_TICKS;

@@ -1,9 +1,9 @@
 /**
- * An EiBotBoard in software: bytes in, bytes out, on a clock; step-exact.
+ * A step-exact simulation of an EiBotBoard: bytes in, bytes out, on a clock.
  *
- * Discrete events in board ticks (40 µs): an order ends, a line arrives. Every event happens at its own tick
- * however late the clock calls, so timers of a millisecond cost nothing in exactness; only what depends on
- * the host (when bytes come) depends on the clock.
+ * Discrete events in board ticks (40 µs): an order ends, a line arrives. Every event is processed at its own
+ * tick, however late the timer fires, so millisecond timers do not reduce accuracy. Only the arrival of bytes
+ * from the host depends on the clock.
  *
  *   host ──write──> system buffer ──64-byte packets──> parser ──> queue (1 … 32) ──> motors, pen
  *                   (waits while the parser is blocked by a full queue)
@@ -26,24 +26,24 @@ import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 export type { BoardStatistics } from "./core.js";
 export type { DrawnPolyline } from "./drawn-line.js";
 
-/** Below this the motors do not turn. */
+/** Min supply voltage at which the motors turn. */
 const LEAST_MOTOR_VOLTS = 7;
 
 export interface VirtualBoardOptions {
   readonly clock: Clock;
   /** Default "2.8.1". */
   readonly firmware?: string;
-  /** Board seconds a clock second. Infinity: every move is over as soon as it is sent. Default 1. */
+  /** Board seconds per clock second. Infinity: every move is over as soon as it is sent. Default 1. */
   readonly speed?: number;
   /** Default AxiDraw V3. */
   readonly machine?: MachineProfile;
-  /** Keep the drawn line. Default true. */
+  /** Record the drawn line. Default true. */
   readonly recordLine?: boolean;
-  /** Board time that parsing a command takes. Default 0. */
+  /** Board time to parse a command. Default 0. */
   readonly parseMs?: number;
-  /** Bytes that may wait unparsed before the board stops reading. Default 256. */
+  /** Max unparsed bytes before the board stops reading. Default 256. */
   readonly inputBytes?: number;
-  /** Bytes that the host's system takes from `transport()` beyond that. Default 4096. */
+  /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
 }
 
@@ -54,13 +54,13 @@ export interface VirtualBoardState {
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
-  /** Where the servo is just now. */
+  /** Current servo position. */
   readonly penPct: number;
   readonly motorsOn: boolean;
   readonly isBusy: boolean;
-  /** Orders that wait behind the running one. */
+  /** Number of orders waiting behind the running one. */
   readonly waitingCount: number;
-  /** Board seconds since it was made. */
+  /** Board seconds since the virtual board was created. */
   readonly boardS: number;
 }
 
@@ -107,14 +107,17 @@ export class VirtualBoard {
     this.interpreter = this.makeInterpreter();
   }
 
-  // The byte side, for whoever carries the bytes (a pseudo-terminal, a test).
+  // Byte interface, for a pseudo-terminal or a test.
 
-  /** Bytes from the host. They are never refused; mind `accepting` to behave as USB does. */
+  /** Takes bytes from the host. Never refuses them; check `accepting` to behave like USB. */
   receive(bytes: Uint8Array): void {
     this.take(bytes, this.clockTick());
   }
 
-  /** False while so much waits unparsed that the board does not read: stop, and go on at `onDrain`. */
+  /**
+   * False while too much input is unparsed for the board to read more: stop sending,
+   * and continue at `onDrain`.
+   */
   get accepting(): boolean {
     return this.input.byteCount < this.inputLimit;
   }
@@ -123,22 +126,22 @@ export class VirtualBoard {
     this.sendListeners.push(listener);
   }
 
-  /** Called when the board reads again. */
+  /** Calls `listener` when the board reads again. */
   onDrain(listener: () => void): void {
     this.drainListeners.push(listener);
   }
 
-  /** Called after anything happened: a command, the end of a move. */
+  /** Calls `listener` after any event: a command, the end of a move. */
   onChange(listener: () => void): void {
     this.changeListeners.push(listener);
   }
 
-  /** Called when the USB line drops: RB, BL, `unplug()`, `resetByPower()`. */
+  /** Calls `listener` when the USB connection drops: RB, BL, `unplug()`, `resetByPower()`. */
   onDrop(listener: () => void): void {
     this.dropListeners.push(listener);
   }
 
-  /** A host's end of the line. Opening another closes the one before. */
+  /** Opens the host's end of the connection. Opening another closes the previous one. */
   transport(): Transport {
     this.link?.drop(new PlotwrightError("disconnected", "Another program has opened the virtual board."));
     this.input.clear();
@@ -150,9 +153,9 @@ export class VirtualBoard {
     return this.link;
   }
 
-  // What it has done.
+  // State and results.
 
-  /** The line drawn so far, mm from home: one polyline from each pen move to the next. */
+  /** The line drawn so far, mm from home: one polyline between consecutive pen moves. */
   drawn(): DrawnPolyline[] {
     this.run();
     return this.core.drawn();
@@ -182,7 +185,7 @@ export class VirtualBoard {
     return this.core.statistics();
   }
 
-  // What may happen to a board.
+  // Simulated events and faults.
 
   pressButton(): void {
     this.inputs.buttonLatched = true;
@@ -194,8 +197,8 @@ export class VirtualBoard {
   }
 
   /**
-   * 0 = switched off, about 5 = fed by USB alone: the board counts its steps, and the motors stand. Below the threshold
-   * set by CU,60 the board remembers it.
+   * 0: switched off; about 5: powered by USB alone. With too low a voltage the board counts steps, but the
+   * motors do not turn. A voltage below the threshold set by CU,60 sets the power-lost flag.
    */
   setMotorVolts(volts: number): void {
     const { inputs } = this;
@@ -207,27 +210,30 @@ export class VirtualBoard {
     }
   }
 
-  /** It answers, but its motion stands still: what runs never ends and what waits never begins, until false. */
+  /**
+   * While true, the board answers, but its motion is frozen: the running order never ends,
+   * waiting ones never start.
+   */
   setFrozen(isFrozen: boolean): void {
     this.run();
     this.core.setFrozen(isFrozen);
     this.run();
   }
 
-  /** It takes moves and spends their time, but its step counters (and motors) stand still, until false. */
+  /** While true, moves take their time, but the step counters (and motors) stand still. */
   setMotionless(isMotionless: boolean): void {
     this.run();
     this.core.setMakesSteps(!isMotionless);
     this.run();
   }
 
-  /** Takes everything in and answers nothing, until called with false. */
+  /** While true, the board accepts everything and answers nothing. */
   setMute(isMute: boolean): void {
     this.isMute = isMute;
     if (!isMute) this.run();
   }
 
-  /** Sends bytes that belong to no answer. */
+  /** Sends bytes that belong to no reply. */
   sendGarbage(bytes: Uint8Array): void {
     this.sendBytes(bytes);
   }
@@ -236,7 +242,7 @@ export class VirtualBoard {
     this.repliesToLose += count;
   }
 
-  /** One letter of the next command is changed on the line, so the board refuses it. */
+  /** Corrupts one character of the next command, so that the board refuses it. */
   refuseNext(): void {
     this.refusesNext = true;
   }
@@ -246,25 +252,25 @@ export class VirtualBoard {
     this.ticksPerByte = Number.isFinite(bytesPerS) ? TICKS_PER_S / bytesPerS : 0;
   }
 
-  /** The cable comes out: the line drops, the board (which lives on the motor supply) finishes what it holds. */
+  /** Unplugs the cable: the connection drops. The board, powered by the motor supply, finishes its queue. */
   unplug(): void {
     this.dropLine("The virtual board was unplugged.");
   }
 
-  /** The supply fails for a moment: counters and queue are lost, and the line drops. */
+  /** The supply fails briefly: counters and queue are lost, and the connection drops. */
   resetByPower(): void {
     this.boot();
     this.dropLine("The virtual board was reset.");
   }
 
-  /** It starts anew (its logic's supply fails for a moment): counters, queue and settings are lost, the line stays. */
+  /** The logic supply fails briefly: counters, queue and settings are lost, but the connection stays open. */
   restart(): void {
     this.run();
     this.boot();
     this.run();
   }
 
-  /** For good: its time stands still, and no timer is left that would keep a process alive. */
+  /** Stops the board for good: its time stands still, and no timer keeps the process alive. */
   close(): void {
     this.isClosed = true;
     this.cancelTimer?.();
@@ -273,7 +279,7 @@ export class VirtualBoard {
     this.link = null;
   }
 
-  // Inside.
+  // Internals.
 
   private take(bytes: Uint8Array, arrivalTick: number): void {
     this.input.receive(bytes, arrivalTick, this.ticksPerByte);
@@ -292,7 +298,7 @@ export class VirtualBoard {
     });
   }
 
-  /** Boot defaults. The line drawn stays drawn. */
+  /** Restores boot defaults. The drawn line is kept. */
   private boot(): void {
     this.inputs = inputsAfterReset(this.inputs);
     this.core = this.core.rebooted();
@@ -312,7 +318,7 @@ export class VirtualBoard {
     return (this.clock.nowS() - this.startS) * this.speed * TICKS_PER_S;
   }
 
-  /** Lets everything happen that is due, in order. */
+  /** Processes all events that are due, in order. */
   private run(): void {
     if (this.isRunning) return;
     this.isRunning = true;
