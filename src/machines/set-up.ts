@@ -72,7 +72,7 @@ export function stepsPerMmMeasured(
   if (!(measuredXMm > 0 && measuredYMm > 0 && scale < MAX_SCALE && scale > 1 / MAX_SCALE && isOneSize)) {
     throw new PlotwrightError(
       "bad-setting",
-      `A ${drawnMm} mm square cannot have come out as ${measuredXMm} × ${measuredYMm} mm. Measure it again, in mm.`,
+      `A ${drawnMm} mm square cannot have come out as ${measuredXMm} × ${measuredYMm} mm: measure it again, in mm.`,
     );
   }
   return machine.stepsPerMm * scale;

@@ -126,7 +126,7 @@ describe("answers and the commands they belong to", () => {
     const all = [session.send("LT,2"), session.query("QS")];
     line.say("OK\r\n1,2\n\rOK\r\n");
     expect(await Promise.all(all)).toEqual([undefined, "1,2"]);
-    expect(lost).toEqual([expect.stringContaining("answer to QG was lost")]);
+    expect(lost).toEqual([expect.stringContaining("reply to QG was lost")]);
   });
 
   it("asks again for a value that was lost", async () => {

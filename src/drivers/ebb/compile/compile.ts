@@ -53,7 +53,7 @@ export function compile(trajectory: Trajectory, options: CompileOptions): Comman
 /** One command of a stream, without its line end. */
 export function commandLine(stream: CommandStream, index: number): string {
   if (!(index >= 0 && index < stream.count)) {
-    throw new RangeError(`command ${index} of ${stream.count}: there is none`);
+    throw new RangeError(`command ${index} does not exist: the stream has ${stream.count} commands`);
   }
   const bytes = stream.text.subarray(stream.textOffsets[index]!, stream.textOffsets[index + 1]! - 1);
   return String.fromCharCode(...bytes);
