@@ -21,6 +21,7 @@ export {
   type StrokeSet,
   type StrokeLayer,
 } from "./drawing/stroke-set.js";
+export { strokesOf, type Line } from "./drawing/lines.js";
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
@@ -120,6 +121,7 @@ export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines
 export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
 // job
+export { planSvg, type PlannedSvg, type SvgSettings } from "./job/plan-svg.js";
 export { planJob, type JobOptions, type JobSettings, type MachineJob } from "./job/plan-job.js";
 
 // ebb
@@ -157,7 +159,7 @@ export {
 export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
 export { SessionLog } from "./board/session-log.js";
 export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
-export { streamCommands } from "./board/stream-commands.js";
+export { streamCommands, type StreamProgress } from "./board/stream-commands.js";
 export { parseSteps } from "./ebb/replies.js";
 export { Streamer, type StreamOptions, type StreamReport } from "./board/streamer.js";
 export type { StreamPlace } from "./board/timeline.js";

@@ -16,8 +16,8 @@ import {
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
+import { prepareJob, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { prepareDrawing, type PreparedJob } from "../planning/stages.js";
 import type { CliIo } from "./io.js";
 import { withOnlyLayers } from "./layers.js";
 
@@ -106,7 +106,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
-  const job = prepareDrawing(drawing, settings, machine, {
+  const job = prepareJob(drawing, settings, machine, {
     onProgress: (_done, step) => {
       if (step === "ordering") orderingFrom = performance.now();
     },

@@ -2,27 +2,10 @@
  * Text to strokes to commands, as the worker and the command line run them. The machine comes in as data
  * (a profile), so custom machines need no look-up here.
  */
-import {
-  PlotwrightError,
-  checkBounds,
-  importDrawing,
-  planJob,
-  prepare,
-  prepareSettingsOf,
-  strokeCount,
-  type Drawing,
-  type MachineProfile,
-  type Prepared,
-  type Work,
-} from "../../src/index.js";
+import { importDrawing, planJob, type MachineProfile, type Prepared } from "../../src/index.js";
+import { prepareJob, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
-
-export interface PreparedJob {
-  readonly prepared: Prepared;
-  /** The file's and the paper's. Plain text. */
-  readonly warnings: readonly string[];
-}
 
 /**
  * The format is told from the content. No clock goes in: the same text and settings give the same strokes in
@@ -31,22 +14,7 @@ export interface PreparedJob {
  * Throws `bad-file` (also when nothing is left to draw), `out-of-bounds`, `bad-setting`.
  */
 export function prepareText(text: string, settings: PlotSettings, machine: MachineProfile): PreparedJob {
-  return prepareDrawing(importDrawing("", text), settings, machine);
-}
-
-export function prepareDrawing(
-  drawing: Drawing,
-  settings: PlotSettings,
-  machine: MachineProfile,
-  work: Work = {},
-): PreparedJob {
-  const prepared = prepare(drawing, prepareSettingsOf(settings), work);
-  const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
-  if (strokeCount(prepared.strokes) === 0) {
-    throw new PlotwrightError("bad-file", `There is nothing to draw. ${warnings.join(" ")}`.trim());
-  }
-  checkBounds(prepared.strokes, machine);
-  return { prepared, warnings };
+  return prepareJob(importDrawing("", text), settings, machine);
 }
 
 /** The plan of a request with its commands, as it crosses threads. */

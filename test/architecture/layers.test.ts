@@ -16,7 +16,7 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   prepare: ["drawing", "geometry", "machines", "settings", "units", "errors"],
   plan: ["prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   ebb: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  job: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  job: ["import", "ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   export: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   board: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   schema: [
