@@ -4,7 +4,15 @@
  */
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import {
+  accessSync,
+  constants,
+  existsSync,
+  mkdirSync,
+  readFileSync,
+  readdirSync,
+  writeFileSync,
+} from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -32,6 +40,9 @@ export function checkNode() {
 export function run(command, args, options = {}) {
   const result = spawnSync(command, args, { cwd: ROOT, stdio: "inherit", ...options });
   if (result.error) throw result.error;
+  // What was caught is worth reading only when it went wrong.
+  if (result.status !== 0)
+    for (const text of [result.stdout, result.stderr]) process.stderr.write(text ?? "");
   return result.status ?? 1;
 }
 
@@ -59,8 +70,21 @@ function installedIsCurrent() {
   );
 }
 
+/** Packages and the build are kept beside the sources. */
+function mustBeWritable() {
+  try {
+    accessSync(ROOT, constants.W_OK);
+  } catch {
+    giveUp(
+      `${ROOT} can't be written to, so packages and the build have no place.\n` +
+        "Change who may write there, or copy the folder to a place of your own.",
+    );
+  }
+}
+
 export function ensureDependencies() {
   if (installedIsCurrent()) return;
+  mustBeWritable();
   console.log("plotwright: installing packages (npm ci) …");
   if (runNpm(["ci", "--no-audit", "--no-fund"]) !== 0) {
     giveUp(
@@ -101,9 +125,11 @@ export function ensureBuild() {
   const stampFile = inRoot("dist", ".stamp");
   const stamp = sourceStamp();
   if (existsSync(stampFile) && readFileSync(stampFile, "utf8") === stamp) return;
+  mustBeWritable();
   console.log("plotwright: building …");
   // A test runner's NODE_ENV would bring React's development version.
-  if (runNpm(["run", "--silent", "build"], { env: { ...process.env, NODE_ENV: "production" } }) !== 0) {
+  const env = { ...process.env, NODE_ENV: "production" };
+  if (runNpm(["run", "--silent", "build"], { env, stdio: "pipe", maxBuffer: 100e6 }) !== 0) {
     giveUp(
       "the build failed; its message is above. In a checkout that you have not changed this is a fault of ours.",
     );

@@ -6,13 +6,17 @@ checkNode();
 ensureDependencies();
 ensureBuild();
 
-const server = spawn(process.execPath, ["dist/server/main.js", "serve", ...process.argv.slice(2)], {
+// The channel tells the server when this process is gone, however it ended: it lifts the pen then, and ends too.
+const server = spawn(process.execPath, ["dist/server/main.js", ...process.argv.slice(2)], {
   cwd: ROOT,
-  stdio: "inherit",
+  stdio: ["inherit", "inherit", "inherit", "ipc"],
 });
-// Ctrl-C in a terminal reaches the server by itself: sending it on would make it two. It decides how to end.
-process.on("SIGINT", () => {
-  if (!process.stdin.isTTY) server.kill("SIGINT");
-});
-process.on("SIGTERM", () => server.kill("SIGTERM"));
+const end = () => server.connected && server.disconnect();
+for (const signal of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(signal, end);
 server.on("exit", (code) => process.exit(code ?? 1));
+
+// npm tells its shell to end, not us: then we belong to another process. (Of a SIGKILL, its shell tells nobody.)
+const npm = process.ppid;
+if (process.env.npm_lifecycle_event === "start") {
+  setInterval(() => process.ppid !== npm && end(), 500).unref();
+}

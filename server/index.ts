@@ -91,7 +91,9 @@ const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
   const dataDir = options.dataDir ?? defaultDataDir();
   let book: LogBook | null = null;
-  const log = (line: string): void => {
+  const log = (text: string): void => {
+    // What others send must not steer the terminal that shows it.
+    const line = text.replace(/[^\P{Cc}\n\t]/gu, "?");
     book?.write(line);
     options.log?.(line);
   };
@@ -121,7 +123,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       serverLog: () => readLog(dataDir),
       localName: () => localName?.name ?? null,
     });
-    const http = httpServer(options.tls, app, log);
+    const http = httpServer(options.tls, app, access, log);
     await listen(
       http,
       options.port ?? DEFAULT_PORT,
@@ -245,7 +247,11 @@ function openLocalName(
     log,
     last: typeof last === "string" ? last : undefined,
     onName: (name) => {
-      if (name !== null) store.saveSetting("local-name", name);
+      try {
+        if (name !== null) store.saveSetting("local-name", name);
+      } catch (error) {
+        log(`the local name is not stored: ${(error as Error).message}`);
+      }
       hub.announce({ type: "local-name", localName: name });
     },
   });

@@ -13,7 +13,7 @@ import type { ManagedPlotter, PlotterPort } from "./queue/plotter-port.js";
 import type { PlotterRow } from "./queue/store.js";
 
 export interface DeviceChoice {
-  /** Serial path, "virtual", or nothing: the first EiBotBoard, else the virtual board. */
+  /** Serial path, "virtual", or nothing: the first EiBotBoard. */
   readonly device?: string | undefined;
   readonly virtualSpeed?: number | undefined;
 }
@@ -55,17 +55,26 @@ export function openDriven(row: PlotterRow, options: DrivenOptions): ManagedPlot
   return plotter;
 }
 
-/** One plotter, connected, for a command; throws `no-board` when it can't be. */
-export async function openPlotter(choice: DeviceChoice): Promise<PlotterPort> {
+/**
+ * One plotter, connected, for a command; throws `no-board` when it can't be. A command that draws nothing without
+ * saying so would be taken for one that worked: the virtual board has to be asked for.
+ */
+export async function openPlotter(choice: DeviceChoice, settings: PlotSettings): Promise<PlotterPort> {
   const { device = "auto", virtualSpeed } = choice;
   const plotter = new DrivenPlotter(
     { id: FIRST_PLOTTER, name: null, machine: null },
-    { device, virtualSpeed },
+    { device, virtualSpeed, virtualIfNone: false, settings },
   );
   await plotter.start();
   const { connection, message } = plotter.snapshot();
   if (connection === "idle") return plotter;
   await plotter.close();
+  if (connection === "absent" && device === "auto") {
+    throw new PlotwrightError(
+      "no-board",
+      "No plotter is plugged in: check its USB cable and its power. To try this without one, add --device virtual.",
+    );
+  }
   throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
 }
 

@@ -15,6 +15,7 @@ import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
 import { PlotwrightError } from "../src/index.js";
 import {
+  cleanName,
   DEFAULT_PLOT_SETTINGS,
   plotSettingsSchema,
   type Job,
@@ -99,11 +100,11 @@ export class WatchFolder {
       sha256 = await hashOf(path);
       if (store.isSeen({ name, sha256 })) return;
       const job = await this.#add(path, name, sha256);
-      log(`watched folder: "${name}" is queued as ${job.id}`);
+      log(`watched folder: "${job.name}" is queued as ${job.id}`);
     } catch (error) {
       const isGone = (error as NodeJS.ErrnoException).code === "ENOENT";
       if (isGone || this.#abort.signal.aborted) return;
-      const message = `"${name}" in the watched folder can't be plotted: ${words(error)}`;
+      const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
       log(message);
       // Before the notice: after a crash between the two it is told again rather than never.
       notices.add(message);
@@ -120,7 +121,7 @@ export class WatchFolder {
       throw new PlotwrightError("bad-file", "The file is empty.");
     }
     return queue.add(
-      { name: name.slice(0, 200), settings, drawing, watched: { name, sha256 } },
+      { name: cleanName(name.slice(0, 200)), settings, drawing, watched: { name, sha256 } },
       this.#abort.signal,
     );
   }

@@ -19,6 +19,7 @@ export const ERROR_CODES = [
   "not-allowed",
   "not-operator",
   "cancelled",
+  "disk-full",
   "internal",
 ] as const;
 
@@ -53,5 +54,6 @@ export const ERROR_TABLE: Readonly<
   "not-allowed": { httpStatus: 403, exitCode: 5 },
   "not-operator": { httpStatus: 409, exitCode: 5 },
   cancelled: { httpStatus: 409, exitCode: 5 },
+  "disk-full": { httpStatus: 507, exitCode: 5 },
   internal: { httpStatus: 500, exitCode: 5 },
 };

@@ -6,38 +6,46 @@ export interface CliIo {
   err(text: string): void;
   /** The user sees a terminal: a progress bar makes sense. */
   readonly isTerminal: boolean;
-  /** Called at each Ctrl-C (or SIGTERM: `isFinal`); the returned function stops listening. */
+  /** There is somebody who can type: a question makes sense. */
+  readonly hasKeyboard: boolean;
+  /**
+   * Called at each Ctrl-C; and once (`isFinal`) at SIGTERM, when the terminal is closed (SIGHUP), or when the program
+   * that started this one has ended. The returned function stops listening.
+   */
   onInterrupt(listener: (isFinal: boolean) => void): () => void;
-  /** Nothing is left to do: what keeps the process alive for longer is named, and it ends all the same. */
+  /** The process has no longer than that: what still keeps it alive then is named, and it ends all the same. */
   endWithin(ms: number): void;
   /** Called at each line typed while listening; the returned function stops it. */
   onLine(listener: (line: string) => void): () => void;
 }
 
+/** "disconnect": the parent that opened a channel to us, as `npm start` does, is gone. */
+const ENDS = ["SIGTERM", "SIGHUP", "disconnect"] as const;
+
 export function processIo(): CliIo {
-  // Whoever reads us through a pipe may have enough ("| head"): no reason to fail aloud.
-  process.stdout.on("error", (error: NodeJS.ErrnoException) => {
-    if (error.code === "EPIPE") process.exit();
-    throw error;
-  });
+  // Whoever reads us may have enough ("| head"), close the terminal, or fill the disk: a plot goes on without them.
+  for (const stream of [process.stdout, process.stderr]) stream.on("error", () => undefined);
   return {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),
     isTerminal: process.stderr.isTTY,
+    hasKeyboard: process.stdin.isTTY,
     onInterrupt: (listener) => {
       const soft = (): void => listener(false);
       const final = (): void => listener(true);
       process.on("SIGINT", soft);
-      process.on("SIGTERM", final);
+      for (const end of ENDS) process.on(end, final);
+      // Listening for the end of the parent must not keep us alive.
+      process.channel?.unref();
       return () => {
         process.off("SIGINT", soft);
-        process.off("SIGTERM", final);
+        for (const end of ENDS) process.off(end, final);
       };
     },
     endWithin: (ms) => {
       const end = (): never => {
         const open = [...new Set(process.getActiveResourcesInfo())].join(", ");
-        process.stderr.write(`plotwright: something was still open ${ms / 1000} s after the end: ${open}\n`);
+        process.stderr.write(`plotwright: something was still open after ${ms / 1000} s: ${open}\n`);
         process.exit();
       };
       setTimeout(end, ms).unref();

@@ -1,7 +1,7 @@
 /** One-off commands to the machine: pen, moves by hand, devices, machines, info. */
 import { resolve } from "node:path";
 import { importDrawing } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles } from "../machines/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
@@ -18,20 +18,20 @@ export interface DeviceOptions {
   readonly virtualSpeed?: number;
 }
 
-export interface PenOptions extends DeviceOptions {
-  readonly penUp?: number;
-  readonly penDown?: number;
-}
-
-export async function runPen(where: "up" | "down", options: PenOptions): Promise<void> {
-  const { upPct, downPct } = DEFAULT_PLOT_SETTINGS.pen;
-  const heightPct = where === "up" ? (options.penUp ?? upPct) : (options.penDown ?? downPct);
-  await withPlotter(options, (plotter) => plotter.pen(where === "up", heightPct));
+export async function runPen(
+  where: "up" | "down",
+  settings: PlotSettings,
+  options: DeviceOptions,
+): Promise<void> {
+  const { upPct, downPct } = settings.pen;
+  await withPlotter(options, settings, (plotter) =>
+    plotter.pen(where === "up", where === "up" ? upPct : downPct),
+  );
 }
 
 /** One move by hand, with the machine, speeds and heights of the settings. */
 export async function runMove(move: HandMove, settings: PlotSettings, options: DeviceOptions): Promise<void> {
-  await withPlotter(options, (plotter) => plotter.move(move, settings));
+  await withPlotter(options, settings, (plotter) => plotter.move(move, settings));
 }
 
 /** Walks around where a drawing would come to lie. */
@@ -48,8 +48,8 @@ export async function runFrame(
 }
 
 /** Motors off, so that the carriage can be put to home by hand. */
-export async function runAlign(options: DeviceOptions): Promise<void> {
-  await withPlotter(options, async (plotter) => {
+export async function runAlign(settings: PlotSettings, options: DeviceOptions): Promise<void> {
+  await withPlotter(options, settings, async (plotter) => {
     await plotter.pen(true);
     await plotter.motorsOff();
   });
@@ -71,8 +71,8 @@ export async function runDevices(io: CliIo): Promise<void> {
   io.out("virtual\tthe built-in virtual board\n");
 }
 
-export async function runInfo(options: DeviceOptions, io: CliIo): Promise<void> {
-  await withPlotter(options, (plotter) => {
+export async function runInfo(settings: PlotSettings, options: DeviceOptions, io: CliIo): Promise<void> {
+  await withPlotter(options, settings, (plotter) => {
     const { name, kind, device, firmware, penUp, motorsOn, xMm, yMm } = plotter.snapshot();
     const known = (value: unknown): string => (value === null ? "not known" : String(value));
     io.out(
@@ -91,9 +91,10 @@ export async function runInfo(options: DeviceOptions, io: CliIo): Promise<void> 
 
 export async function withPlotter<T>(
   options: DeviceOptions,
+  settings: PlotSettings,
   use: (plotter: PlotterPort) => Promise<T> | T,
 ): Promise<T> {
-  const plotter = await openPlotter(options);
+  const plotter = await openPlotter(options, settings);
   try {
     return await use(plotter);
   } finally {

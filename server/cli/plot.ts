@@ -1,6 +1,6 @@
 /**
  * `plotwright plot FILE.svg`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
- * cancels: the pen lifts and the carriage goes home.
+ * cancels: the pen lifts and the carriage goes home. Without a keyboard to go on with, the first one cancels.
  */
 import { SingleBar } from "cli-progress";
 import { resolve } from "node:path";
@@ -36,7 +36,7 @@ export async function runPlot(
     );
     try {
       planner.warnings.forEach((warning) => io.err(`note: ${warning}\n`));
-      return await withPlotter(options, async (plotter) => {
+      return await withPlotter(options, settings, async (plotter) => {
         forget();
         const code = await watch(await plotter.plot(planner, settings), io);
         await plotter.motorsOff();
@@ -90,7 +90,7 @@ class Control {
 
   interrupt(isFinal: boolean): void {
     if (this.#cancelling) return;
-    if (this.#held || isFinal) {
+    if (this.#held || isFinal || !this.#io.hasKeyboard) {
       this.#cancelling = true;
       this.#io.err("\nCancelling: the pen lifts and goes home.\n");
       this.#run.cancel().catch(this.#fail);

@@ -3,7 +3,9 @@ import { Command, CommanderError, InvalidArgumentError, Option } from "commander
 import { ERROR_TABLE, PlotwrightError } from "../../src/index.js";
 import type { HandMove } from "../plotter/hand-moves.js";
 import { runBoard, type BoardCommandOptions } from "./board.js";
+import { mustBeCommand } from "./first-word.js";
 import type { CliIo } from "./io.js";
+import { length } from "./lengths.js";
 import {
   runAlign,
   runDevices,
@@ -19,7 +21,12 @@ import { runPlot, type PlotCommandOptions } from "./plot.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import { runServe, type ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
-import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+import {
+  addSettingOptions,
+  handSettingsFromOptions,
+  settingsFromOptions,
+  type OptionValues,
+} from "./settings-options.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -30,6 +37,7 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   let exitCode = 0;
   const program = buildProgram(io, version, (code) => (exitCode = code));
   try {
+    mustBeCommand(args[0], program.commands.map((command) => command.name()).concat("help"));
     await program.parseAsync([...args], { from: "user" });
     return exitCode;
   } catch (error) {
@@ -81,14 +89,16 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
       setExitCode(await runPlot(file, settingsFromOptions(options), options, io)),
   );
 
-  addDevice(
+  addHandOptions(
     sub("pen", "lift or lower the pen").addArgument(
       program.createArgument("<where>").choices(["up", "down"]),
     ),
   )
     .option("--pen-up <percent>", "height when up", percent)
     .option("--pen-down <percent>", "height when down", percent)
-    .action((where: "up" | "down", options: OptionValues & { device?: string }) => runPen(where, options));
+    .action((where: "up" | "down", options: OptionValues & DeviceOptions) =>
+      runPen(where, handSettingsFromOptions(options), options),
+    );
   addMoves(sub);
   addService(program, io, setExitCode);
   sub("logs", "print what happened, to be sent to whoever helps")
@@ -107,8 +117,8 @@ function buildProgram(io: CliIo, version: string, setExitCode: (code: number) =>
     .option("--data <folder>", "folder for jobs and settings")
     .action((options: { data?: string }) => runMachines(options, io));
   sub("devices", "list the boards that are plugged in").action(() => runDevices(io));
-  addDevice(sub("info", "tell what the board says of itself")).action((options: { device?: string }) =>
-    runInfo(options, io),
+  addHandOptions(sub("info", "tell what the board says of itself")).action(
+    (options: OptionValues & DeviceOptions) => runInfo(handSettingsFromOptions(options), options, io),
   );
   return program;
 }
@@ -121,11 +131,11 @@ function addMoves(sub: (name: string, about: string) => Command): void {
     moveOf: (...at: number[]) => HandMove,
     names: string[] = [],
   ): void => {
-    const command = addDevice(addSettingOptions(sub(name, about)));
-    for (const one of names) command.argument(`<${one}>`, "mm", mm);
+    const command = addData(addDevice(addSettingOptions(sub(name, about))));
+    for (const one of names) command.argument(`<${one}>`, "mm, or with a unit as in 2cm", length);
     command.action((...given: unknown[]) => {
       const options = given[names.length] as DeviceOptions & OptionValues;
-      return runMove(moveOf(...(given as number[])), settingsFromOptions(options), options);
+      return runMove(moveOf(...(given as number[])), handSettingsFromOptions(options), options);
     });
   };
   move("home", "lift the pen and walk home", () => ({ kind: "home" }));
@@ -140,13 +150,13 @@ function addMoves(sub: (name: string, about: string) => Command): void {
   move("set-home", "make home where the carriage stands", () => ({ kind: "set-home" }));
   move("cycle-pen", "lower the pen and lift it again", () => ({ kind: "cycle-pen" }));
   move("test-patch", "draw a small pattern where the carriage stands", () => ({ kind: "test-patch" }));
-  addDevice(
+  addHandOptions(
     sub("align", "lift the pen and switch the motors off, to put the carriage to home by hand"),
-  ).action((options: DeviceOptions) => runAlign(options));
-  addDevice(
-    addSettingOptions(sub("frame", "go around a drawing, pen up").argument("<file>", "drawing")),
+  ).action((options: OptionValues & DeviceOptions) => runAlign(handSettingsFromOptions(options), options));
+  addData(
+    addDevice(addSettingOptions(sub("frame", "go around a drawing, pen up").argument("<file>", "drawing"))),
   ).action((file: string, options: DeviceOptions & OptionValues & { only?: readonly string[] }) =>
-    runFrame(file, settingsFromOptions(options), options),
+    runFrame(file, handSettingsFromOptions(options), options),
   );
 }
 
@@ -199,6 +209,16 @@ function addServe(command: Command): Command {
     .option("--open", "open the page in the browser");
 }
 
+/** Whose servo and steps these are: told, or as a server has kept them in its data folder. */
+function addHandOptions(command: Command): Command {
+  return addData(addDevice(command))
+    .option("--machine <id>", "plotter model; without it the one that the server's plotter has")
+    .option("--machine-file <file>", "JSON file with the profile of your own plotter");
+}
+
+const addData = (command: Command): Command =>
+  command.option("--data <folder>", "folder for jobs and settings");
+
 function addDevice(command: Command): Command {
   return command
     .option("--device <path>", "serial port of the board, or virtual")
@@ -214,12 +234,6 @@ function port(text: string): number {
 function positive(text: string): number {
   const value = Number(text);
   if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
-  return value;
-}
-
-function mm(text: string): number {
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!Number.isFinite(value)) throw new InvalidArgumentError("It must be a number of mm.");
   return value;
 }
 

@@ -8,6 +8,10 @@ import type { CliIo } from "./io.js";
 
 /** After everything has been closed. */
 const LINGER_MS = 3_000;
+/** To lift the pen, walk home and store; each part has a limit of its own (closing.ts). */
+const CLOSING_MS = 55_000;
+/** To give up opening: nothing plots yet. */
+const OPENING_MS = 5_000;
 
 export interface ServeCommandOptions {
   readonly port: number;
@@ -28,7 +32,13 @@ export interface ServeCommandOptions {
 }
 
 export async function runServe(options: ServeCommandOptions, io: CliIo): Promise<void> {
-  const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
+  let isOpen = false;
+  const stopped = new Promise<void>((resolve) =>
+    io.onInterrupt(() => {
+      io.endWithin(isOpen ? CLOSING_MS : OPENING_MS);
+      resolve();
+    }),
+  );
   const server = await createServer({
     port: options.port,
     ...(options.host === undefined ? {} : { host: options.host }),
@@ -45,6 +55,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),
     log: (line) => io.err(`${line}\n`),
   });
+  isOpen = true;
   io.out(`plotwright is at ${server.url}\n`);
   if (options.lan === true || options.pairAlways === true)
     io.out(await pairing(server, options.lan === true));

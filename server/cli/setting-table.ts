@@ -2,6 +2,7 @@
 import { InvalidArgumentError } from "commander";
 import { PAPER_SIZES, type FourMargins, type PaperSize, type PlacedBox } from "../../src/index.js";
 import { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "../../src/internal.js";
+import { length, sizeMm } from "./lengths.js";
 
 export interface SettingOption {
   readonly flags: string;
@@ -18,7 +19,7 @@ const STRUCTURED: readonly SettingOption[] = [
   {
     flags: "--paper <size>",
     path: "prepare.paper",
-    about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm",
+    about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm, or as in 8.5x11in",
     parse: paper,
   },
   {
@@ -39,7 +40,8 @@ const STRUCTURED: readonly SettingOption[] = [
 function optionsOf(setting: SettingFlag): SettingOption[] {
   const { path, flag, row } = setting;
   const about = `${row.about} (${valuesInWords(setting)})`;
-  if (row.kind === "number") return [{ flags: flagInWords(setting), path, about, parse: number }];
+  if (row.kind === "number")
+    return [{ flags: flagInWords(setting), path, about, parse: row.unit === "mm" ? length : number }];
   if (row.kind === "choice") return [{ flags: `${flag} <how>`, path, about, choices: row.choices }];
   return [
     { flags: flag, path, about },
@@ -64,9 +66,9 @@ function number(text: string): number {
 function numbers(text: string, counts: readonly number[]): number[] {
   const parts = text.split(",");
   if (!counts.includes(parts.length)) {
-    throw new InvalidArgumentError(`It must be ${counts.join(" or ")} numbers with commas between.`);
+    throw new InvalidArgumentError(`It must be ${counts.join(" or ")} lengths with commas between.`);
   }
-  return parts.map(number);
+  return parts.map(length);
 }
 
 function fourMargins(text: string): FourMargins {
@@ -79,14 +81,14 @@ function place(text: string): PlacedBox {
   return { xMm, yMm, widthMm: widthMm ?? null, heightMm: heightMm ?? null };
 }
 
-/** A name, or WIDTHxHEIGHT in mm. */
+/** A name, or WIDTHxHEIGHT. */
 function paper(text: string): PaperSize {
   const name = Object.keys(PAPER_SIZES).find((one) => one.toLowerCase() === text.toLowerCase());
   if (name !== undefined) return PAPER_SIZES[name as keyof typeof PAPER_SIZES];
-  const match = /^(\d+(?:\.\d+)?)\s*[x×]\s*(\d+(?:\.\d+)?)(?:\s*mm)?$/i.exec(text);
-  if (match === null) {
-    const names = Object.keys(PAPER_SIZES).join(", ");
-    throw new InvalidArgumentError(`It must be one of ${names} or WIDTHxHEIGHT in mm.`);
-  }
-  return { widthMm: Number(match[1]), heightMm: Number(match[2]) };
+  const size = sizeMm(text);
+  if (size !== null) return size;
+  const names = Object.keys(PAPER_SIZES).join(", ");
+  throw new InvalidArgumentError(
+    `It must be one of ${names} or WIDTHxHEIGHT in mm, or as in 8.5x11in or 20x20cm.`,
+  );
 }

@@ -8,6 +8,7 @@ import { findMachine, PlotwrightError, type MachineProfile } from "../../src/ind
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles, readMachineFile } from "../machines/machine-files.js";
+import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
 /** What commander hands to an action: option names in camel case. */
@@ -41,12 +42,26 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   const machineFile = values["machineFile"];
   if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
   const result = plotSettingsSchema.safeParse(settings);
-  if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data);
+  if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data, values);
   const issue = result.error.issues[0];
   const path = issue?.path.join(".") ?? "";
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
   const where = option?.flags.split(" ")[0] ?? (typeof config === "string" ? `${config}: ${path}` : path);
   throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+}
+
+/** For moves by hand: where no machine is given, the one of the plotter that a server here has driven. */
+export function handSettingsFromOptions(values: OptionValues): PlotSettings {
+  const settings = settingsFromOptions(values);
+  const { machine, machineFile, config, device } = values;
+  const isGiven =
+    machine !== undefined ||
+    machineFile !== undefined ||
+    (typeof config === "string" && "machine" in readConfig(config));
+  const stored = isGiven
+    ? null
+    : storedMachine(dataDirOf(values), typeof device === "string" ? device : "auto");
+  return stored === null ? settings : withOwnMachine({ ...settings, machine: stored }, values);
 }
 
 const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();
@@ -72,9 +87,11 @@ function readMachine(path: string): MachineProfile {
   }
 }
 
-/** A machine of the user's own, made in the page of a server with the usual data folder. */
-const withOwnMachine = (settings: PlotSettings): PlotSettings =>
-  new MachineFiles(defaultDataDir()).withMachine(settings);
+/** A machine of the user's own, made in the page of a server with that data folder. */
+const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
+  new MachineFiles(dataDirOf(values)).withMachine(settings);
+
+const dataDirOf = ({ data }: OptionValues): string => (typeof data === "string" ? data : defaultDataDir());
 
 function readConfig(path: string): Record<string, unknown> {
   try {

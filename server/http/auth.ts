@@ -1,4 +1,5 @@
 /** Lets a request in by where it comes from or by what it carries, and holds watchers to watching. */
+import type { IncomingMessage } from "node:http";
 import express, { Router, type Request, type RequestHandler } from "express";
 import { rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
@@ -15,7 +16,7 @@ const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 const MOST_REQUESTS = 600;
 const MOST_PAIRINGS = 10;
 
-export function roleOf(request: Request, access: Access): Role | null {
+export function roleOf(request: IncomingMessage, access: Access): Role | null {
   if (isTrusted(request, access)) return "operate";
   const secret = bearerOf(request) ?? cookieOf(request, SESSION_COOKIE);
   return secret === null ? null : access.roleOf(secret);
@@ -125,14 +126,17 @@ function limitBy(most: number, access: Access): RequestHandler {
 }
 
 /** On this computer, and this computer's users are not asked who they are. */
-export const isTrusted = (request: Request, access: Access): boolean =>
-  access.trustsLoopback && LOOPBACK.test(request.socket.remoteAddress ?? "");
+export const isTrusted = (request: IncomingMessage, access: Access): boolean =>
+  isTrustedAddress(request.socket.remoteAddress, access);
 
-export function bearerOf(request: Request): string | null {
+export const isTrustedAddress = (address: string | undefined, access: Access): boolean =>
+  access.trustsLoopback && LOOPBACK.test(address ?? "");
+
+export function bearerOf(request: IncomingMessage): string | null {
   return /^Bearer ([\w-]{20,200})$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
 }
 
-export function cookieOf(request: Request, name: string): string | null {
+export function cookieOf(request: IncomingMessage, name: string): string | null {
   const match = new RegExp(`(?:^|;\\s*)${name}=([\\w-]{20,200})(?:;|$)`).exec(request.headers.cookie ?? "");
   return match?.[1] ?? null;
 }

@@ -2,6 +2,7 @@
 import type { ErrorRequestHandler, RequestHandler } from "express";
 import type { ZodType } from "zod";
 import { ERROR_TABLE, PlotwrightError, type ErrorCode } from "../../src/index.js";
+import { isDiskFault } from "../queue/disk-fault.js";
 
 /** Parses a request's body or query; throws `bad-setting` that names the first field at fault. */
 export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
@@ -21,7 +22,8 @@ export function errorResponder(log: (line: string) => void): ErrorRequestHandler
     // The client has gone in the middle of its request: there is nobody to answer, and nothing to mend.
     if (request.destroyed && !request.complete) return;
     const { code, message, status } = describe(error);
-    if (code === "internal") log(`${request.method} ${request.path}: ${detail(error)}`);
+    if (code === "internal" || code === "disk-full")
+      log(`${request.method} ${request.path}: ${detail(error)}`);
     if (code === "too-large") log(`refused ${request.method} ${request.path}: ${message}`);
     if (response.headersSent) {
       next(error);
@@ -36,6 +38,10 @@ export function errorResponder(log: (line: string) => void): ErrorRequestHandler
 function describe(error: unknown): { code: ErrorCode; message: string; status: number } {
   if (error instanceof PlotwrightError) {
     return { code: error.code, message: error.message, status: ERROR_TABLE[error.code].httpStatus };
+  }
+  if (isDiskFault(error)) {
+    const message = "The server's disk is full or can't be written to. Make room, then try again.";
+    return { code: "disk-full", message, status: ERROR_TABLE["disk-full"].httpStatus };
   }
   // What express and its body parser throw: a status, and a type such as "entity.parse.failed".
   const { status, type } = error as { status?: unknown; type?: unknown };

@@ -59,16 +59,15 @@ export function guardHosts(
     if (origin !== undefined && !isSameOrigin(origin, request.headers.host ?? "")) {
       refuse(`A page of ${origin} may not use this server.`);
     }
-    if (
-      origin === undefined &&
-      isForeign(request.headers["sec-fetch-site"]) &&
-      request.path.startsWith("/api/")
-    ) {
+    if (origin === undefined && isForeign(request.headers["sec-fetch-site"]) && isApi(request.path)) {
       refuse("A page of another site may not use this server.");
     }
     next();
   };
 }
+
+/** Express finds its routes in capitals too. */
+const isApi = (path: string): boolean => path.toLowerCase().startsWith("/api/");
 
 /** Host header without port and brackets; null when it is not one. */
 function hostName(header: string | undefined): string | null {

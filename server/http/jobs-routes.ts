@@ -1,13 +1,16 @@
 /** /api/v1/jobs: add, change, order, run and remove jobs. */
 import express, { Router, type Request } from "express";
 import { basename } from "node:path";
+import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
+  cleanName,
   jobChangeSchema,
   jobPatchSchema,
   moveJobSchema,
   movePlaceSchema,
+  nameSchema,
   newJobSchema,
   plotSettingsSchema,
   type Job,
@@ -138,7 +141,9 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     const { name, settings, plotterId } = request.query;
     const wanted = {
       name:
-        typeof name === "string" && name.trim() !== "" ? basename(name.trim()).slice(0, 200) : "drawing.svg",
+        typeof name === "string"
+          ? parseWith(z.object({ name: nameSchema(200) }), { name: basename(name.trim()).slice(0, 200) }).name
+          : "drawing.svg",
       settings:
         settings === undefined
           ? DEFAULT_PLOT_SETTINGS
@@ -173,6 +178,6 @@ function asJson(value: unknown): unknown {
 
 /** A name that every system can save under. */
 function fileName(name: string): string {
-  const safe = name.replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
+  const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
   return /\.(svg|dxf|hpgl|hpg|plt|json)$/i.test(safe) ? safe : `${safe}.svg`;
 }

@@ -4,6 +4,9 @@ import { createServer as createHttpsServer } from "node:https";
 import type { AddressInfo } from "node:net";
 import type { Duplex } from "node:stream";
 import { PlotwrightError } from "../../src/index.js";
+import type { Access } from "../security/access.js";
+import { isTrustedAddress, roleOf } from "./auth.js";
+import { ConnectionPlaces } from "./connection-places.js";
 
 /** PEM texts. */
 export interface TlsFiles {
@@ -33,12 +36,23 @@ function hangUp(socket: Duplex, status: string): void {
 export function httpServer(
   tls: TlsFiles | undefined,
   app: RequestListener,
+  access: Access,
   log: (line: string) => void,
   times: Partial<typeof TIMES> = {},
 ): Server {
+  const places = new ConnectionPlaces((address) => isTrustedAddress(address, access));
+  const listener: RequestListener = (request, response) => {
+    if (roleOf(request, access) !== null) places.isKnown(request);
+    // A stranger's connection ends with its answer, so that nobody can collect connections by being refused.
+    else response.setHeader("Connection", "close");
+    app(request, response);
+  };
   const server =
-    tls === undefined ? createHttpServer({ ...TIMES, ...times }, app) : secureServer(tls, app, times);
+    tls === undefined
+      ? createHttpServer({ ...TIMES, ...times }, listener)
+      : secureServer(tls, listener, times);
   server.maxConnections = MOST_CONNECTIONS;
+  server.on("connection", (socket) => places.opened(socket));
   // Nothing here speaks another protocol: whoever asks for one (a WebSocket, of another site perhaps) is refused.
   server.on("upgrade", (request, socket) => {
     log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);

@@ -14,10 +14,15 @@ export function sharedRoutes(shared: SharedQueue | null): Router {
       "This server has no shared queue: it begins with serve --shared-queue.",
     );
   };
+  // Before a body is read: it may be large.
+  router.use((_request, _response, next) => {
+    present();
+    next();
+  });
   router.get("/", async (_request, response) => {
     response.json({ jobs: await present().list() });
   });
-  router.post("/", express.json({ limit: "50mb" }), async (request, response) => {
+  router.post("/", express.json({ limit: "50mb", inflate: false }), async (request, response) => {
     const id = await present().send(parseWith(newSharedJobSchema, request.body));
     response.status(201).json({ id });
   });

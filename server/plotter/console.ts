@@ -1,39 +1,22 @@
 /**
  * One line typed at the board, with everything that it answers. Lines after which the board and the driver would
- * no longer understand each other are refused; after those that move or reset the motors' counters, the driver
- * reads the place back or forgets it.
+ * no longer understand each other are refused (console-lines.ts); after those that move or reset the motors' counters,
+ * the driver reads the place back or forgets it.
  */
 import { commandName, PlotwrightError } from "../../src/index.js";
 import type { CommandAnswer } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
-
-/** Motion that a user has started may last this long, seconds of board time. */
-const LONGEST_S = 120;
-
-const REFUSED: readonly (readonly [RegExp, string])[] = [
-  [/^CU,1(,|$)/i, "it would switch off the answers that plotwright waits for"],
-  [/^CU,4(,|$)/i, "plotwright sets the depth of the board's queue itself"],
-  [/^CU,10(,|$)/i, "it would change the syntax in which the board answers"],
-  [/^BL$/i, "the board would leave its firmware for the boot loader"],
-  [/^EM(,\d*)?$/i, "not every firmware answers it; give both motors, as in EM,1,1"],
-];
+import { LONGEST_S, whyRefused } from "./console-lines.js";
 
 const MOVES = new Set(["SM", "XM", "LM", "LT", "L3", "T3", "TD", "TR", "HM", "ES"]);
-const ZEROES = new Set(["EM", "CS", "R"]);
+const ZEROES = new Set(["EM", "CS"]);
 const PEN = new Set(["SP", "TP", "S2", "SC", "SE"]);
 
 /** Rejects with `bad-setting` for a line that is refused, `board-timeout` when nothing is answered. */
 export async function sendLine(carriage: Carriage, line: string): Promise<CommandAnswer> {
-  const why = REFUSED.find(([pattern]) => pattern.test(line))?.[1];
-  if (why !== undefined) {
-    throw new PlotwrightError("bad-setting", `${line} is not sent: ${why}.`);
-  }
+  const why = whyRefused(line);
+  if (why !== null) throw new PlotwrightError("bad-setting", `${line} is not sent: ${why}.`);
   const name = commandName(line);
-  const { session } = carriage.connection;
-  if (name === "RB") {
-    await session.send(line);
-    return { replies: [], note: "The board starts anew; the connection comes back by itself." };
-  }
   const replies = await repliesTo(carriage, line);
   return { replies, note: await noteOn(carriage, name) };
 }

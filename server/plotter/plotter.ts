@@ -25,6 +25,8 @@ import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 export interface PlotterOptions {
   /** "auto" (an EiBotBoard where one is plugged in, else the virtual board), "virtual", or a serial port's path. */
   readonly device: string;
+  /** "auto" where no board is plugged in: the virtual board unless false. */
+  readonly virtualIfNone?: boolean | undefined;
   /** Ports that "auto" leaves to others. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
   /** How many times faster than real time a virtual board runs; the one behind `device` too. Default 1. */
@@ -233,7 +235,7 @@ export class PlotterDriver {
       const connection = await connect({
         device: this.options.device,
         isTaken: this.options.isTaken,
-        virtualIfNone: !this.hadSerial,
+        virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
         virtualBoard: () => this.makeVirtual(),

@@ -21,7 +21,16 @@ export function lockDataDir(dir: string): () => void {
   const path = join(dir, "server.lock");
   const mine: Owner = { pid: process.pid, began: processBegan(process.pid) };
   const draft = `${path}.${randomBytes(6).toString("hex")}`;
-  writeFileSync(draft, JSON.stringify(mine), { mode: 0o600 });
+  try {
+    writeFileSync(draft, JSON.stringify(mine), { mode: 0o600 });
+  } catch (cause) {
+    rmSync(draft, { force: true });
+    throw new PlotwrightError(
+      "bad-setting",
+      `The data folder ${dir} can't be written to (${(cause as Error).message}). Make room there, or choose another folder with --data.`,
+      { cause },
+    );
+  }
   try {
     for (let attempt = 0; attempt < 5; attempt++) {
       if (tryLink(draft, path)) return () => release(path, mine);

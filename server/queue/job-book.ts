@@ -2,16 +2,22 @@
  * The jobs as they stand: in memory as on disk. Every change goes store -> memory -> announcement, so a kill
  * at any instant leaves every browser's last picture true or behind, never ahead.
  *
- * Progress is the exception: it is kept in memory and written only with the next change of state.
+ * There are two exceptions. Progress is kept in memory and written only with the next change of state. And a job that
+ * is on a plotter follows its pen even when the disk is full: it is announced with words about the disk, and written
+ * as soon as there is room.
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { DISK_FULL, isDiskFault } from "./disk-fault.js";
 import type { StoredDrawing } from "./drawing-files.js";
 import { applyJobEvent, type JobEvent } from "./job-machine.js";
 import type { QueueParts } from "./queue-parts.js";
 import type { WatchedFile } from "./store.js";
 
 type BookParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
+
+const ON_PLOTTER: readonly (Job["state"] | undefined)[] = ["plotting", "paused"];
+const RETRY_MS = 5_000;
 
 /** Where a job comes from, and where it goes in the queue. */
 export interface Origin {
@@ -23,6 +29,9 @@ export interface Origin {
 export class JobBook {
   readonly #parts: BookParts;
   readonly #jobs = new Map<string, Job>();
+  /** Jobs that the disk did not take, each as it was before. */
+  readonly #unsaved = new Map<string, Job | null>();
+  #retry: NodeJS.Timeout | null = null;
 
   constructor(parts: BookParts) {
     this.#parts = parts;
@@ -67,6 +76,7 @@ export class JobBook {
   remove(id: string): string | null {
     const unused = this.#parts.store.removeJob(id);
     this.#jobs.delete(id);
+    this.#unsaved.delete(id);
     this.#parts.announce({ type: "job-removed", id });
     return unused;
   }
@@ -80,16 +90,61 @@ export class JobBook {
   }
 
   save(job: Job): Job {
-    const { store, withChange, afterChange } = this.#parts;
-    const before = this.#jobs.get(job.id) ?? null;
+    const isOnPlotter = ON_PLOTTER.includes(this.#jobs.get(job.id)?.state);
+    try {
+      return this.#write(job);
+    } catch (error) {
+      if (isOnPlotter && isDiskFault(error)) return this.#saveLater(job);
+      throw error;
+    }
+  }
+
+  /** Something of a job that is on a plotter could not be written: says so, once. */
+  diskIsFull(id: string): void {
+    if (!this.#unsaved.has(id)) this.#saveLater(this.get(id));
+  }
+
+  /** Tries once more what the disk did not take. */
+  close(): void {
+    this.#saveUnsaved();
+    if (this.#retry !== null) clearTimeout(this.#retry);
+  }
+
+  #write(job: Job): Job {
+    const { store, announce, withChange, afterChange } = this.#parts;
+    const before = this.#unsaved.get(job.id) ?? this.#jobs.get(job.id) ?? null;
     store.together(() => {
       store.saveJob(job);
       withChange?.(before, job);
     });
+    this.#unsaved.delete(job.id);
     this.#jobs.set(job.id, job);
-    this.#parts.announce({ type: "job", job });
+    announce({ type: "job", job });
     afterChange?.();
     return job;
+  }
+
+  #saveLater(job: Job): Job {
+    if (!this.#unsaved.has(job.id)) this.#unsaved.set(job.id, this.#jobs.get(job.id) ?? null);
+    const told = { ...job, message: withDiskFull(job.message) };
+    this.#jobs.set(job.id, told);
+    this.#parts.announce({ type: "job", job: told });
+    this.#retry ??= setTimeout(() => this.#saveUnsaved(), RETRY_MS).unref();
+    return told;
+  }
+
+  #saveUnsaved(): void {
+    this.#retry = null;
+    if (this.#unsaved.size === 0) return;
+    try {
+      for (const id of [...this.#unsaved.keys()]) {
+        const job = this.get(id);
+        this.#write({ ...job, message: withoutDiskFull(job.message) });
+      }
+      this.announceOrder();
+    } catch {
+      this.#retry = setTimeout(() => this.#saveUnsaved(), RETRY_MS).unref();
+    }
   }
 
   /** Tells the user of a job that has not ended; of one that has, its end is all there is to tell. */
@@ -127,3 +182,9 @@ export class JobBook {
     );
   }
 }
+
+const withDiskFull = (message: string | null): string =>
+  [withoutDiskFull(message), DISK_FULL].filter(Boolean).join(" ");
+
+const withoutDiskFull = (message: string | null): string | null =>
+  message?.replace(DISK_FULL, "").trim() || null;

@@ -31,7 +31,13 @@ export class Notices {
 
   add(message: string): void {
     const notice = { id: randomUUID(), at: this.#parts.nowIso(), message };
-    this.#save([...this.#list, notice].slice(-MOST));
+    const list = [...this.#list, notice].slice(-MOST);
+    try {
+      this.#save(list);
+    } catch {
+      // On a full disk it is still shown, until the server ends.
+      this.#list = list;
+    }
     this.#parts.announce({ type: "notice", notice });
   }
 

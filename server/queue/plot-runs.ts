@@ -13,6 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
+import { isDiskFault } from "./disk-fault.js";
 import type { JobBook } from "./job-book.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
@@ -144,6 +145,7 @@ export class PlotRuns {
     const running = [...this.#running.values()];
     for (const { runner } of running) runner.cancel();
     await Promise.all(running.map(({ runner }) => runner.finished));
+    this.#book.close();
   }
 
   #begin(plotter: PlotterPort, job: Job): void {
@@ -157,11 +159,11 @@ export class PlotRuns {
         speedPct: job.speedPct,
       },
       {
-        journal: (entry) => this.#safely(() => this.#saveJournal(job.id, entry)),
+        journal: (entry) => this.#safely(job.id, () => this.#saveJournal(job.id, entry)),
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
-        held: (held, wait) => this.#safely(() => this.#held(job.id, held, wait)),
-        refused: (message) => this.#safely(() => void this.#book.note(job.id, message)),
-        ended: (end) => this.#safely(() => this.#ended(job.id, plotter.id, end)),
+        held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
+        refused: (message) => this.#safely(job.id, () => void this.#book.note(job.id, message)),
+        ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
       },
     );
     const timer = new MovingTimer(this.#parts.nowIso());
@@ -175,7 +177,7 @@ export class PlotRuns {
   }
 
   /** A disk that is full must not stop the pen in mid-stroke, nor end the server: it may have room again soon. */
-  #safely(write: () => void): void {
+  #safely(jobId: string, write: () => void): void {
     try {
       write();
       this.#lastTrouble = null;
@@ -183,6 +185,7 @@ export class PlotRuns {
       const trouble = error instanceof Error ? error.message : String(error);
       if (trouble !== this.#lastTrouble) this.#parts.log?.(`a plot can't be written down: ${trouble}`);
       this.#lastTrouble = trouble;
+      if (isDiskFault(error)) this.#book.diskIsFull(jobId);
     }
   }
 
@@ -241,8 +244,8 @@ export class PlotRuns {
       this.#book.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
     }
     const job = this.#book.get(id);
-    if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
     this.#book.announceOrder();
+    if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
     if (job.state === "done") this.#done(job);
   }
 

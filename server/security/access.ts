@@ -94,12 +94,18 @@ export class Access {
     const entry = this.#entries.find((one) => equal(one.secretSha256, sha256));
     if (entry === undefined) return null;
     const now = this.#now();
-    if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) {
-      this.#save(
-        this.#entries.map((one) => (one === entry ? { ...one, lastSeenAt: now.toISOString() } : one)),
-      );
-    }
+    if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) this.#saveSeen(entry, now);
     return publicPart(entry);
+  }
+
+  /** On a full disk the time stays as it was: a device that wants to stop a plot must not be refused for that. */
+  #saveSeen(seen: StoredEntry, now: Date): void {
+    const lastSeenAt = now.toISOString();
+    try {
+      this.#save(this.#entries.map((one) => (one === seen ? { ...one, lastSeenAt } : one)));
+    } catch {
+      return;
+    }
   }
 
   #add(kind: AccessEntry["kind"], role: Role, name: string): { entry: AccessEntry; secret: string } {

@@ -80,8 +80,13 @@ export class Baton {
   }
 
   #give(operator: Operator | null, why: string): void {
-    this.#parts.store.saveSetting(SETTING, operator);
     this.#operator = operator;
+    try {
+      this.#parts.store.saveSetting(SETTING, operator);
+    } catch (error) {
+      // A full disk must not keep anybody from operating, nor end the server when a turn lapses.
+      this.#parts.log(`the operator is not stored: ${(error as Error).message}`);
+    }
     this.#parts.log(`operator: ${operator?.name ?? "nobody"} (${why})`);
     this.#parts.announce(operator);
     this.#watch();

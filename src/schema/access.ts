@@ -1,5 +1,6 @@
 /** Who may use a server on the network. */
 import { z } from "zod";
+import { nameSchema } from "./name.js";
 
 /** "watch": sees everything, changes nothing. */
 export const ROLES = ["operate", "watch"] as const;
@@ -17,7 +18,7 @@ export const accessEntrySchema = z.object({
 });
 export type AccessEntry = z.infer<typeof accessEntrySchema>;
 
-export const newKeySchema = z.object({ name: z.string().trim().min(1).max(200), role: roleSchema });
+export const newKeySchema = z.object({ name: nameSchema(200), role: roleSchema });
 export type NewKey = z.infer<typeof newKeySchema>;
 
 /** What the caller is: `id` is its browser's, null for scripts. */

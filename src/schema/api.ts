@@ -58,10 +58,11 @@
 import { z } from "zod";
 import { ERROR_CODES } from "../errors.js";
 import { jobSchema } from "./job.js";
+import { nameSchema } from "./name.js";
 import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
 
 export const newJobSchema = z.object({
-  name: z.string().trim().min(1).max(200),
+  name: nameSchema(200),
   drawing: z.string().min(1),
   settings: plotSettingsSchema,
   plotterId: z.string().max(100).optional(),
@@ -72,7 +73,7 @@ export type NewJob = z.infer<typeof newJobSchema>;
 
 export const jobPatchSchema = z
   .object({
-    name: z.string().trim().min(1).max(200),
+    name: nameSchema(200),
     settings: plotSettingsSchema,
     /** To another plotter's queue; only while queued. */
     plotterId: z.string().max(100),

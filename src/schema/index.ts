@@ -1,4 +1,5 @@
 /** Everything that crosses a wire, a disk or a file: entry "plotwright/schema". */
+export * from "./name.js";
 export * from "./settings.js";
 export * from "./job.js";
 export * from "./api.js";

@@ -1,5 +1,6 @@
 /** A plotter's profile as it crosses a wire, a disk or a file. */
 import { z } from "zod";
+import { nameSchema } from "./name.js";
 import { INPUT_PORTS, type MachineProfile } from "../machines/profile.js";
 
 const switchInputSchema = z.object({
@@ -28,7 +29,7 @@ const ebbControllerSchema = z
 const profileShape = {
   /** A file's name too. */
   id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "small letters, digits and -, 63 at most"),
-  name: z.string().trim().min(1).max(100),
+  name: nameSchema(100),
   widthMm: z.number().gt(0).max(5_000),
   heightMm: z.number().gt(0).max(5_000),
   stepsPerMm: z.number().min(0.1).max(10_000),

@@ -38,8 +38,13 @@ const positive = (max: number) => z.number().gt(0).max(max);
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object(shapeOf(PAPER_TABLE));
 const layerId = z.string().max(500);
-const layerIds = z.array(layerId).max(10_000);
-const byLayer = <T extends z.ZodType>(value: T) => z.record(layerId, value);
+/** A drawing with more layers than that is none that somebody could plot. */
+const MOST_LAYERS = 10_000;
+const layerIds = z.array(layerId).max(MOST_LAYERS);
+const byLayer = <T extends z.ZodType>(value: T) =>
+  z
+    .record(layerId, value)
+    .refine((record) => Object.keys(record).length <= MOST_LAYERS, `at most ${MOST_LAYERS} layers`);
 const hatchSchema = z.object(shapeWithDefaults(HATCH_TABLE));
 
 // Everything has a default, so that jobs and presets stored by an older version stay readable.
@@ -72,8 +77,8 @@ export const prepareSettingsSchema = z.object({
   reach: paperSizeSchema.nullable().default(null),
   hatch: hatchSchema.default(DEFAULT_PREPARE.hatch),
   layerHatches: z
-    .array(hatchSchema.extend({ layer: z.string().max(500) }))
-    .max(10_000)
+    .array(hatchSchema.extend({ layer: layerId }))
+    .max(MOST_LAYERS)
     .default([]),
 }) satisfies z.ZodType<PrepareSettings>;
 

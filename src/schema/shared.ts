@@ -1,16 +1,17 @@
 /** Jobs that several servers share: whichever has the plotter for one takes it. */
 import { z } from "zod";
+import { nameSchema } from "./name.js";
 import { plotSettingsSchema } from "./settings.js";
 
 /** A plotter by its name, or any plotter that is one machine. */
 export const sharedTargetSchema = z.union([
-  z.object({ plotter: z.string().trim().min(1).max(100) }),
+  z.object({ plotter: nameSchema(100) }),
   z.object({ machine: z.string().min(1).max(100) }),
 ]);
 export type SharedTarget = z.infer<typeof sharedTargetSchema>;
 
 export const newSharedJobSchema = z.object({
-  name: z.string().trim().min(1).max(200),
+  name: nameSchema(200),
   drawing: z.string().min(1),
   settings: plotSettingsSchema,
   target: sharedTargetSchema,

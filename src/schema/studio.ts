@@ -1,7 +1,7 @@
 /** Of a server that is left alone: its plotters, whom it tells, and how devices pair with it. */
 import { z } from "zod";
+import { nameSchema } from "./name.js";
 
-const nameSchema = z.string().trim().min(1).max(100);
 /** "auto": the first EiBotBoard that no other plotter has, else the virtual board; "virtual"; or a serial path. */
 const deviceChoiceSchema = z.string().trim().min(1).max(500);
 
@@ -15,7 +15,7 @@ export const deviceSchema = z.object({
 export type Device = z.infer<typeof deviceSchema>;
 
 export const newPlotterSchema = z.object({
-  name: nameSchema,
+  name: nameSchema(100),
   device: deviceChoiceSchema,
   /** Id of a machine profile, taken for moves by hand. */
   machine: z.string().min(1).max(100).nullable().default(null),
@@ -24,7 +24,7 @@ export type NewPlotter = z.input<typeof newPlotterSchema>;
 
 export const plotterPatchSchema = z
   .object({
-    name: nameSchema,
+    name: nameSchema(100),
     /** The plotter connects anew. */
     device: deviceChoiceSchema,
     machine: z.string().min(1).max(100).nullable(),
@@ -50,7 +50,7 @@ export const webhookSchema = z.object({
 export type Webhook = z.infer<typeof webhookSchema>;
 
 export const newWebhookSchema = z.object({
-  name: nameSchema,
+  name: nameSchema(100),
   url: z.url({ protocol: /^https?$/ }).max(2_000),
   events: z.array(webhookEventSchema).min(1).max(WEBHOOK_EVENTS.length),
 });

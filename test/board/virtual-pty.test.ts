@@ -70,6 +70,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
         out: (text) => (said += text),
         err: () => started(),
         isTerminal: false,
+        hasKeyboard: false,
         onInterrupt: (listener) => {
           stop = () => listener(false);
           return () => undefined;
@@ -110,6 +111,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
           heard();
         },
         isTerminal: false,
+        hasKeyboard: false,
         onInterrupt: (listener) => {
           stop = () => listener(false);
           return () => undefined;
@@ -150,6 +152,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
           out: () => undefined,
           err: () => undefined,
           isTerminal: false,
+          hasKeyboard: false,
           onInterrupt: () => () => undefined,
           endWithin: () => undefined,
           onLine: () => () => undefined,

@@ -21,7 +21,8 @@ afterAll(async () => {
   await board.close();
   rmSync(folder, { recursive: true, force: true });
 });
-const onBoard = (...args: string[]) => cli(...args, "--device", board.path, "--virtual-speed", String(SPEED));
+const onBoard = (...args: string[]) =>
+  cli(...args, "--device", board.path, "--virtual-speed", String(SPEED), "--data", folder);
 const done = { code: 0, out: "", err: "" };
 const place = async () => {
   const { xMm, yMm, penUp, motorsOn } = (await board.report()).state;

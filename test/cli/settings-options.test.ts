@@ -124,7 +124,7 @@ describe("the settings' options", () => {
       ["--speed", "1e300"],
       ["--margin", "-1"],
       ["--pen-up", "101"],
-      ["--paper", "16x10in"],
+      ["--paper", "16x10ft"],
       ["--paper", "A99"],
       ["--paper", "0x100"],
       ["--order", "random"],

@@ -12,6 +12,7 @@ export class CaughtIo implements CliIo {
   outText = "";
   errText = "";
   readonly isTerminal = false;
+  hasKeyboard = true;
   #interrupt: ((isFinal: boolean) => void)[] = [];
   #line: ((line: string) => void)[] = [];
 

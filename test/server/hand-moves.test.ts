@@ -178,7 +178,7 @@ describe("the board's console", () => {
   });
 
   it("sends nothing after which nobody would understand the board any more", async () => {
-    for (const line of ["CU,1,0", "cu,10,1", "CU,4,0", "BL", "EM,1"]) {
+    for (const line of ["CU,1,0", "cu,10,1", "CU,4,0", "BL", "EM,1", "BL,1", "CU,01,0", "cu,4", "rb", "R"]) {
       expect(await say(line)).toMatchObject({
         status: 400,
         message: expect.stringContaining("not sent") as string,

@@ -30,6 +30,7 @@ const io: CliIo = {
   out: (text) => (out += text),
   err: (text) => (out += text),
   isTerminal: false,
+  hasKeyboard: false,
   onInterrupt: () => () => undefined,
   endWithin: () => undefined,
   onLine: () => () => undefined,

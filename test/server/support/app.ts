@@ -120,7 +120,7 @@ export async function startApp(
     log,
   };
   const app = createApp(parts);
-  const http: Server = httpServer(options.tls, app, log, options.times);
+  const http: Server = httpServer(options.tls, app, access, log, options.times);
   await new Promise<void>((resolve) => http.listen(0, "127.0.0.1", resolve));
   return {
     url: `${options.tls === undefined ? "http" : "https"}://127.0.0.1:${(http.address() as AddressInfo).port}`,

@@ -1,0 +1,18 @@
+/** The first word of a command line that is no command: what was probably meant. */
+import { PlotwrightError } from "../../src/index.js";
+
+const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;
+
+/** Throws `bad-setting` for a word that is none of the commands. Without a word, or with an option, it is `serve`. */
+export function mustBeCommand(word: string | undefined, commands: readonly string[]): void {
+  if (word === undefined || word.startsWith("-") || commands.includes(word)) return;
+  throw new PlotwrightError("bad-setting", `There is no command ${word}. ${hint(word, commands)}`);
+}
+
+function hint(word: string, commands: readonly string[]): string {
+  if (DRAWING.test(word)) return `To plot a drawing: plotwright plot ${word}`;
+  if (/^\d+$/.test(word)) {
+    return `To choose the port: plotwright --port ${word}, or npm start -- --port ${word} (with -- before the options).`;
+  }
+  return `The commands are ${commands.join(", ")}.`;
+}

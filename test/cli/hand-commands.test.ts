@@ -1,0 +1,127 @@
+/** Commands to the machine: never to a board that is not there, and always to the servo that this plotter has. */
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { openPtyBoard, type PtyBoard } from "../../server/cli/board.js";
+import { prepareDataDir } from "../../server/data-dir.js";
+import { Store } from "../../server/queue/store.js";
+import { machineById } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { drawingOf, makeJob } from "../server/support/jobs.js";
+import { cli } from "./support.js";
+
+// Whatever is plugged into this computer is left alone.
+vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
+
+const LIMIT_MS = 60_000;
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
+let data: string;
+beforeEach(() => {
+  data = mkdtempSync(join(tmpdir(), "plotwright-cli-hand-"));
+  prepareDataDir(data);
+  writeFileSync(join(data, "a.svg"), SVG);
+});
+afterEach(() => rmSync(data, { recursive: true, force: true }));
+
+describe("without a plotter", () => {
+  const file = (): string => join(data, "a.svg");
+  it.each([
+    ["plot", () => ["plot", file()]],
+    ["pen", () => ["pen", "up"]],
+    ["info", () => ["info"]],
+    ["home", () => ["home"]],
+    ["align", () => ["align"]],
+    ["walk", () => ["walk", "1", "1"]],
+    ["frame", () => ["frame", file()]],
+    ["test-patch", () => ["test-patch"]],
+  ] as const)("%s says so in one line, exit code 4", async (name, args) => {
+    const where = name === "plot" ? [] : ["--data", data];
+    const { code, out, err } = await cli(...args(), ...where);
+    expect([code, out]).toEqual([4, ""]);
+    expect(err).toMatch(/^plotwright: No plotter is plugged in: [^\n]*--device virtual\.\n$/);
+  });
+
+  it(
+    "the virtual board is taken when it is asked for",
+    async () => {
+      const virtual = ["--device", "virtual", "--virtual-speed", "100"];
+      expect(await cli("pen", "up", "--data", data, ...virtual)).toEqual({ code: 0, out: "", err: "" });
+      expect((await cli("plot", file(), ...virtual)).code).toBe(0);
+      expect((await cli("info", "--data", data, ...virtual)).out).toMatch(/device {4}virtual/);
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("on a plotter whose servo is on another pin", () => {
+  let line: PtyBoard;
+  beforeEach(async () => {
+    line = await openPtyBoard({ speed: 20, machine: machineById("nextdraw-2234") });
+  });
+  afterEach(() => line.close());
+  const onBoard = (...args: string[]) =>
+    cli(...args, "--device", line.path, "--virtual-speed", "20", "--data", data);
+  const done = { code: 0, out: "", err: "" };
+  const { upPct, downPct } = DEFAULT_PLOT_SETTINGS.pen;
+  const penPct = (): number => Math.round(line.board.state().penPct);
+
+  async function penMoves(...more: string[]): Promise<void> {
+    expect(await onBoard("pen", "down", ...more)).toEqual(done);
+    await expect.poll(penPct).toBe(downPct);
+    expect(await onBoard("pen", "up", ...more)).toEqual(done);
+    await expect.poll(penPct).toBe(upPct);
+    expect(await onBoard("pen", "down", "--pen-down", "20", ...more)).toEqual(done);
+    await expect.poll(penPct).toBe(20);
+    expect(await onBoard("align", ...more)).toEqual(done);
+    await expect.poll(penPct).toBe(upPct);
+    expect(await onBoard("cycle-pen", ...more)).toEqual(done);
+    expect((await onBoard("info", ...more)).code).toBe(0);
+  }
+
+  it(
+    "hand commands move it when the machine is given",
+    () => penMoves("--machine", "nextdraw-2234"),
+    LIMIT_MS,
+  );
+
+  it(
+    "hand commands move it when a server has stored the machine, or plotted on it last",
+    async () => {
+      const store = Store.open(data);
+      store.savePlotter({ id: "main", name: null, device: "auto", machine: "nextdraw-2234" });
+      store.close();
+      await penMoves();
+      const again = Store.open(data);
+      again.savePlotter({ id: "main", name: null, device: "auto", machine: null });
+      const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "nextdraw-2234" };
+      const ended = { plotterId: "main", state: "done" } as const;
+      for (const [id, startedAt, more] of [
+        ["a", "2026-01-01T00:00:00.000Z", {}],
+        ["b", "2026-01-02T00:00:00.000Z", { settings }],
+      ] as const) {
+        again.addJob(makeJob(id, { ...ended, startedAt, endedAt: startedAt, ...more }), drawingOf(id));
+      }
+      again.close();
+      await penMoves();
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "nothing is moved while it can't be known which plotter it is",
+    async () => {
+      const server = Store.open(data);
+      const before = penPct();
+      const { code, err } = await onBoard("pen", "down");
+      expect([code, err]).toEqual([
+        4,
+        expect.stringMatching(/^plotwright: A plotwright server is running: .*--machine/),
+      ]);
+      expect(penPct()).toBe(before);
+      expect(await onBoard("pen", "down", "--machine", "nextdraw-2234")).toEqual(done);
+      server.close();
+    },
+    LIMIT_MS,
+  );
+});

@@ -1,0 +1,130 @@
+/** A disk that takes no more while a plot runs: the pen is stopped all the same, and nothing told is wrong. */
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { Access } from "../../server/security/access.js";
+import { DISK_FULL, isDiskFault } from "../../server/queue/disk-fault.js";
+import { apiErrorSchema, jobSchema, type Job } from "../../src/schema/index.js";
+import { startApp, type TestApp } from "./support/app.js";
+import { EventStream } from "./support/event-stream.js";
+import type { LedRun } from "./support/fakes.js";
+
+const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
+const LIMIT_MS = 60_000;
+let app: TestApp;
+let run: LedRun;
+let id: string;
+beforeEach(async () => {
+  app = await startApp();
+  id = jobSchema.parse(await (await upload()).json()).id;
+  await post("start");
+  run = await app.plotter.nextRun();
+  run.record({ place: { stroke: 0, alongMm: 2 } });
+});
+afterEach(async () => {
+  vi.restoreAllMocks();
+  await app.close();
+});
+
+const upload = (): Promise<Response> => fetch(`${app.url}/api/v1/jobs?name=a`, { method: "POST", body: SVG });
+const post = (action: string): Promise<Response> =>
+  fetch(`${app.url}/api/v1/jobs/${id}/${action}`, { method: "POST" });
+const job = async (): Promise<Job> =>
+  jobSchema.parse(await (await fetch(`${app.url}/api/v1/jobs/${id}`)).json());
+const stored = (): Job => app.store.jobs().find((one) => one.id === id)!;
+
+function fillDisk(): void {
+  const writes = ["saveJob", "addJob", "moveJob", "saveJournal", "clearJournal", "saveSetting"] as const;
+  for (const name of writes) {
+    vi.spyOn(app.store, name).mockImplementation(() => {
+      throw Object.assign(new Error("database or disk is full"), { name: "SQLite3Error" });
+    });
+  }
+}
+
+describe("while the disk is full", () => {
+  it.each([
+    ["pause", "paused"],
+    ["emergency-stop", "paused"],
+    ["cancel", "cancelled"],
+  ])(
+    "%s is answered, and the job is shown as it is",
+    async (action, state) => {
+      const events = await EventStream.open(app.url);
+      fillDisk();
+      const answer = await post(action);
+      expect(answer.status).toBe(200);
+      const { job: shown } = await events.find("job", (event) => event.job.state === state);
+      expect(shown.message).toContain(DISK_FULL);
+      expect((await job()).state).toBe(state);
+      expect(stored().state).toBe("plotting");
+      vi.restoreAllMocks();
+      await events.find(
+        "job",
+        (event) => event.job.state === state && event.job.message?.includes(DISK_FULL) !== true,
+      );
+      expect(stored()).toEqual(await job());
+      events.close();
+    },
+    LIMIT_MS,
+  );
+
+  it("a paused plot goes on at the first try, with or without room", async () => {
+    fillDisk();
+    await post("pause");
+    expect((await post("resume")).status).toBe(200);
+    expect((await job()).state).toBe("plotting");
+    await post("pause");
+    vi.restoreAllMocks();
+    expect((await post("resume")).status).toBe(200);
+    expect(run.asked).toEqual(["pause", "resume", "pause", "resume"]);
+    expect([(await job()).state, stored().state]).toEqual(["plotting", "plotting"]);
+  });
+
+  it("the plot's job says so, and its end is known", async () => {
+    fillDisk();
+    run.record({ place: { stroke: 0, alongMm: 3 } });
+    expect((await job()).message).toBe(DISK_FULL);
+    run.end({ kind: "done" });
+    await expect.poll(async () => (await job()).state).toBe("done");
+  });
+
+  it("what needs the disk is refused in words, and nothing moves", async () => {
+    run.end({ kind: "cancelled" });
+    await expect.poll(async () => (await job()).state).toBe("cancelled");
+    const next = jobSchema.parse(await (await upload()).json());
+    fillDisk();
+    for (const response of [
+      await upload(),
+      await fetch(`${app.url}/api/v1/jobs/${next.id}/start`, { method: "POST" }),
+    ]) {
+      const { error } = apiErrorSchema.parse(await response.json());
+      expect([response.status, error.code]).toEqual([507, "disk-full"]);
+      expect(error.message).toMatch(/disk is full.*Make room/);
+    }
+    expect(app.queue.isPlotterBusy(app.plotter.id)).toBe(false);
+    expect(app.drawingsOnDisk()).toHaveLength(2);
+  });
+
+  it("a paired device is still known, and a turn may end", () => {
+    const kept = new Map<string, unknown>();
+    const store = { setting: (key: string) => kept.get(key), saveSetting: kept.set.bind(kept) };
+    let at = Date.parse("2026-01-01T00:00:00Z");
+    const access = new Access(store, { now: () => new Date(at) });
+    const { secret } = access.createKey("script", "operate");
+    at += 3_600_000;
+    store.saveSetting = () => {
+      throw new Error("disk I/O error");
+    };
+    expect(access.roleOf(secret)).toBe("operate");
+  });
+});
+
+describe("an error", () => {
+  it("is known as the disk's by what systems and SQLite say", () => {
+    for (const code of ["ENOSPC", "EDQUOT", "EROFS"]) {
+      expect(isDiskFault(Object.assign(new Error("x"), { code }))).toBe(true);
+    }
+    expect(isDiskFault(new Error("disk I/O error"))).toBe(true);
+    expect(isDiskFault(new Error("constraint failed"))).toBe(false);
+    expect(isDiskFault(undefined)).toBe(false);
+  });
+});

@@ -1,0 +1,225 @@
+/** How the process ends, and what must not end it, with the built program as a user starts it. */
+import { spawn, type ChildProcess } from "node:child_process";
+import { once } from "node:events";
+import { chmodSync, cpSync, mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { afterEach, describe, expect, it } from "vitest";
+import { ROOT } from "../../scripts/setup.mjs";
+import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
+import { PtyBoard } from "../support/pty-board.js";
+import { temporaryFolder } from "../support/server-process.js";
+
+const LIMIT_MS = 120_000;
+const MAIN = join(ROOT, "dist/server/main.js");
+const SVG =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60" stroke="black">' +
+  `${Array.from({ length: 300 }, (_, i) => `<path d="M5 ${5 + i / 8}h80"/>`).join("")}</svg>`;
+
+const undo: (() => unknown)[] = [];
+afterEach(async () => {
+  for (const step of undo.splice(0).reverse()) await step();
+});
+
+function folder(): string {
+  const made = temporaryFolder("ends");
+  undo.push(made.remove);
+  return made.path;
+}
+async function board(): Promise<PtyBoard> {
+  const made = await PtyBoard.open({ speed: 5 });
+  undo.push(() => made.close());
+  return made;
+}
+
+interface Started {
+  readonly child: ChildProcess;
+  readonly said: () => string;
+  readonly ended: Promise<{ code: number | null; signal: string | null }>;
+}
+function start(
+  command: string,
+  args: readonly string[],
+  options: { uid?: number; env?: object } = {},
+): Started {
+  const child = spawn(command, args, {
+    cwd: ROOT,
+    stdio: ["ignore", "pipe", "pipe"],
+    ...(options.uid === undefined ? {} : { uid: options.uid }),
+    env: { ...process.env, ...options.env },
+  });
+  undo.push(() => child.kill("SIGKILL"));
+  let text = "";
+  for (const stream of [child.stdout, child.stderr])
+    stream.on("data", (data: Buffer) => (text += data.toString()));
+  const ended = once(child, "exit").then(([code, signal]) => ({
+    code: code as number | null,
+    signal: signal as string | null,
+  }));
+  return { child, said: () => text, ended };
+}
+const serve = (...args: string[]): Started =>
+  start(process.execPath, [MAIN, "serve", "--port", "0", ...args]);
+async function urlOf(started: Started): Promise<string> {
+  await expect.poll(started.said).toMatch(/at http:\/\/127\.0\.0\.1:\d+/);
+  return /http:\/\/127\.0\.0\.1:\d+/.exec(started.said())![0];
+}
+async function stateOf(url: string): Promise<Job> {
+  return snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).jobs[0]!;
+}
+/** A plot that has come so far that the pen is at work. */
+async function plotting(url: string, line: PtyBoard): Promise<void> {
+  await expect
+    .poll(
+      async () =>
+        snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).plotters[0]?.connection,
+    )
+    .toBe("idle");
+  const added = await fetch(`${url}/api/v1/jobs?name=a`, { method: "POST", body: SVG });
+  const { id } = jobSchema.parse(await added.json());
+  expect((await fetch(`${url}/api/v1/jobs/${id}/start`, { method: "POST" })).status).toBe(200);
+  await expect.poll(async () => (await line.report()).statistics.drawnMm).toBeGreaterThan(10);
+}
+async function penIsUpAtHome(line: PtyBoard): Promise<void> {
+  const { penUp, xMm, yMm, isBusy } = (await line.report()).state;
+  expect({ penUp, isBusy, x: Math.abs(xMm) < 0.1, y: Math.abs(yMm) < 0.1 }).toEqual({
+    penUp: true,
+    isBusy: false,
+    x: true,
+    y: true,
+  });
+}
+const refuses = (url: string): Promise<boolean> =>
+  fetch(url, { signal: AbortSignal.timeout(1_000) }).then(
+    () => false,
+    () => true,
+  );
+
+describe("a server that plots", () => {
+  it(
+    "goes on when nobody reads what it says, and by SIGHUP lifts the pen, walks home and ends",
+    async () => {
+      const line = await board();
+      const server = serve("--data", folder(), "--device", line.path, "--virtual-speed", "5");
+      const url = await urlOf(server);
+      await plotting(url, line);
+      server.child.stdout?.destroy();
+      server.child.stderr?.destroy();
+      // Each refusal is a line that finds no reader.
+      const headers = { "Sec-Fetch-Site": "cross-site" };
+      for (let i = 0; i < 5; i++) expect((await fetch(`${url}/api/v1/state`, { headers })).status).toBe(403);
+      const { drawnMm } = (await line.report()).statistics;
+      await expect.poll(async () => (await line.report()).statistics.drawnMm).toBeGreaterThan(drawnMm + 50);
+      expect((await stateOf(url)).state).toBe("plotting");
+      server.child.kill("SIGHUP");
+      expect(await server.ended).toEqual({ code: 0, signal: null });
+      await penIsUpAtHome(line);
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("plot without a terminal", () => {
+  it(
+    "is cancelled by SIGINT: the pen lifts and goes home",
+    async () => {
+      const line = await board();
+      const file = join(folder(), "a.svg");
+      writeFileSync(file, SVG);
+      const plot = start(process.execPath, [
+        MAIN,
+        "plot",
+        file,
+        "--device",
+        line.path,
+        "--virtual-speed",
+        "5",
+      ]);
+      await expect.poll(async () => (await line.report()).statistics.drawnMm).toBeGreaterThan(10);
+      plot.child.kill("SIGINT");
+      expect(await plot.ended).toEqual({ code: 5, signal: null });
+      await penIsUpAtHome(line);
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("npm start", () => {
+  const args = (): string[] => ["--port", "0", "--device", "virtual", "--data", folder()];
+  it.each([
+    ["node", "SIGKILL"],
+    ["node", "SIGTERM"],
+    ["node", "SIGINT"],
+    ["npm", "SIGTERM"],
+  ] as const)(
+    "run by %s and ended by %s leaves no server behind",
+    async (by, signal) => {
+      const started =
+        by === "npm"
+          ? start("npm", ["start", "--", ...args()])
+          : start(process.execPath, [join(ROOT, "scripts/start.mjs"), ...args()]);
+      const url = await urlOf(started);
+      started.child.kill(signal);
+      await started.ended;
+      await expect.poll(() => refuses(url)).toBe(true);
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("a data folder that can't be used", () => {
+  it(
+    "below /proc is refused at once",
+    async () => {
+      const server = serve("--data", "/proc/x", "--device", "virtual");
+      expect(await server.ended).toEqual({ code: 2, signal: null });
+      expect(server.said()).toMatch(/^plotwright: The data folder \/proc\/x can't be made .*--data\.\n$/);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "and that may only be read is named in words",
+    async () => {
+      const data = join(folder(), "data");
+      mkdirSync(join(data, "drawings"), { recursive: true });
+      // Whoever may do everything may write here too: then another user starts the server.
+      const isRoot = process.getuid?.() === 0;
+      for (const path of [join(data, ".."), data, join(data, "drawings")]) chmodSync(path, 0o555);
+      undo.push(() => [join(data, ".."), data].forEach((path) => chmodSync(path, 0o755)));
+      const server = start(
+        process.execPath,
+        [MAIN, "serve", "--port", "0", "--data", data, "--device", "virtual"],
+        isRoot ? { uid: 65534 } : {},
+      );
+      expect(await server.ended).toEqual({ code: 2, signal: null });
+      expect(server.said()).toMatch(
+        /^plotwright: The data folder [^\n]* can't be written to: [^\n]*--data\.\n$/,
+      );
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "of sources for npm start says so, and does not ask about the network",
+    async () => {
+      const copy = join(folder(), "copy");
+      mkdirSync(copy);
+      for (const name of ["scripts", "package.json", "package-lock.json"]) {
+        cpSync(join(ROOT, name), join(copy, name), { recursive: true });
+      }
+      const isRoot = process.getuid?.() === 0;
+      chmodSync(join(copy, ".."), 0o755);
+      chmodSync(copy, 0o555);
+      undo.push(() => chmodSync(copy, 0o755));
+      const started = start(
+        process.execPath,
+        [join(copy, "scripts/start.mjs")],
+        isRoot ? { uid: 65534 } : {},
+      );
+      expect((await started.ended).code).toBe(1);
+      expect(started.said()).toMatch(/copy\/ can't be written to/);
+      expect(started.said()).not.toMatch(/network/);
+    },
+    LIMIT_MS,
+  );
+});

@@ -1,0 +1,52 @@
+/** Which typed lines are kept from the board, however they are written. */
+import { describe, expect, it } from "vitest";
+import { whyRefused } from "../../server/plotter/console-lines.js";
+
+describe("a line for the board", () => {
+  it.each(
+    [
+      ["restarts it", ["BL", "bl", "BL,1", "BL,", "RB", "rb,0", "R", "r", "r,1"]],
+      [
+        "changes how it answers",
+        ["CU,1,0", "CU,01,0", "cu,001,0", "CU,10,1", "CU,0010,1", "CU,54,1", "CU,251,1"],
+      ],
+      ["sets its queue", ["CU,4,0", "CU,4", "CU,04,-1", "CU,004,32"]],
+      [
+        "has numbers that may be read as others",
+        ["CU,257,0", "CU,4294967297,0", "CU,,0", "CU", "CU,1x,0", "CU,-1,0"],
+      ],
+      ["has spaces", ["CU ,1,0", "CU, 1,0", "B L", " BL", "SM,1, 1,1"]],
+      ["is more than one line", ["V\rBL", "V\nCU,1,0", "V\tx", ""]],
+      ["sends or writes what nobody asked for", ["T,100,0", "MW,1,2", "C,0,0,0,0,0"]],
+      ["is not answered by every firmware", ["EM", "EM,1", "em,"]],
+      ["never ends", ["LM,0,100,0,0,0,0", "LM,1,100,0,0,0,0", "LM,9,0,0,0,5,0", "L3,0,5,0,0,0,0,0,0"]],
+      [
+        "lasts for hours",
+        ["SM,120001,1,1", "XM,16777215,0,0", "LT,3000001,9,0,9,0", "T3,4000000,1,0,0,1,0,0", "TD,1500001"],
+      ],
+    ].flatMap(([what, lines]) => (lines as string[]).map((line) => [what, line] as const)),
+  )("that %s is refused: %j", (_what, line) => {
+    expect(whyRefused(line)).not.toBeNull();
+  });
+
+  it.each([
+    "V",
+    "qs",
+    "QC",
+    "SP,1,250",
+    "sp,0",
+    "SM,1000,80,-80",
+    "EM,1,1",
+    "CU,60,250",
+    "CU,3,1",
+    "ST,My plotter",
+    "LM,85899346,100,0,85899346,-100,0",
+    "LM,0,10,2748,0,0,0",
+    "LT,25000,85899346,0,0,0",
+    "HM,3200",
+    "XX,1",
+    "constructor",
+  ])("that does none of this is sent: %j", (line) => {
+    expect(whyRefused(line)).toBeNull();
+  });
+});
