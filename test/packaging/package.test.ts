@@ -55,6 +55,25 @@ describe("the installed package", () => {
     expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
   });
 
+  it("has the licence of everything that is built into the page", () => {
+    const text = readFileSync(path.join(installed, "dist", "web", "licences.txt"), "utf8");
+    // React and zustand are in the page, css-tree, saxes and clipper2-ts in its workers, the fonts in our sources.
+    for (const name of [
+      "plotwright",
+      "react",
+      "zustand",
+      "css-tree",
+      "saxes",
+      "clipper2-ts",
+      "Hershey fonts",
+    ]) {
+      const section = text
+        .split("\n\n\n")
+        .find((one) => one.startsWith(`${name} `) || one.startsWith(`${name},`));
+      expect([name, section]).toEqual([name, expect.stringMatching(/permi(t|ssion)/i)]);
+    }
+  });
+
   it("tells its version by npx plotwright --version", () => {
     const { version } = JSON.parse(readFileSync(path.join(ROOT, "package.json"), "utf8")) as {
       version: string;
