@@ -49,7 +49,10 @@ describe("the installed package", () => {
 
   it("holds the built product and nothing else", () => {
     expect(readdirSync(installed).sort()).toEqual(
-      ["CHANGELOG.md", "LICENSE", "README.md", "dist", "package.json", "samples"].sort(),
+      [
+        ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md"],
+        ...["dist", "docs", "package.json", "samples"],
+      ].sort(),
     );
     expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["server", "src", "web"]);
     expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
@@ -72,6 +75,14 @@ describe("the installed package", () => {
         .find((one) => one.startsWith(`${name} `) || one.startsWith(`${name},`));
       expect([name, section]).toEqual([name, expect.stringMatching(/permi(t|ssion)/i)]);
     }
+  });
+
+  it("has every file that a link of its README leads to", () => {
+    const readme = readFileSync(path.join(installed, "README.md"), "utf8");
+    const links = [...readme.matchAll(/\]\(([^)#]+)[^)]*\)/g)].map((match) => match[1] ?? "");
+    const own = links.filter((link) => !/^https?:/.test(link));
+    expect(own.length).toBeGreaterThan(5);
+    expect(own.filter((link) => !existsSync(path.join(installed, link)))).toEqual([]);
   });
 
   it("tells its version by npx plotwright --version", () => {
