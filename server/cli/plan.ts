@@ -1,5 +1,4 @@
 /** `plotwright plan FILE.svg`: what a plot would be, without a board. */
-import { readFileSync, writeFileSync } from "node:fs";
 import {
   PlotwrightError,
   importDrawing,
@@ -18,6 +17,7 @@ import {
 } from "../../src/index.js";
 import { prepareJob, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { readDrawing, writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 import { withOnlyLayers } from "./layers.js";
 
@@ -63,39 +63,31 @@ interface Planned {
 }
 
 export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
-  if (options.json === true && options.ebb === "-") {
-    throw new PlotwrightError("bad-setting", "--json and --ebb - both write to stdout: give --ebb a file.");
+  const toStdout = [
+    ...(options.json === true ? ["--json"] : []),
+    ...(["ebb", "preview", "svg", "strokes"] as const)
+      .filter((name) => options[name] === "-")
+      .map((name) => `--${name} -`),
+  ];
+  if (toStdout.length > 1) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `${toStdout.join(" and ")} both write to stdout: give one of them a file.`,
+    );
   }
-  const planned = planFile(file, base, options);
-  if (options.ebb !== undefined) {
-    const text = `${planned.lines.join("\n")}\n`;
-    if (options.ebb === "-") io.out(text);
-    else writeOut(options.ebb, text);
-  }
-  if (options.preview !== undefined) {
-    const { paperWidthMm: widthMm, paperHeightMm: heightMm } = planned.job.prepared;
-    writeOut(options.preview, trajectoryToSvg(planned.trajectory, { widthMm, heightMm }));
-  }
-  const { prepared } = planned.job;
+  const { report, settings, job, trajectory, lines } = planFile(file, base, options);
+  const { prepared } = job;
+  const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
+  if (options.ebb !== undefined) writeOut(options.ebb, `${lines.join("\n")}\n`, io);
+  if (options.preview !== undefined) writeOut(options.preview, trajectoryToSvg(trajectory, paper), io);
   if (options.svg !== undefined) {
-    writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, planned.settings)));
+    writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, settings)), io);
   }
   if (options.strokes !== undefined) {
-    const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
-    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`);
+    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`, io);
   }
-  if (options.json === true) io.out(`${JSON.stringify(planned.report)}\n`);
-  else if (options.ebb !== "-") io.out(words(planned.report));
-}
-
-export function readDrawing(file: string): string {
-  try {
-    return readFileSync(file, "utf8");
-  } catch (cause) {
-    const { code, message } = cause as NodeJS.ErrnoException;
-    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
-    throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`, { cause });
-  }
+  if (options.json === true) io.out(`${JSON.stringify(report)}\n`);
+  else if (toStdout.length === 0) io.out(words(report));
 }
 
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
@@ -143,19 +135,11 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   return { report, settings, job, trajectory, lines };
 }
 
-function writeOut(path: string, text: string): void {
-  try {
-    writeFileSync(path, text);
-  } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
-      cause,
-    });
-  }
-}
-
 function words(report: PlanReport): string {
   const lines = [
-    `${report.strokes} strokes, ${report.points} points, ${report.penLifts} pen lifts`,
+    [many(report.strokes, "stroke"), many(report.points, "point"), many(report.penLifts, "pen lift")].join(
+      ", ",
+    ),
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
     `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
     ...report.warnings.map((warning) => `note: ${warning}`),
@@ -169,6 +153,7 @@ export function minutes(seconds: number): string {
   return parts.map((part) => String(part).padStart(2, "0")).join(":");
 }
 
+const many = (count: number, what: string): string => `${count} ${what}${count === 1 ? "" : "s"}`;
 const metres = (mm: number): string => `${(mm / 1000).toFixed(2)} m`;
 const rounded = (value: number): number => Math.round(value * 1000) / 1000;
 

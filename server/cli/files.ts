@@ -1,0 +1,60 @@
+/** Files of the command line, where "-" is stdin or stdout. */
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { PlotwrightError } from "../../src/index.js";
+import type { CliIo } from "./io.js";
+
+const STDIN = 0;
+/** It can be read once, and is asked for more than once. */
+let stdinText: string | null = null;
+
+export function readText(path: string): string {
+  if (path !== "-") return readFileSync(path, "utf8");
+  stdinText ??= readFileSync(STDIN, "utf8");
+  return stdinText;
+}
+
+export function readDrawing(file: string): string {
+  try {
+    return readText(file);
+  } catch (cause) {
+    const { code, message } = cause as NodeJS.ErrnoException;
+    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
+    throw new PlotwrightError("bad-file", `${nameOf(file)} can't be read: ${why}.`, { cause });
+  }
+}
+
+/** For people. */
+export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
+
+/** The drawing as a file, for threads that read it by its path; what came by stdin is kept in one until `use` is over. */
+export async function withDrawingFile<T>(
+  file: string,
+  text: string,
+  use: (path: string) => Promise<T>,
+): Promise<T> {
+  if (file !== "-") return use(resolve(file));
+  const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
+  try {
+    const path = join(folder, "drawing");
+    writeFileSync(path, text);
+    return await use(path);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+export function writeOut(path: string, text: string, io: CliIo): void {
+  if (path === "-") {
+    io.out(text);
+    return;
+  }
+  try {
+    writeFileSync(path, text);
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+      cause,
+    });
+  }
+}
