@@ -4,16 +4,9 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import type { CliIo } from "./io.js";
+import { readStdin } from "./stdin.js";
 
-const STDIN = 0;
-/** It can be read once, and is asked for more than once. */
-let stdinText: string | null = null;
-
-export function readText(path: string): string {
-  if (path !== "-") return readFileSync(path, "utf8");
-  stdinText ??= readFileSync(STDIN, "utf8");
-  return stdinText;
-}
+export const readText = (path: string): string => (path === "-" ? readStdin() : readFileSync(path, "utf8"));
 
 export function readDrawing(file: string): string {
   try {

@@ -44,12 +44,14 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
       writeErr: (text) => io.err(text),
       outputError: (text, write) => write(`plotwright: ${oneLine(text.replace(/^error: /, ""))}\n`),
     });
-  for (const { name, about, load } of COMMANDS) {
+  for (const { name, about, examples, load } of COMMANDS) {
     const command = program
       .command(name, { isDefault: name === DEFAULT_COMMAND })
       .description(about)
       .copyInheritedSettings(program);
-    if (wanted.includes(name)) (await load())(command, context);
+    if (!wanted.includes(name)) continue;
+    (await load())(command, context);
+    command.addHelpText("after", `\nExamples:\n${examples.map((line) => `  ${line}`).join("\n")}`);
   }
   return program;
 }
