@@ -9,12 +9,17 @@
  * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so both floors are run before
  * and after each plan, and a plan's ratio is its time over the mean of one; the median over the rounds is what counts.
  */
+import { readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
 import {
   DEFAULT_FIT,
   DEFAULT_MOTION,
   DEFAULT_PEN,
+  DEFAULT_PREPARE,
+  importSvg,
   MOTION_MODES,
   plan,
+  prepare,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
@@ -32,11 +37,13 @@ const ROUNDS = 7;
 const REPEATS = 5;
 
 export default function planBench(report: Report): void {
+  // First, while memory is empty: collecting a million segments would be counted here.
+  report("Planning the samples with and without merging, blend, warm", samples());
   const drawing = scribble(1_000_000, 1_000);
   const floor = prepareFloor(drawing);
   const motions: readonly (readonly [string, MotionSettings])[] = [
     ...MOTION_MODES.map((mode) => [mode, { ...DEFAULT_MOTION, mode, fit: null }] as const),
-    ["blend, fitted", { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }],
+    ["blend, merged", { ...DEFAULT_MOTION, mode: "blend", fit: DEFAULT_FIT }],
   ];
   const planned = new Map<string, Pick<Trajectory, "blockCount"> & { readonly bytes: number }>();
   const { floorsMs, measured } = inTurns(
@@ -65,6 +72,41 @@ export default function planBench(report: Report): void {
     }),
   ]);
   report("Growth with the number of segments, blend", growth());
+}
+
+const SAMPLES = path.join(import.meta.dirname, "..", "samples");
+/** Rounds that are run before any is timed, and rounds that are. */
+const WARM_UP = 30;
+const SAMPLE_ROUNDS = 31;
+/** A round plans a sample so often that it has about this many points. */
+const POINTS_A_ROUND = 15_000;
+
+/** Processor ms with and without merging in turns, warm; the ratio is the median of the rounds' own ratios. */
+function samples(): Record<string, string | number>[] {
+  const files = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
+  return files.map((file) => {
+    const { strokes } = prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), DEFAULT_PREPARE);
+    const repeats = Math.ceil((2 * POINTS_A_ROUND) / strokes.xy.length);
+    const planned = (fit: MotionSettings["fit"]) => plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
+    const timed = (fit: MotionSettings["fit"]): number =>
+      processorMs(() => {
+        for (let i = 0; i < repeats; i++) planned(fit);
+      }) / repeats;
+    const rounds = Array.from({ length: WARM_UP + SAMPLE_ROUNDS }, () => {
+      const plainMs = timed(null);
+      const mergedMs = timed(DEFAULT_FIT);
+      return { plainMs, mergedMs, ratio: mergedMs / plainMs };
+    }).slice(WARM_UP);
+    return {
+      sample: file,
+      points: strokes.xy.length / 2,
+      blocks: planned(null).blockCount,
+      merged: planned(DEFAULT_FIT).blockCount,
+      "plain, ms": Number(median(rounds.map(({ plainMs }) => plainMs)).toFixed(2)),
+      "merged, ms": Number(median(rounds.map(({ mergedMs }) => mergedMs)).toFixed(2)),
+      ratio: Number(median(rounds.map(({ ratio }) => ratio)).toFixed(2)),
+    };
+  });
 }
 
 /**

@@ -145,7 +145,7 @@ function planned(
 /** The first run at many instants. */
 function along(t: Trajectory, see: (state: ReturnType<typeof stateAt>, tS: number) => Point): Point[] {
   const start = t.runs.startS[0]!;
-  const end = t.penMoves[1]!.startS - 1e-9;
+  const end = t.penMoves.startS[1]! - 1e-9;
   const count = 1500;
   return Array.from({ length: count + 1 }, (_, i) => {
     const tS = start + ((end - start) * i) / count;

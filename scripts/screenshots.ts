@@ -41,7 +41,7 @@ async function pictureForReadme(browser: Browser): Promise<void> {
   const page = await browser.newPage({ viewport: { width: 1240, height: 760 }, colorScheme: "light" });
   try {
     await page.goto(server.url);
-    await waitForPlan(page);
+    await page.getByText("Drop a drawing here").waitFor();
     await dropFile(page, "three-colour-hills.svg", sampleText("three-colour-hills"));
     await page.getByText("1 Sun").first().waitFor();
     await waitForPlan(page);

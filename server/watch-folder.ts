@@ -13,7 +13,7 @@ import { createReadStream } from "node:fs";
 import { lstat, readFile, stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
-import { PlotwrightError } from "../src/index.js";
+import { isDrawingName, PlotwrightError } from "../src/index.js";
 import {
   cleanName,
   DEFAULT_PLOT_SETTINGS,
@@ -38,7 +38,6 @@ export interface WatchParts {
   readonly stableMs?: number;
 }
 
-const KINDS = [".svg", ".dxf", ".hpgl", ".hpg", ".plt"];
 const STABLE_MS = 2_000;
 
 export class WatchFolder {
@@ -122,13 +121,14 @@ export class WatchFolder {
     }
     return queue.add(
       { name: cleanName(name.slice(0, 200)), settings, drawing, watched: { name, sha256 } },
-      this.#abort.signal,
+      { signal: this.#abort.signal },
     );
   }
 }
 
+/** A file of settings beside the drawings is none of them. */
 const isDrawing = (path: string): boolean =>
-  KINDS.includes(extname(path).toLowerCase()) && !basename(path).startsWith(".");
+  isDrawingName(path) && !basename(path).startsWith(".") && !/(^|\.)settings\.json$/.test(basename(path));
 
 async function hashOf(path: string): Promise<string> {
   const hash = createHash("sha256");

@@ -25,17 +25,20 @@ export { strokesOf, type Line } from "./drawing/lines.js";
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
-export { importSvg, importSvgSteps, importSvgWithPauses, type Pause } from "./import/import-svg.js";
+export { importSvg, importSvgSteps, importSvgWithPauses, type Pause } from "./import/svg/import-svg.js";
 export { TEXT_MODES, type ImportOptions, type TextMode } from "./import/import-options.js";
-export { openOutlineFont } from "./import/outline-font.js";
-export type { TextFont } from "./import/text-font.js";
+export { openOutlineFont } from "./import/text/outline-font.js";
+export type { TextFont } from "./import/text/text-font.js";
 export {
   importDrawing,
   importDrawingWithPauses,
   formatOf,
+  isDrawingName,
+  DRAWING_EXTENSIONS,
   DRAWING_FORMATS,
   type DrawingFormat,
-} from "./import/import-drawing.js";
+} from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";
@@ -125,10 +128,10 @@ export { planSvg, type PlannedSvg, type SvgSettings } from "./job/plan-svg.js";
 export { planJob, type JobOptions, type JobSettings, type MachineJob } from "./job/plan-job.js";
 
 // ebb
-export type { BoardState, CommandStream } from "./ebb/command-stream.js";
-export { commandLine, compile, type CompileOptions } from "./ebb/compile.js";
-export { firmwareLimitsMotion, motionForFirmware } from "./ebb/firmware-motion.js";
-export { plotLines } from "./ebb/plot-lines.js";
+export type { BoardState, CommandStream } from "./drivers/ebb/compile/command-stream.js";
+export { commandLine, compile, type CompileOptions } from "./drivers/ebb/compile/compile.js";
+export { firmwareLimitsMotion, motionForFirmware } from "./drivers/ebb/protocol/firmware-motion.js";
+export { plotLines } from "./drivers/ebb/compile/plot-lines.js";
 export {
   closingCommands,
   penCommand,
@@ -137,32 +140,38 @@ export {
   penSetUpCommands,
   setUpCommands,
   type PenWay,
-} from "./ebb/commands.js";
+} from "./drivers/ebb/protocol/commands.js";
 export {
   compareFirmware,
   firmwareFeatures,
   firmwareFromReply,
   type FirmwareFeatures,
-} from "./ebb/firmware.js";
-export { commandName, LineSplitter, replyShape, type ReplyShape } from "./ebb/replies.js";
+} from "./drivers/ebb/protocol/firmware.js";
+export { commandName, LineSplitter, replyShape, type ReplyShape } from "./drivers/ebb/protocol/replies.js";
 
 // board
-export type { Cancellation, Clock, Transport } from "./board/transport.js";
-export { AnswerQueue, type AwaitedAnswer } from "./board/answer-queue.js";
+export type { Cancellation, Clock, Transport } from "./drivers/transport.js";
+export { AnswerQueue, type AwaitedAnswer } from "./drivers/ebb/stream/answer-queue.js";
 export {
   VirtualBoard,
   type BoardStatistics,
   type DrawnPolyline,
   type VirtualBoardOptions,
   type VirtualBoardState,
-} from "./board/virtual-board.js";
-export { BoardSession, type BoardIdentity, type Outgoing, type SessionOptions } from "./board/session.js";
-export { SessionLog } from "./board/session-log.js";
-export { comeToRest, type RestPlan } from "./board/come-to-rest.js";
-export { streamCommands, type StreamProgress } from "./board/stream-commands.js";
-export { parseSteps } from "./ebb/replies.js";
-export { Streamer, type StreamOptions, type StreamReport } from "./board/streamer.js";
-export type { StreamPlace } from "./board/timeline.js";
+} from "./drivers/ebb/virtual/virtual-board.js";
+export {
+  BoardSession,
+  type BoardIdentity,
+  type Outgoing,
+  type SessionOptions,
+} from "./drivers/ebb/stream/session.js";
+export { SessionLog } from "./drivers/ebb/stream/session-log.js";
+export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
+export { streamCommands, type StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
+export { parseSteps } from "./drivers/ebb/protocol/replies.js";
+export { Streamer } from "./drivers/ebb/stream/streamer.js";
+export type { StreamOptions, StreamReport } from "./drivers/ebb/stream/stream-types.js";
+export type { StreamPlace } from "./drivers/ebb/stream/timeline.js";
 
 // export
 export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";

@@ -14,3 +14,8 @@ export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/moti
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
 export type { EbbController } from "./machines/profile.js";
+export { isPenUpBefore, penMovesOf } from "./plan/pen-moves.js";
+export { STREAM_TABLE } from "./settings/stream.js";
+export { reseatWaitS } from "./plan/pen-times.js";
+export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
+export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";

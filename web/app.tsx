@@ -20,11 +20,13 @@ import { Strips } from "./panels/strips.js";
 import { TopBar } from "./panels/top-bar.js";
 import { Preview } from "./preview/preview.js";
 import { TimeLine } from "./preview/time-line.js";
+import { activeJob } from "./state/store.js";
 import { useActions, usePageState } from "./state/use-store.js";
 import { text } from "./text/text.js";
 import { DropZone } from "./ui/drop-zone.js";
 import { lazyPart } from "./ui/lazy-part.js";
 
+const EmptyPaper = lazyPart(async () => (await import("./panels/empty-paper.js")).EmptyPaper);
 const Camera = lazyPart(async () => (await import("./studio/camera.js")).Camera);
 
 const TABS = ["setup", "queue", "machine"] as const;
@@ -40,6 +42,10 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const [tab, setTab] = useState<Tab>("setup");
   const { openFile, openPasted } = useActions();
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
+  const isEmpty = usePageState(
+    (state) =>
+      state.drawing === null && !state.isStarting && state.link !== "connecting" && activeJob(state) === null,
+  );
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   return (
     <DropZone hint={text.drawing.dropHere} onFile={onFile} onText={openPasted}>
@@ -49,6 +55,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <Strips />
           <div className="paper-area">
             <Preview />
+            {isEmpty && <EmptyPaper />}
             <Notices />
           </div>
           <TimeLine player={player} />

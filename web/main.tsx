@@ -7,6 +7,7 @@ import { App } from "./app.js";
 import { keepPage, lookForUpdate } from "./pwa/register.js";
 import { createActions } from "./state/actions.js";
 import { replanForBoard } from "./state/board-watch.js";
+import { browserDrawings, keepDrawing, readKeptDrawing } from "./state/kept-drawing.js";
 import { readRemembered, writeRemembered, type TextStore } from "./state/persist.js";
 import { watchJobs } from "./state/notify.js";
 import { Player } from "./preview/player.js";
@@ -66,7 +67,9 @@ const actions = createActions({
   after: (delayMs, callback) => void setTimeout(callback, delayMs),
 });
 
+const drawings = browserDrawings();
 keepRemembered(store);
+keepDrawing(store, drawings);
 keepPresets(store);
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
@@ -112,7 +115,14 @@ function keepRemembered(pageStore: PageStore): void {
     if (state.view.theme !== before.view.theme) showTheme();
     if (state.settings === before.settings && state.view === before.view) return;
     if (kept !== null) clearTimeout(kept);
-    kept = setTimeout(() => writeRemembered(storage, pageStore.getState()), 300);
+    kept = setTimeout(write, 300);
+  });
+  const write = (): void => {
+    kept = null;
+    writeRemembered(storage, pageStore.getState());
+  };
+  window.addEventListener("pagehide", () => {
+    if (kept !== null) write();
   });
 }
 
@@ -123,20 +133,27 @@ function keepPresets(pageStore: PageStore): void {
   });
 }
 
-/** Whoever opens the page with nothing sees what is being plotted or was interrupted, or else the first sample. */
+/** The last drawing comes back. A browser without one sees the plot that is under way, or an empty sheet. */
 async function greet(pageStore: PageStore): Promise<void> {
-  await new Promise<void>((resolve) => {
-    const stop = pageStore.subscribe(({ link }) => {
-      if (link !== "connected") return;
-      stop();
-      resolve();
-    });
-  });
+  const kept = await readKeptDrawing(drawings);
+  if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
+  pageStore.setState({ isStarting: false });
+  await connected(pageStore);
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
+  actions.takeJobSettings();
   const state = pageStore.getState();
   if (state.drawing !== null) return;
   const job = unfinishedJob(state);
-  const sample = state.samples[0];
   if (job) await actions.openJob(job);
-  else if (sample) await actions.openSample(sample.name, sample.title);
 }
+
+const connected = (pageStore: PageStore): Promise<void> =>
+  new Promise((resolve) => {
+    const look = (): void => {
+      if (pageStore.getState().link !== "connected") return;
+      stop();
+      resolve();
+    };
+    const stop = pageStore.subscribe(look);
+    look();
+  });

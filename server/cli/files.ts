@@ -6,39 +6,26 @@ import { PlotwrightError } from "../../src/index.js";
 import type { CliIo } from "./io.js";
 import { readStdin } from "./stdin.js";
 
-export const readText = (path: string): string => (path === "-" ? readStdin() : readFileSync(path, "utf8"));
-
-export function readDrawing(file: string): string {
-  try {
-    return readText(file);
-  } catch (cause) {
-    const { code, message } = cause as NodeJS.ErrnoException;
-    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
-    throw new PlotwrightError("bad-file", `${nameOf(file)} can't be read: ${why}.`, { cause });
-  }
-}
+export const readText = (path: string): string =>
+  path === "-" ? Buffer.from(readStdin()).toString("utf8") : readFileSync(path, "utf8");
 
 /** For people. */
 export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
 
 /** The drawing as a file, for threads that read it by its path; what came by stdin is kept in one until `use` is over. */
-export async function withDrawingFile<T>(
-  file: string,
-  text: string,
-  use: (path: string) => Promise<T>,
-): Promise<T> {
+export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
   if (file !== "-") return use(resolve(file));
   const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
   try {
-    const path = join(folder, "drawing");
-    writeFileSync(path, text);
+    const path = join(folder, "stdin");
+    writeFileSync(path, readStdin());
     return await use(path);
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }
 }
 
-export function writeOut(path: string, text: string, io: CliIo): void {
+export function writeOut(path: string, text: string, io: Pick<CliIo, "out">): void {
   if (path === "-") {
     io.out(text);
     return;

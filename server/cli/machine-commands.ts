@@ -1,13 +1,11 @@
 /** One-off commands to the machine: pen, moves by hand, a raw line, info. */
-import { importDrawing } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../plotter/hand-moves.js";
 import { openPlotter } from "../plotters.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
-import { readDrawing, withDrawingFile } from "./files.js";
+import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
 import type { DeviceOptions } from "./options.js";
 
 /** Or a height in percent. */
@@ -44,11 +42,8 @@ export async function runMove(move: HandMove, settings: PlotSettings, options: D
 }
 
 /** Walks around where a drawing would come to lie. */
-export async function runFrame(file: string, base: PlotSettings, options: FrameOptions): Promise<void> {
-  const text = readDrawing(file);
-  const settings =
-    options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
-  const boxMm = await withDrawingFile(file, text, (path) => drawingBoxMm(path, settings));
+export async function runFrame(file: string, settings: PlotSettings, options: FrameOptions): Promise<void> {
+  const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
   await runMove({ kind: "frame", boxMm }, settings, options);
 }
 

@@ -1,4 +1,6 @@
-import { runPlan, type PlanCommandOptions } from "./plan.js";
+import { withDrawingFile } from "./files.js";
+import type { PlanCommandOptions } from "./plan.js";
+import { runPlanInThread } from "./plan-thread.js";
 import type { Declare } from "./options.js";
 import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
 
@@ -15,6 +17,8 @@ export const declarePlan: Declare = (command, { io }) => {
     )
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
     .action((file: string, options: PlanCommandOptions & OptionValues) =>
-      runPlan(file, settingsFromOptions(options), options, io),
+      withDrawingFile(file, (path) =>
+        runPlanInThread({ file: path, settings: settingsFromOptions(options), options }, io),
+      ),
     );
 };

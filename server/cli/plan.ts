@@ -1,4 +1,4 @@
-/** `plotwright plan FILE.svg`: what a plot would be, without a board. */
+/** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
 import {
   PlotwrightError,
   importDrawing,
@@ -17,9 +17,9 @@ import {
 } from "../../src/index.js";
 import { prepareJob, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { readDrawing, writeOut } from "./files.js";
-import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
+import { withOnlyLayers } from "../planning/only-layers.js";
+import { readDrawing } from "../planning/read-drawing.js";
+import { writeOut } from "./files.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -62,7 +62,16 @@ interface Planned {
   readonly lines: readonly string[];
 }
 
-export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: CliIo): void {
+/** What it needs of the thread that it runs in. */
+export interface PlanOutput {
+  out(text: string): void;
+  /** A step has begun. */
+  begin(step: PlanStep): void;
+}
+
+export type PlanStep = "prepare" | "plan";
+
+export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
   const toStdout = [
     ...(options.json === true ? ["--json"] : []),
     ...(["ebb", "preview", "svg", "strokes"] as const)
@@ -75,7 +84,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
       `${toStdout.join(" and ")} both write to stdout: give one of them a file.`,
     );
   }
-  const { report, settings, job, trajectory, lines } = planFile(file, base, options);
+  const { report, settings, job, trajectory, lines } = planFile(file, base, options, io);
   const { prepared } = job;
   const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
   if (options.ebb !== undefined) writeOut(options.ebb, `${lines.join("\n")}\n`, io);
@@ -90,11 +99,12 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   else if (toStdout.length === 0) io.out(words(report));
 }
 
-function planFile(file: string, base: PlotSettings, options: PlanCommandOptions): Planned {
+function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
   const drawing = importDrawing(file, readDrawing(file));
   const importMs = clock();
+  io.begin("prepare");
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
@@ -105,6 +115,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions)
   });
   const orderMs = performance.now() - orderingFrom;
   const prepareMs = clock() - orderMs;
+  io.begin("plan");
   const { firmware } = options;
   const planned = planJob(job.prepared, settings, machine, { firmware, liftFirst: true });
   const { trajectory } = planned;

@@ -2,23 +2,42 @@
  * What a plot of the command line needs to go on after a crash: its drawing, its settings, and the journal that its
  * driver writes. One folder for each device; it is gone when the plot has ended.
  */
-import { mkdirSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import {
+  copyFileSync,
+  mkdirSync,
+  existsSync,
+  readFileSync,
+  renameSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "../plotter/types.js";
 
-const plotSchema = z.object({ name: z.string(), settings: plotSettingsSchema, pid: z.number() });
+const plotSchema = z.object({
+  name: z.string(),
+  settings: plotSettingsSchema,
+  only: z.array(z.string()).optional(),
+  pid: z.number(),
+});
 const entrySchema = z.object({
   place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
   progress: z.number(),
 });
 
-/** A plot that was cut short. */
-export interface CutShort {
+/** What is plotted. */
+export interface Plotted {
   readonly name: string;
   readonly settings: PlotSettings;
+  /** The layers that are drawn, by name; left out: all. */
+  readonly only: readonly string[] | undefined;
+}
+
+/** A plot that was cut short. */
+export interface CutShort extends Plotted {
   readonly from: JournalEntry["place"];
   /** 0 … 1. */
   readonly progress: number;
@@ -36,16 +55,16 @@ export class PlotRecord {
     return join(this.#folder, "drawing");
   }
 
-  begin(name: string, text: string, settings: PlotSettings): void {
+  begin(path: string, plot: Plotted): void {
     this.end();
     mkdirSync(this.#folder, { recursive: true, mode: 0o700 });
-    writeFileSync(this.drawingPath, text);
-    this.#write("plot.json", { name, settings, pid: process.pid });
+    copyFileSync(path, this.drawingPath);
+    this.takeOver(plot);
   }
 
-  /** Taken up again: it belongs to this process now. */
-  takeOver({ name, settings }: CutShort): void {
-    this.#write("plot.json", { name, settings, pid: process.pid });
+  /** Begun, or taken up again, by this process. */
+  takeOver({ name, settings, only }: Plotted): void {
+    this.#write("plot.json", { name, settings, only, pid: process.pid });
   }
 
   /** `progress`: 0 … 1. */
@@ -63,8 +82,8 @@ export class PlotRecord {
     const entry = entrySchema.safeParse(this.#read("journal.json"));
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (plot.data.pid !== process.pid && isRunning(plot.data.pid)) return null;
-    const { name, settings } = plot.data;
-    return { name, settings, from: entry.data.place, progress: entry.data.progress };
+    const { name, settings, only } = plot.data;
+    return { name, settings, only, from: entry.data.place, progress: entry.data.progress };
   }
 
   /** Throws `not-found`. */

@@ -3,15 +3,15 @@
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to go on with, the first one cancels.
  */
 import { basename } from "node:path";
-import { PlotwrightError, importDrawing, machineOf } from "../../src/index.js";
+import { PlotwrightError, machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { WorkerPlanner } from "../planning/planner.js";
+import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../plotter/types.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
-import { nameOf, readDrawing, withDrawingFile } from "./files.js";
+import { nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
-import { withOnlyLayers } from "./layers.js";
 import { withPlotter } from "./machine-commands.js";
 import type { DeviceOptions } from "./options.js";
 import { PlotRecord, type CutShort } from "./plot-record.js";
@@ -32,13 +32,14 @@ interface Plot {
   readonly name: string;
   readonly path: string;
   readonly settings: PlotSettings;
+  readonly only: readonly string[] | undefined;
   readonly from: CutShort["from"] | null;
 }
 
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
 export async function runPlot(
   files: readonly string[],
-  base: PlotSettings,
+  settings: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
@@ -53,13 +54,10 @@ export async function runPlot(
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
   for (const [index, file] of jobs.entries()) {
-    const text = readDrawing(file);
     if (index > 0 && !(await waitForPaper(nameOf(file), options.paperS, io))) return cancelled(io);
-    const settings =
-      options.only === undefined ? base : withOnlyLayers(importDrawing(file, text), base, options.only);
-    const code = await withDrawingFile(file, text, (path) => {
-      const plot: Plot = { name: basename(nameOf(file)), path, settings, from: null };
-      return plotOne(plot, { begin: () => record.begin(plot.name, text, settings), record }, options, io);
+    const code = await withDrawingFile(file, (path) => {
+      const plot: Plot = { name: basename(nameOf(file)), path, settings, only: options.only, from: null };
+      return plotOne(plot, { begin: () => record.begin(path, plot), record }, options, io);
     });
     if (code !== 0) return code;
   }
@@ -100,12 +98,15 @@ async function plotOne(
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
-  const { path, settings } = plot;
+  const { path, settings, only } = plot;
   const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
-    const planner = await WorkerPlanner.open({ path, settings, machine: machineOf(settings) }, stop.signal);
+    const planner = await WorkerPlanner.open(
+      { path, settings, machine: machineOf(settings), only, limits: OWN_PLANNING_LIMITS },
+      stop.signal,
+    );
     try {
       planner.warnings.forEach((warning) => say(`note: ${warning}\n`));
       return await withPlotter(options, settings, (plotter) => {

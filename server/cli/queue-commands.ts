@@ -3,8 +3,9 @@ import { Option, type Command } from "commander";
 import { basename } from "node:path";
 import { importDrawing } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
-import { nameOf, readDrawing } from "./files.js";
-import { withOnlyLayers } from "./layers.js";
+import { withOnlyLayers } from "../planning/only-layers.js";
+import { readDrawing } from "../planning/read-drawing.js";
+import { nameOf, withDrawingFile } from "./files.js";
 import { addData, addJson, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
 import { addJob, DEFAULT_URL, serverState, type ServerOptions } from "./server-client.js";
@@ -30,14 +31,14 @@ export const declareAdd: Declare = (command, { io }) => {
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
       for (const file of files) {
-        const drawing = readDrawing(file);
+        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readDrawing(path)));
         const settings =
           options.only === undefined
             ? base
             : withOnlyLayers(importDrawing(file, drawing), base, options.only);
         const job = await addJob(options, {
           name: basename(nameOf(file)),
-          drawing,
+          drawing: withoutEncoding(drawing),
           settings,
           copies: options.copies,
           ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
@@ -56,6 +57,10 @@ export const declareQueue: Declare = (command, { io }) => {
     else waiting.forEach((job) => io.out(`${line(job)}\n`));
   });
 };
+
+/** As text it goes in UTF-8, whatever the file said that it was in. */
+const withoutEncoding = (text: string): string =>
+  text.replace(/^(\s*<\?xml\s[^>]*?)\s+encoding\s*=\s*(?:"[^"]*"|'[^']*')/, "$1");
 
 const addServer = (command: Command): Command =>
   command

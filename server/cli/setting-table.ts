@@ -40,8 +40,10 @@ const STRUCTURED: readonly SettingOption[] = [
 function optionsOf(setting: SettingFlag): SettingOption[] {
   const { path, flag, row } = setting;
   const about = `${row.about} (${valuesInWords(setting)})`;
-  if (row.kind === "number")
-    return [{ flags: flagInWords(setting), path, about, parse: row.unit === "mm" ? length : number }];
+  if (row.kind === "number") {
+    const parse = row.unit === "mm" ? length : number;
+    return [{ flags: flagInWords(setting), path, about, parse }];
+  }
   if (row.kind === "choice") return [{ flags: `${flag} <how>`, path, about, choices: row.choices }];
   return [
     { flags: flag, path, about },

@@ -1,9 +1,9 @@
-/** Stdin as text. It can be read once, and may be asked for more than once (the settings of --config -). */
+/** Stdin as it is. It can be read once, and may be asked for more than once (the settings of --config -). */
 import { readFileSync } from "node:fs";
 
-let text: string | null = null;
+let bytes: Uint8Array | null = null;
 
-export function readStdin(): string {
-  text ??= readFileSync(0, "utf8");
-  return text;
+export function readStdin(): Uint8Array {
+  bytes ??= readFileSync(0);
+  return bytes;
 }

@@ -4,6 +4,7 @@ import helmet from "helmet";
 import { queueSettingsSchema, type Pairing, type Snapshot } from "../../src/schema/index.js";
 import type { MachineFiles } from "../machines/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
+import { lane } from "../planning/lane.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { Access } from "../security/access.js";
@@ -99,10 +100,11 @@ export function apiMounts(
 }
 
 function handMoveParts({ registry, queue, machines }: AppParts): HandMoveParts {
+  const turn = lane(2);
   return {
     plotters: registry.ports,
     queue,
-    jobBoxMm: (id) => drawingBoxMm(queue.drawingPath(id), queue.get(id).settings),
+    jobBoxMm: (id) => turn({ client: id }, () => drawingBoxMm(queue.drawingPath(id), queue.get(id).settings)),
     withMachine: (settings) => machines.withMachine(settings),
   };
 }

@@ -1,8 +1,8 @@
 /** /api/v1/jobs: add, change, order, run and remove jobs. */
-import express, { Router, type Request } from "express";
+import express, { Router, type Request, type Response } from "express";
 import { basename } from "node:path";
 import { z } from "zod";
-import { PlotwrightError } from "../../src/index.js";
+import { isDrawingName, PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   cleanName,
@@ -16,23 +16,25 @@ import {
   type Job,
 } from "../../src/schema/index.js";
 import type { MachineFiles } from "../machines/machine-files.js";
+import type { Asker } from "../planning/lane.js";
+import { MAX_PARSED_BYTES } from "../planning/unpack.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import { parseWith } from "./errors.js";
 
-/** Parsed here at once; larger ones go to disk and are taken apart in a thread. */
-const SMALL_BYTES = 1_000_000;
-
 export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: MachineFiles): Router {
   const router = Router();
-  const small = express.json({ limit: SMALL_BYTES });
+  const small = express.json({ limit: MAX_PARSED_BYTES });
 
   router.post("/", (request, response, next) => {
     if (isSmall(request)) small(request, response, next);
     else next();
   });
   router.post("/", async (request, response) => {
-    const job = await (request.is("json") !== false ? addFromJson(request) : addFromFile(request));
+    const asker = askerOf(request, response);
+    const job = await (request.is("json") !== false
+      ? addFromJson(request, asker)
+      : addFromFile(request, asker));
     response.status(201).location(`/api/v1/jobs/${job.id}`).json(job);
   });
 
@@ -53,7 +55,8 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   router.patch("/:id", small, async (request, response) => {
     const { settings, ...patch } = parseWith(jobPatchSchema, request.body);
     const whole = settings === undefined ? {} : { settings: machines.withMachine(settings) };
-    response.json(await queue.patch(request.params.id, { ...patch, ...whole }));
+    const asker = askerOf(request, response);
+    response.json(await queue.patch(request.params.id, { ...patch, ...whole }, asker));
   });
 
   router.post("/:id/move", small, (request, response) => {
@@ -112,19 +115,19 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
 
   return router;
 
-  async function addFromJson(request: Request): Promise<Job> {
+  async function addFromJson(request: Request, asker: Asker): Promise<Job> {
     if (isSmall(request)) {
       const { drawing, copies, ...rest } = parseWith(newJobSchema, request.body);
       const settings = machines.withMachine(rest.settings);
       const stored = await files.add([Buffer.from(drawing, "utf8")]);
-      const first = await queue.add({ ...rest, settings, drawing: stored });
+      const first = await queue.add({ ...rest, settings, drawing: stored }, asker);
       return withCopies(first, copies);
     }
     const { drawing, rest } = await files.addFromJson(bytesOf(request));
     try {
       const { copies, ...wanted } = parseWith(newJobSchema.omit({ drawing: true }), rest);
       const settings = machines.withMachine(wanted.settings);
-      return withCopies(await queue.add({ ...wanted, settings, drawing }), copies);
+      return withCopies(await queue.add({ ...wanted, settings, drawing }, asker), copies);
     } catch (error) {
       await files.remove(drawing.id);
       throw error;
@@ -137,7 +140,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   }
 
   /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */
-  async function addFromFile(request: Request): Promise<Job> {
+  async function addFromFile(request: Request, asker: Asker): Promise<Job> {
     const { name, settings, plotterId } = request.query;
     const wanted = {
       name:
@@ -155,13 +158,23 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
       await files.remove(drawing.id);
       throw new PlotwrightError("bad-file", "The file is empty. Send the SVG as the request's body.");
     }
-    return queue.add({ ...wanted, drawing });
+    return queue.add({ ...wanted, drawing }, asker);
   }
 }
 
+/** Parsed here at once; a larger one goes to disk and is taken apart in a thread. */
 function isSmall(request: Request): boolean {
   const bytes = request.headers["content-length"];
-  return bytes !== undefined && Number(bytes) <= SMALL_BYTES;
+  return bytes !== undefined && Number(bytes) <= MAX_PARSED_BYTES;
+}
+
+/** Who does not wait for the answer wants no plan any more. */
+function askerOf(request: Request, response: Response): Asker {
+  const gone = new AbortController();
+  response.on("close", () => {
+    if (!response.writableFinished) gone.abort();
+  });
+  return { client: request.socket.remoteAddress, signal: gone.signal };
 }
 
 /** Leaves the connection open when reading stops early, so that the refusal can still be answered. */
@@ -179,5 +192,5 @@ function asJson(value: unknown): unknown {
 /** A name that every system can save under. */
 function fileName(name: string): string {
   const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
-  return /\.(svg|dxf|hpgl|hpg|plt|json)$/i.test(safe) ? safe : `${safe}.svg`;
+  return isDrawingName(safe) ? safe : `${safe}.svg`;
 }

@@ -4,8 +4,12 @@ import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "./planner.js";
 
 /** Throws what import and prepare throw; a drawing without strokes is `bad-file`. */
-export async function drawingBoxMm(path: string, settings: PlotSettings): Promise<BoxMm> {
-  const planner = await WorkerPlanner.open({ path, settings, machine: machineOf(settings) });
+export async function drawingBoxMm(
+  path: string,
+  settings: PlotSettings,
+  only?: readonly string[],
+): Promise<BoxMm> {
+  const planner = await WorkerPlanner.open({ path, settings, machine: machineOf(settings), only });
   try {
     const { xy } = planner.strokes;
     let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];

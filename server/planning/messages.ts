@@ -1,5 +1,5 @@
 /** What passes between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
-import type { ErrorCode, MachineProfile, StrokeSet } from "../../src/index.js";
+import { PlotwrightError, type ErrorCode, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 
@@ -9,6 +9,8 @@ export interface WorkerInput {
   readonly path: string;
   readonly settings: PlotSettings;
   readonly machine: MachineProfile;
+  /** Names of the layers to draw, where not all of them. */
+  readonly only?: readonly string[] | undefined;
 }
 
 export type ToWorker =
@@ -17,6 +19,8 @@ export type ToWorker =
   | { readonly type: "measure"; readonly id: number; readonly firmware: string | null };
 
 export type FromWorker =
+  /** The file has been read. */
+  | { readonly type: "imported" }
   | { readonly type: "ready"; readonly strokes: StrokeSet; readonly warnings: readonly string[] }
   | { readonly type: "planned"; readonly id: number; readonly plot: PlannedPlot }
   | {
@@ -26,9 +30,15 @@ export type FromWorker =
       readonly warnings: readonly string[];
     }
   /** id null: the drawing itself could not be prepared. */
-  | {
-      readonly type: "failed";
-      readonly id: number | null;
-      readonly code: ErrorCode;
-      readonly message: string;
-    };
+  | ({ readonly type: "failed"; readonly id: number | null } & Fault);
+
+/** An error as it passes between threads. */
+export interface Fault {
+  readonly code: ErrorCode;
+  readonly message: string;
+}
+
+export function faultOf(error: unknown): Fault {
+  if (error instanceof PlotwrightError) return { code: error.code, message: error.message };
+  return { code: "internal", message: error instanceof Error ? error.message : String(error) };
+}

@@ -1,18 +1,19 @@
 /** The planner's thread: prepares one drawing, then plans it as often as asked. No zod in here. */
-import { readFileSync } from "node:fs";
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
 import {
+  importDrawing,
   planJob,
-  PlotwrightError,
   pointCount,
   strokeCount,
   trajectoryStats,
-  type ErrorCode,
   type Prepared,
 } from "../../src/index.js";
+import { prepareJob } from "../../src/internal.js";
 import type { JobStats } from "../../src/schema/index.js";
-import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
-import { planAndCompile, prepareText } from "./stages.js";
+import { faultOf, type FromWorker, type ToWorker, type WorkerInput } from "./messages.js";
+import { withOnlyLayers } from "./only-layers.js";
+import { readDrawing } from "./read-drawing.js";
+import { planAndCompile } from "./stages.js";
 
 const input = workerData as WorkerInput;
 const port = parentPort;
@@ -22,12 +23,15 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
   port.postMessage(message, transfer);
 
 try {
-  const text = readFileSync(input.path, "utf8");
-  const { prepared, warnings } = prepareText(text, input.settings, input.machine);
+  // The format is told from the content.
+  const drawing = importDrawing("", readDrawing(input.path));
+  post({ type: "imported" });
+  const settings = withOnlyLayers(drawing, input.settings, input.only);
+  const { prepared, warnings } = prepareJob(drawing, settings, input.machine);
   port.on("message", (message: ToWorker) => answer(prepared, warnings, message));
   post({ type: "ready", strokes: prepared.strokes, warnings });
 } catch (error) {
-  post({ type: "failed", id: null, ...fault(error) });
+  post({ type: "failed", id: null, ...faultOf(error) });
 }
 
 function answer(prepared: Prepared, warnings: readonly string[], message: ToWorker): void {
@@ -39,7 +43,7 @@ function answer(prepared: Prepared, warnings: readonly string[], message: ToWork
       post({ type: "measured", id: message.id, ...measure(prepared, warnings, message.firmware) });
     }
   } catch (error) {
-    post({ type: "failed", id: message.id, ...fault(error) });
+    post({ type: "failed", id: message.id, ...faultOf(error) });
   }
 }
 
@@ -61,11 +65,6 @@ function measure(
     durationS: figures.durationS,
   };
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
-}
-
-function fault(error: unknown): { code: ErrorCode; message: string } {
-  if (error instanceof PlotwrightError) return { code: error.code, message: error.message };
-  return { code: "internal", message: error instanceof Error ? error.message : String(error) };
 }
 
 /** Every array's memory, once each: columns may share one. */

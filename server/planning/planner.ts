@@ -2,22 +2,24 @@
  * A prepared drawing in a worker thread, ready to be planned from any place: planning a large drawing takes
  * seconds, and the thread that streams to the board must not wait for it.
  *
- * A drawing that needs more memory than the worker may have ends the worker, not the server.
+ * A drawing that needs more time or memory than the worker may have ends the worker, not the server.
  */
-import type { Worker } from "node:worker_threads";
-import { PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
-import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import { PlotwrightError, type StrokeSet } from "../../src/index.js";
+import type { JobStats } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot, PlotPlanner } from "../plotter/types.js";
+import { BoundedThread } from "./bounded-thread.js";
 import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
-import { startWorker } from "./worker-entry.js";
+import {
+  importLimit,
+  planLimit,
+  prepareLimit,
+  PLANNING_LIMITS,
+  type PlanningLimits,
+} from "./planning-limits.js";
 
-/** Of JavaScript heap; typed arrays come on top of it. */
-const MAX_HEAP_MB = 2_048;
-
-export interface PlannerInput {
-  readonly path: string;
-  readonly settings: PlotSettings;
-  readonly machine: MachineProfile;
+export interface PlannerInput extends WorkerInput {
+  /** Where they are not the usual ones. */
+  readonly limits?: PlanningLimits;
 }
 
 export interface Measured {
@@ -87,23 +89,28 @@ export async function measureDrawing(
 
 /** The worker and the questions that wait for its answers. */
 class PlannerThread {
-  readonly #worker: Worker;
+  readonly #thread: BoundedThread<FromWorker>;
+  readonly #limits: PlanningLimits;
   readonly #waiting = new Map<number | null, Waiting>();
   readonly #ready: Promise<FromWorker>;
   #nextId = 1;
   #ended: Error | null = null;
 
-  constructor(input: WorkerInput) {
+  constructor({ limits = PLANNING_LIMITS, ...input }: PlannerInput) {
+    this.#limits = limits;
     this.#ready = this.#wait(null);
     // Whoever opened it may have gone before it is ready; ready() still rejects for those who ask.
     this.#ready.catch(() => undefined);
-    this.#worker = startWorker("plan-worker", import.meta.url, {
-      workerData: input,
-      resourceLimits: { maxOldGenerationSizeMb: MAX_HEAP_MB },
+    const { heapMb, growthMb } = limits;
+    const start = { name: "plan-worker", starterUrl: import.meta.url, workerData: input, heapMb, growthMb };
+    this.#thread = new BoundedThread<FromWorker>(start, {
+      message: (message) => {
+        if (message.type === "imported") this.#thread.allow(prepareLimit(limits, input.settings.prepare));
+        else this.#settle(message);
+      },
+      ended: (reason) => this.#end(reason),
     });
-    this.#worker.on("message", (message: FromWorker) => this.#settle(message));
-    this.#worker.on("error", (error) => this.#end(workerFault(error)));
-    this.#worker.on("exit", () => this.#end(new PlotwrightError("internal", "The planning thread ended.")));
+    this.#thread.allow(importLimit(limits));
   }
 
   ready(): Promise<FromWorker> {
@@ -114,23 +121,24 @@ class PlannerThread {
     if (this.#ended !== null) return Promise.reject(this.#ended);
     const id = this.#nextId++;
     const answer = this.#wait(id);
-    this.#worker.postMessage(question(id));
+    this.#thread.allow(planLimit(this.#limits));
+    this.#thread.post(question(id));
     return answer;
   }
 
-  async stop(reason: Error): Promise<void> {
-    this.#end(reason);
-    await this.#worker.terminate();
+  stop(reason: Error): Promise<void> {
+    return this.#thread.stop(reason);
   }
 
   #wait(id: number | null): Promise<FromWorker> {
     return new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
   }
 
-  #settle(message: FromWorker): void {
+  #settle(message: Exclude<FromWorker, { type: "imported" }>): void {
     const id = message.type === "ready" ? null : message.id;
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
+    this.#thread.allow(this.#waiting.size === 0 ? null : planLimit(this.#limits));
     if (message.type === "failed") {
       waiting?.reject(new PlotwrightError(message.code, message.message));
     } else {
@@ -139,21 +147,10 @@ class PlannerThread {
   }
 
   #end(reason: Error): void {
-    this.#ended ??= reason;
-    for (const waiting of this.#waiting.values()) waiting.reject(this.#ended);
+    this.#ended = reason;
+    for (const waiting of this.#waiting.values()) waiting.reject(reason);
     this.#waiting.clear();
   }
-}
-
-function workerFault(error: Error): PlotwrightError {
-  if ((error as NodeJS.ErrnoException).code === "ERR_WORKER_OUT_OF_MEMORY") {
-    return new PlotwrightError(
-      "too-large",
-      "The drawing needs more memory than there is for planning. Simplify it, or plot it in parts.",
-      { cause: error },
-    );
-  }
-  return new PlotwrightError("internal", `The planning thread failed: ${error.message}`, { cause: error });
 }
 
 const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "Planning was cancelled.");

@@ -3,21 +3,28 @@ import { openSync, readFileSync, closeSync, fsyncSync, writeSync } from "node:fs
 import { parentPort, workerData } from "node:worker_threads";
 import type { UnpackInput, Unpacked } from "./unpack.js";
 
-const MOST_DEEP = 20;
-
-function unpack({ path, drawingPath }: UnpackInput): Unpacked {
+function unpack({ path, drawingPath, maxRestChars }: UnpackInput): Unpacked {
   let value: unknown;
   try {
     value = JSON.parse(readFileSync(path, "utf8"));
   } catch {
-    return { fault: "The request is not valid JSON." };
+    return { code: "bad-setting", fault: "The request is not valid JSON." };
   }
   if (typeof value !== "object" || value === null || Array.isArray(value)) {
-    return { fault: "The request must be a JSON object." };
+    return { code: "bad-setting", fault: "The request must be a JSON object." };
   }
-  if (isDeep(value)) return { fault: "The request is nested too deeply." };
-  const { drawing, ...rest } = value as Record<string, unknown>;
-  if (typeof drawing !== "string" || drawing === "") return { fault: "drawing: the SVG's text is missing." };
+  const { drawing, ...others } = value as Record<string, unknown>;
+  if (typeof drawing !== "string" || drawing === "") {
+    return { code: "bad-setting", fault: "drawing: the SVG's text is missing." };
+  }
+  const rest = textOf(others);
+  if (rest === null) return { code: "bad-setting", fault: "The request is nested too deeply." };
+  if (rest.length > maxRestChars) {
+    return {
+      code: "too-large",
+      fault: `Without its drawing the request has more than ${maxRestChars / 1e3} kB. Send fewer settings.`,
+    };
+  }
   const bytes = Buffer.from(drawing, "utf8");
   const file = openSync(drawingPath, "wx", 0o600);
   try {
@@ -29,15 +36,14 @@ function unpack({ path, drawingPath }: UnpackInput): Unpacked {
   return { rest, drawingBytes: bytes.length };
 }
 
-/** Settings are nested six deep. What is nested thousands deep can't be handed from thread to thread. */
-function isDeep(value: object): boolean {
-  let level: object[] = [value];
-  for (let depth = 0; depth < MOST_DEEP && level.length > 0; depth++) {
-    level = level.flatMap((one) => Object.values(one) as unknown[]).filter(isObject);
+/** Null where it is nested deeper than can be written. */
+function textOf(value: unknown): string | null {
+  try {
+    return JSON.stringify(value);
+  } catch (error) {
+    if (error instanceof RangeError) return null;
+    throw error;
   }
-  return level.length > 0;
 }
-
-const isObject = (value: unknown): value is object => typeof value === "object" && value !== null;
 
 parentPort?.postMessage(unpack(workerData as UnpackInput));

@@ -22,15 +22,19 @@ import {
   type StreamReport,
   type StrokeSet,
 } from "../../src/index.js";
-import { planWalk } from "../../src/internal.js";
+import { planWalk, mostAheadS } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { AdvanceWatch } from "./advance-watch.js";
+import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
+import { boardRestarted } from "./health.js";
 import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
 
-/** Motion kept ahead of the pen, seconds of ours. */
-const WINDOW_S = 0.3;
+/** Of a command of motion, see `slice-search`. */
+const LONGEST_COMMAND_S = 0.15;
+/** The line, the board and this computer. */
+const ANSWER_MS = 30;
 /** How often the board is asked for button and queue while it plays. */
 const POLL_S = 0.25;
 /** Overrun of the planned time that still is no fault, seconds of ours. */
@@ -44,6 +48,8 @@ const SETTLE_S = 0.02;
 const SERVO_MS = 400;
 /** What the board's layer variable holds while its counters count from home: this and the mode of microsteps. */
 const PLACE_KNOWN = 112;
+/** The same where the counters do not count from home. A board that has started anew holds 0. */
+const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 
 export interface CarriageEvents {
@@ -62,6 +68,7 @@ export class Carriage {
   underrunCount = 0;
 
   private playing: Streamer | null = null;
+  private hasRestarted = false;
   private origin: readonly [number, number] = [0, 0];
   private state: BoardState | null = null;
   /** What the motors are set to while their place is known. */
@@ -134,14 +141,18 @@ export class Carriage {
     if (!features.hasClear) return 0;
     // A board that has started anew has its motors off (QE: from 2.8.0).
     if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
-    const mode = Number(await session.query(features.hasFutureSyntax ? "QL,0" : "QL")) - PLACE_KNOWN;
+    const mode = Number(await session.query(this.markQuery)) - PLACE_KNOWN;
     return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
   }
 
   /** Only what counts from home can be found again by the next who connects. */
   private async markHome(): Promise<void> {
     const isFromHome = this.origin[0] === 0 && this.origin[1] === 0;
-    await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : 0);
+    await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : SWITCHED_ON);
+  }
+
+  private get markQuery(): string {
+    return this.connection.features.hasFutureSyntax ? "QL,0" : "QL";
   }
 
   private async mark(value: number): Promise<void> {
@@ -194,17 +205,41 @@ export class Carriage {
     return this.state;
   }
 
-  streamer(): Streamer {
-    const { session, boardClock, speed, waitSpeed } = this.connection;
+  /**
+   * How long the motors may still run after an emergency stop. A queue of one is always full while something waits to
+   * be sent, and the board reads nothing before it has room: it plays all that was sent ahead.
+   */
+  emergencyStopMs({ sendAheadMs }: PlotSettings): number {
+    if (this.queueDepth > 1) return ANSWER_MS;
+    return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
+  }
+
+  /** For the log that users send along. */
+  noteEmergencyStop(settings: PlotSettings): void {
+    const { session, features } = this.connection;
+    const takesMs = this.emergencyStopMs(settings);
+    session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
+  }
+
+  /** `certain` hears of each place that the board surely reached with its motors supplied. */
+  streamer({ sendAheadMs }: PlotSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
+    const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
+    const lines = this.pollLines();
+    const places = new CertainPlace(features, this.origin, lines[lines.length - 1]!);
     const streamer = new Streamer(session, {
       clock: boardClock,
-      windowS: WINDOW_S * speed,
+      windowS: (sendAheadMs / 1_000) * speed,
       queueDepth: this.queueDepth,
-      poll: { lines: this.pollLines(), everyS: POLL_S * speed },
+      poll: { lines, everyS: POLL_S * speed },
       stuckS: STUCK_S * waitSpeed,
       origin: this.origin,
-      onPoll: (line, reply) => {
+      onPoll: (line, reply, asked) => {
+        if (line === this.markQuery && Number(reply) === 0) void this.checkRestart(streamer);
+        else {
+          const at = places.answered(line, reply, asked, streamer);
+          if (at) certain(at);
+        }
         if (line !== "QS") this.events.polled(line, reply);
         else if (streamer.playing && watch.isStalled(reply, streamer.place())) this.stalled(streamer);
       },
@@ -222,8 +257,26 @@ export class Carriage {
     );
   }
 
+  /** Asks a second time, since one odd answer may be that to another question. */
+  private async checkRestart(streamer: Streamer): Promise<void> {
+    const { session } = this.connection;
+    const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
+    if (answer === null || Number(answer) !== 0 || !streamer.playing) return;
+    this.hasRestarted = true;
+    session.write([{ line: "ES" }]);
+    streamer.abandon(boardRestarted());
+  }
+
+  /** After the place is lost: the pen goes up, and the carriage can be pushed home. */
+  async letGo(settings: PlotSettings): Promise<void> {
+    await this.untilStill();
+    if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
+    await this.movePen(true, settings);
+    await this.motorsOff();
+  }
+
   /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
-  async play(streamer: Streamer, plot: PlannedPlot): Promise<StreamReport> {
+  async play(streamer: Streamer, plot: PlannedPlot, settings: PlotSettings): Promise<StreamReport> {
     const start = this.state!;
     this.left = null;
     this.motorsOn = true;
@@ -235,7 +288,11 @@ export class Carriage {
       if (!report.exact) this.misplaced(report);
       return report;
     } catch (error) {
-      if (!(error instanceof PlotwrightError && error.code === "conflict")) this.state = null;
+      if (!canFindPlace(streamer, error)) this.state = null;
+      if (this.hasRestarted) {
+        this.hasRestarted = false;
+        await this.letGo(settings).catch(() => undefined);
+      }
       throw error;
     } finally {
       this.playing = null;
@@ -258,7 +315,7 @@ export class Carriage {
       firmware: this.connection.features.version,
       board: this.state!,
     });
-    if (job.trajectory.blockCount > 0) await this.playJob(job);
+    if (job.trajectory.blockCount > 0) await this.playJob(job, settings);
   }
 
   /** Draws strokes given in mm from where the carriage stands, and comes back there. */
@@ -276,14 +333,15 @@ export class Carriage {
       firmware: this.connection.features.version,
       board: this.state!,
     });
-    await this.playJob(job);
+    await this.playJob(job, settings);
   }
 
-  private async playJob(job: MachineJob): Promise<void> {
+  private async playJob(job: MachineJob, settings: PlotSettings): Promise<void> {
+    const streamer = this.streamer(settings);
     try {
-      await this.play(this.streamer(), { trajectory: job.trajectory, commands: job.commands() });
+      await this.play(streamer, { trajectory: job.trajectory, commands: job.commands() }, settings);
     } catch (error) {
-      if (error instanceof PlotwrightError && error.code === "conflict") await this.findPlace();
+      if (canFindPlace(streamer, error)) await this.findPlace();
       throw error;
     }
     this.penUp = true;
@@ -377,7 +435,8 @@ export class Carriage {
   /** What keeps the stream's time true, and tells of the button and of the motors' supply. */
   private pollLines(): readonly string[] {
     const { features } = this.connection;
-    if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC"];
+    if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC", this.markQuery];
+    if (features.hasClear) return ["QG", "QS", "QC", this.markQuery];
     if (features.hasGeneralQuery) return ["QG", "QS", "QC"];
     return features.hasStepQuery ? ["QM", "QB", "QS", "QC"] : ["QM", "QB", "QC"];
   }
@@ -392,6 +451,10 @@ export class Carriage {
     );
   }
 }
+
+/** True where the motion ended early but the counters still tell the place: stopped on purpose, or a command refused. */
+const canFindPlace = (streamer: Streamer, error: unknown): boolean =>
+  streamer.refused !== null || (error instanceof PlotwrightError && error.code === "conflict");
 
 const placeUnknown = (): PlotwrightError =>
   new PlotwrightError(

@@ -38,7 +38,8 @@ async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
     if (kind === "#" && text === mark) break;
     if (kind === "<" && text !== undefined) answers.unshift(text);
   }
-  return answers.slice(0, -1);
+  // Lines of a shape that the session does not know make it ask for V, to know again which answer is which.
+  return answers.slice(0, -1).filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
 }
 
 async function noteOn(carriage: Carriage, name: string): Promise<string | null> {

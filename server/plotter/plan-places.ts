@@ -33,16 +33,6 @@ export function placeOfSteps(
   return { x: xFromMotors(machine, steps1, steps2), y: yFromMotors(machine, steps1, steps2) };
 }
 
-/** True when every pen move begun before `planS` leaves the pen up. */
-export function isPenUpBefore(trajectory: Trajectory, planS: number): boolean {
-  let up = true;
-  for (const move of trajectory.penMoves) {
-    if (move.startS >= planS - SAME_TIME_S) break;
-    up = move.up;
-  }
-  return up;
-}
-
 /** The first place that is still to be drawn at `planS`, when the carriage rests there; null when none is. */
 export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
   const { runs } = trajectory;

@@ -26,7 +26,7 @@ import { movedPlace, pointOfPlace } from "./plan-places.js";
 import { RunProgress } from "./run-progress.js";
 import { RunSettings } from "./run-settings.js";
 import { RunStream } from "./run-stream.js";
-import { stoppedPlace } from "./stopped-place.js";
+import { placeBehindSent, stoppedPlace } from "./stopped-place.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -44,6 +44,8 @@ const PROGRESS_S = 0.06;
 const JOURNAL_S = 0.25;
 /** Between the last journal entry and the end of what the board had got, at most, seconds of ours. */
 const LEFT_S = 1.5;
+/** Between two journal entries, at most, and what is sent in that time. */
+const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
 /** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
@@ -95,7 +97,7 @@ export class CarriageRun implements LivePlotRun {
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
     this.stream = new RunStream(carriage, this.strokes, this.settings, this.progress, {
       tell: (progress) => this.tell(progress),
-      ended: () => this.streamEnded(),
+      ended: (place) => this.streamEnded(place),
     });
     this.holdPlace = start.from ? this.placeLeft(start.from) : null;
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
@@ -190,8 +192,14 @@ export class CarriageRun implements LivePlotRun {
     const at = this.carriage.place(machineOf(this.settings.current));
     if (!left || !at) return from;
     const { draw, travel } = this.settings.current.motion;
-    const aheadMm = LEFT_S * connection.speed * Math.max(draw.speedMmPerS, travel.speedMmPerS);
-    return stoppedPlace(this.strokes, from, { ...at, up: left.penUp }, aheadMm, this.stops.strokes);
+    const drawMmPerS = connection.speed * draw.speedMmPerS;
+    const mostMmPerS = Math.max(drawMmPerS, connection.speed * travel.speedMmPerS);
+    const pen = { ...at, up: left.penUp };
+    const { sent } = this.start;
+    return (
+      (sent && placeBehindSent(this.strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS)) ??
+      stoppedPlace(this.strokes, from, pen, LEFT_S * mostMmPerS, this.stops.strokes)
+    );
   }
 
   private heldPlace(): Place {
@@ -368,9 +376,9 @@ export class CarriageRun implements LivePlotRun {
     this.stopTicking = this.tick();
   }
 
-  private streamEnded(): void {
+  private streamEnded(place: Place | null): void {
     this.stopTicking();
-    this.writeJournal(this.stream.stopped?.place ?? this.progress.place);
+    this.writeJournal(place ?? this.progress.place);
   }
 
   private tick(): () => void {
@@ -379,7 +387,9 @@ export class CarriageRun implements LivePlotRun {
     const next = (): void => {
       if (this.stream.streamer) {
         this.tell(this.progress.update(this.stream.streamer.place()));
-        if (boardClock.nowS() >= this.journalDueS) this.writeJournal(this.progress.place);
+        if (boardClock.nowS() >= this.journalDueS) {
+          this.writeJournal(this.progress.place, this.stream.sentPlace);
+        }
       }
       cancel = boardClock.after(PROGRESS_S * speed, next);
     };
@@ -391,13 +401,13 @@ export class CarriageRun implements LivePlotRun {
     for (const listener of this.progressListeners) listener(progress);
   }
 
-  private writeJournal(left: Place | null): void {
+  private writeJournal(left: Place | null, sent?: Place): void {
     const { latest } = this.progress;
     const { boardClock, speed } = this.carriage.connection;
     this.journalDueS = boardClock.nowS() + JOURNAL_S * speed;
     if (!left) return;
     const { xMm, yMm, penUp, elapsedS } = latest ?? this.standing();
-    this.start.journal?.record({ place: left, xMm, yMm, penUp, elapsedS });
+    this.start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
   }
 
   /** Before anything has been streamed. */

@@ -16,7 +16,7 @@ import {
 import { nodeClock } from "../serial/node-clock.js";
 import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
-import { isButtonPressed, isPowerLow, powerLow } from "./health.js";
+import { isButtonPressed, isPowerLow, powerLost, powerLow } from "./health.js";
 import { sendLine } from "./console.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { CarriageRun } from "./plot-run.js";
@@ -75,6 +75,7 @@ export class PlotterDriver {
       boardName: null,
       activity: "none",
       firmware: null,
+      emergencyStopMs: null,
       message: null,
       penUp: null,
       motorsOn: null,
@@ -117,9 +118,11 @@ export class PlotterDriver {
     await this.connecting;
     const carriage = this.idleCarriage();
     this.settings = settings;
+    this.carriageChanged();
     const run = new CarriageRun(carriage, planner, settings, start);
     this.run = run;
-    this.tell({ connection: "busy", activity: "plotting" });
+    const beginsHeld = start.held ?? (start.from ?? null) !== null;
+    this.tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
     run.onHeld((held) => this.tell({ activity: held ? "held" : "plotting" }));
     run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));
     run.finished.then(
@@ -348,9 +351,13 @@ export class PlotterDriver {
   private powerLost(): void {
     if (this.powerIsLow) return;
     this.powerIsLow = true;
-    this.run?.fail(powerLow());
+    this.run?.fail(powerLost());
     this.tell({ connection: "fault", message: powerLow().message });
-    this.carriage?.forgetPlace().catch(() => undefined);
+    const { carriage, settings } = this;
+    carriage
+      ?.forgetPlace()
+      .then(() => carriage.letGo(settings))
+      .catch(() => undefined);
   }
 
   private async byHand<T>(action: (carriage: Carriage) => Promise<T>): Promise<T> {
@@ -384,6 +391,7 @@ export class PlotterDriver {
     if (!carriage) return;
     const place = carriage.place(machineOf(this.settings));
     this.tell({
+      emergencyStopMs: carriage.emergencyStopMs(this.settings),
       penUp: carriage.penUp,
       motorsOn: carriage.motorsOn,
       xMm: place?.x ?? null,

@@ -72,6 +72,11 @@ export class RunProgress {
     this.parts.push(part);
   }
 
+  /** Parts long left behind are forgotten. */
+  knows(commands: CommandStream): boolean {
+    return this.parts.some((part) => part.commands === commands);
+  }
+
   partOf(commands: CommandStream): Part {
     const found = this.parts.find((part) => part.commands === commands);
     if (!found) throw new TypeError("a stream plays that was never announced");

@@ -18,21 +18,25 @@ import {
   type PenSettings,
   type Place,
   type Streamer,
+  type StreamPlace,
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
+import { isPenUpBefore, reseatWaitS, type RefusedCommand } from "../../src/internal.js";
 import type { Carriage } from "./carriage.js";
+import type { CertainAt } from "./certain-place.js";
 import {
   boardStateBefore,
   commandAfter,
-  isPenUpBefore,
   nextPlace,
   placeAt,
+  placeOfSteps,
   restingStream,
   snappedPlace,
   strokeLengthMm,
   withoutDrop,
 } from "./plan-places.js";
+import { placeAfterRefusal } from "./refused-place.js";
 import type { Part, RunProgress } from "./run-progress.js";
 import type { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotProgress } from "./types.js";
@@ -41,8 +45,6 @@ import type { PlannedPlot, PlotProgress } from "./types.js";
 const SNAP_MM = 0.5;
 /** Nearer to the end of a stroke, a place counts as its end. */
 const EDGE_MM = 0.05;
-/** A pen that is down already changes its height in this time. */
-const RESEAT_MS = 60;
 
 /** A way to rest, and what follows from it. */
 interface Rest {
@@ -65,8 +67,8 @@ export interface GoOver {
 
 export interface RunStreamEvents {
   tell(progress: PlotProgress): void;
-  /** The stream has ended, however it did. */
-  ended(): void;
+  /** The stream has ended, however it did; `place`: the first that is still to be drawn, null where that is not known. */
+  ended(place: Place | null): void;
 }
 
 export class RunStream {
@@ -75,6 +77,8 @@ export class RunStream {
   streamer: Streamer | null = null;
 
   private emergency = false;
+  /** The last place that the board surely reached with its motors supplied. */
+  private certain: Place | null = null;
   /** Nothing may be streamed any more. */
   private failure: PlotwrightError | null = null;
   /** The heights that the board moves the pen to. */
@@ -100,6 +104,14 @@ export class RunStream {
     return this.streamer?.isGoingOver ?? false;
   }
 
+  /** What the board will be given next is from there on. */
+  get sentPlace(): Place | undefined {
+    const { streamer } = this;
+    if (!streamer?.playing) return undefined;
+    const { trajectory, commands, next } = this.progress.partOf(streamer.nextStream);
+    return placeAt(trajectory, commands.planS[streamer.nextIndex]!) ?? next ?? undefined;
+  }
+
   /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { carriage } = this;
@@ -109,10 +121,12 @@ export class RunStream {
     if (this.failure) throw this.failure;
     this.boardPen = this.settings.current.pen;
     this.progress.add({ ...plot, start: carriage.boardState!, afterS });
-    const streamer = carriage.streamer();
-    const played = carriage.play(streamer, plot);
+    this.certain = placeAt(plot.trajectory, plot.commands.planS[0]!);
+    const streamer = carriage.streamer(this.settings.current, (at) => this.reached(at));
+    const played = carriage.play(streamer, plot, this.settings.current);
     this.streamer = streamer;
     begun();
+    let left: Place | null = null;
     try {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
@@ -126,12 +140,16 @@ export class RunStream {
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
         penUp,
       });
+      left = this.whereStopped() ?? this.progress.place;
     } catch (error) {
-      if (!this.emergency) throw error;
-      await this.afterEmergency(streamer);
+      if (this.emergency) left = await this.afterEmergency(streamer);
+      else {
+        left = streamer.refused ? await this.afterRefusal(streamer, streamer.refused) : this.certain;
+        throw error;
+      }
     } finally {
       this.streamer = null;
-      this.events.ended();
+      this.events.ended(left);
     }
     if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
   }
@@ -152,6 +170,7 @@ export class RunStream {
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency = true;
+    this.carriage.noteEmergencyStop(this.settings.current);
     this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
@@ -239,23 +258,60 @@ export class RunStream {
     const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
     if (isDown && byPct > 0) {
       const { heightPct, ratePctPerS } = penMoveOf(pen, false);
-      const timeMs = ratePctPerS ? RESEAT_MS + (1_000 * byPct) / ratePctPerS : RESEAT_MS;
+      const timeMs = 1_000 * reseatWaitS(pen, byPct);
       const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
       lines.push([penCommand(machine, reseat), timeMs / 1000]);
     }
     return restingStream(lines, state, planS);
   }
 
+  /** A place that the board told of while it played. */
+  private reached({ place, steps1, steps2 }: CertainAt): void {
+    if (!this.progress.knows(place.stream)) return;
+    const { x, y } = placeOfSteps(machineOf(this.settings.current), steps1, steps2);
+    this.certain = this.placeOrEnd(place, x, y);
+  }
+
   /** The board has dropped its queue: what it has drawn is what its counters say. */
-  private async afterEmergency(streamer: Streamer): Promise<void> {
+  private async afterEmergency(streamer: Streamer): Promise<Place | null> {
     this.emergency = false;
     await this.carriage.findPlace();
     const { steps1, steps2 } = this.carriage.boardState!;
     const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
-    const part = this.progress.partOf(at.stream);
     const { x, y } = this.carriage.place(machineOf(this.settings.current))!;
-    this.stopped = { place: this.placeIn(part, at.planS, x, y) ?? this.endOf(part.trajectory) };
+    const place = this.placeOrEnd(at, x, y);
+    this.stopped = { place };
     this.carriage.penUp = null;
+    return place;
+  }
+
+  /** One command has not run: the counters tell how far the board came all the same. */
+  private async afterRefusal(streamer: Streamer, refused: RefusedCommand): Promise<Place | null> {
+    const { carriage, strokes, settings } = this;
+    try {
+      await carriage.findPlace();
+      const { steps1, steps2 } = carriage.boardState!;
+      const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2);
+      const stop = { refused, at, steps1, steps2 };
+      const machine = machineOf(settings.current);
+      const part = this.progress.partOf(refused.at.stream);
+      const place = placeAfterRefusal(strokes, machine, part, stop, (found, x, y) =>
+        this.placeOrEnd(found, x, y),
+      );
+      carriage.penUp = null;
+      await carriage.movePen(true, settings.current);
+      return place;
+    } catch {
+      // It does not say where it is: home has to be set again.
+      await carriage.forgetPlace().catch(() => undefined);
+      return this.certain;
+    }
+  }
+
+  /** On from a place of a stream, where the pen stands at `x`, `y`. */
+  private placeOrEnd({ stream, planS }: StreamPlace, x: number, y: number): Place | null {
+    const part = this.progress.partOf(stream);
+    return this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory);
   }
 
   /** All of a plan is drawn, and what is left is the way home: not gone before somebody says so. */
@@ -267,6 +323,10 @@ export class RunStream {
   /** Set by what happens during `play`, which the compiler cannot see. */
   private wasStopped(): boolean {
     return this.stopped !== null;
+  }
+
+  private whereStopped(): Place | null {
+    return this.stopped?.place ?? null;
   }
 }
 

@@ -15,6 +15,12 @@ import { strokeLengthMm } from "./plan-places.js";
 /** Rounded corners, fitted curves and whole steps, mm. */
 const NEAR_MM = 0.08;
 
+export interface PenPlace {
+  readonly x: number;
+  readonly y: number;
+  readonly up: boolean;
+}
+
 /**
  * `aheadMm`: how far the pen can have come since, with all travels. `stops`: the strokes before which it walks home.
  * Where nothing fits, the journal's place; where all is drawn, the end of the last stroke.
@@ -22,7 +28,7 @@ const NEAR_MM = 0.08;
 export function stoppedPlace(
   strokes: StrokeSet,
   journal: Place,
-  pen: { readonly x: number; readonly y: number; readonly up: boolean },
+  pen: PenPlace,
   aheadMm: number,
   stops: readonly number[] = [],
 ): Place {
@@ -53,6 +59,23 @@ export function stoppedPlace(
     leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
   }
   return journal;
+}
+
+/**
+ * The same where the server ended and the board lived on: it has played all that it was given, so it stopped behind what
+ * was sent at the last entry, and a place where the line crossed itself before that is not meant. Null with the pen up,
+ * and where nothing fits: then not everything that was sent has arrived.
+ */
+export function placeBehindSent(
+  strokes: StrokeSet,
+  sent: Place,
+  pen: PenPlace,
+  aheadMm: number,
+): Place | null {
+  if (pen.up) return null;
+  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - NEAR_MM) };
+  const found = stoppedPlace(strokes, fromHere, pen, aheadMm);
+  return found === fromHere ? null : found;
 }
 
 /** mm along a stroke where it passes a point for the first time after `fromMm`; null where it does not. */

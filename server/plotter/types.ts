@@ -92,6 +92,8 @@ export interface LivePlotRun extends PlotRun {
 export interface JournalEntry {
   /** The first place not drawn yet, at most half a second old. */
   readonly place: Place;
+  /** While it draws: the first place that the board has not been given yet. It will draw up to there by itself. */
+  readonly sent?: Place | undefined;
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
@@ -105,6 +107,8 @@ export interface PlotJournal {
 export interface PlotStart {
   /** Where in the drawing to begin: after a crash, the journal's place. Default: its beginning. */
   readonly from?: Place | null | undefined;
+  /** The same entry's `sent`. */
+  readonly sent?: Place | undefined;
   /** Begins held, with nothing moved: default where `from` is given, so that the user has the word. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;

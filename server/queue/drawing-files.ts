@@ -70,6 +70,9 @@ export class DrawingFiles {
       });
       await syncFolder(this.#dir);
       return { drawing: { id, bytes: drawingBytes }, rest };
+    } catch (error) {
+      await this.remove(id);
+      throw error;
     } finally {
       await this.remove(upload.id);
     }

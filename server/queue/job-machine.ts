@@ -6,7 +6,7 @@
  *                  hold v  │ release
  *                      paused ──cancel──> cancelled      (cancel works in every state that is no end)
  *
- *   plotting, paused ──interrupt──> interrupted ──recover──> plotting, held at once
+ *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves before it is resumed
  *
  * Nothing here knows of disks, boards or sockets; the queue applies, stores and announces.
  */
@@ -34,7 +34,7 @@ export const TRANSITIONS: Readonly<
   finish: { from: ["plotting"], to: "done" },
   fail: { from: ["plotting", "paused"], to: "failed" },
   interrupt: { from: ["plotting", "paused"], to: "interrupted" },
-  recover: { from: ["interrupted"], to: "plotting" },
+  recover: { from: ["interrupted"], to: "paused" },
   cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled" },
   requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued" },
 };

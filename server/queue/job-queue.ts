@@ -9,6 +9,7 @@ import {
   type MovePlace,
   type QueueSettings,
 } from "../../src/schema/index.js";
+import type { Asker } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
 import { JobBook } from "./job-book.js";
 import { applyJobEvent } from "./job-machine.js";
@@ -69,20 +70,20 @@ export class JobQueue {
 
   /** Plans the drawing to know it can be plotted, then appends it. Throws what planning throws, and
    *  then the drawing is gone. */
-  async add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
+  async add(wanted: NewQueueJob, asker: Asker = {}): Promise<Job> {
     try {
-      return await this.#add(wanted, signal);
+      return await this.#add(wanted, asker);
     } catch (error) {
       await this.#parts.files.remove(wanted.drawing.id);
       throw error;
     }
   }
 
-  async #add(wanted: NewQueueJob, signal?: AbortSignal): Promise<Job> {
+  async #add(wanted: NewQueueJob, asker: Asker): Promise<Job> {
     const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const firmware = this.#firmwareOf(plotterId);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, signal);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, asker);
     // It may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
     return this.#book.insert(
@@ -93,12 +94,12 @@ export class JobQueue {
   }
 
   /** A name at any time; settings and plotter only while queued, and only such settings that can be planned. */
-  async patch(id: string, patch: JobPatch): Promise<Job> {
+  async patch(id: string, patch: JobPatch, asker: Asker = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#book.mustBeQueued(id, "Its plotter");
     if (settings !== undefined) this.#book.mustBeQueued(id, "Its settings");
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
-    const planned = await this.#measuredAnew(id, patch);
+    const planned = await this.#measuredAnew(id, patch, asker);
     // It may have been removed meanwhile.
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
     const job = {
@@ -111,7 +112,7 @@ export class JobQueue {
   }
 
   /** What a change of settings or of the board changes in a job's figures. */
-  async #measuredAnew(id: string, { settings, plotterId }: JobPatch): Promise<Partial<Job>> {
+  async #measuredAnew(id: string, { settings, plotterId }: JobPatch, asker: Asker): Promise<Partial<Job>> {
     const job = this.get(id);
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId);
     const movesOtherwise =
@@ -119,7 +120,7 @@ export class JobQueue {
     if (settings === undefined && !movesOtherwise) return {};
     const wanted = settings ?? job.settings;
     const drawing = this.#parts.store.drawingOf(id);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, asker);
     this.#book.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }

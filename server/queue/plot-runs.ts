@@ -88,10 +88,10 @@ export class PlotRuns {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#book.get(id);
     const job = this.#book.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
-    this.#begin(plotter, job);
+    this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
-      ? "The board has lost its place: push the carriage to home by hand before you go on."
+      ? "The board has lost its place: push the carriage to home by hand before you go on. The line may overlap a little there."
       : "The board still knows its place. Check it with the pen up, then go on.";
     return this.#book.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }
@@ -148,14 +148,18 @@ export class PlotRuns {
     this.#book.close();
   }
 
-  #begin(plotter: PlotterPort, job: Job): void {
+  #begin(plotter: PlotterPort, job: Job): MovingTimer {
     const drawing = this.#parts.store.drawingOf(job.id);
+    const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
+    const entry = this.#journal(job.id);
+    const isOfEntry = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
         plotter,
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
-        from: job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm },
+        from,
+        sent: isOfEntry ? entry?.sent : undefined,
         speedPct: job.speedPct,
       },
       {
@@ -168,6 +172,7 @@ export class PlotRuns {
     );
     const timer = new MovingTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+    return timer;
   }
 
   /** With the progress at that place, which is in memory only and gone after a kill. */
@@ -216,11 +221,13 @@ export class PlotRuns {
     if (held && job.state === "plotting") {
       running?.timer.hold(this.#parts.nowIso());
       const waitsFor = wait ?? job.wait;
-      const isTakenUp = job.place !== null;
-      const message = isTakenUp ? job.message : waitsFor === null ? null : penWords(waitsFor);
+      const message = waitsFor === null ? null : penWords(waitsFor);
       this.#book.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
-    } else if (held && job.state === "paused" && wait !== null) {
-      this.#book.save({ ...job, wait, message: penWords(wait) });
+    } else if (held && job.state === "paused") {
+      // Taken up: only now the board has said where it came to.
+      const place = this.#holdPlace(running);
+      const isNewWait = wait !== null && wait.layerName !== job.wait?.layerName;
+      this.#book.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.#parts.nowIso());
       this.#book.apply(id, { type: "release" }, { place: null });
@@ -251,11 +258,18 @@ export class PlotRuns {
 
   /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
   #interrupt(id: string, message: string): void {
-    const journal = this.#parts.store.journal(id);
-    const entry = journalSchema.safeParse(journal);
-    const progress = journalProgressSchema.safeParse(journal);
-    const place = entry.success ? jobPlace(entry.data.place) : this.#book.get(id).place;
-    this.#book.apply(id, { type: "interrupt", message, place }, progress.success ? progress.data : {});
+    const entry = this.#journal(id);
+    const { place } = this.#book.get(id);
+    const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id));
+    this.#book.apply(
+      id,
+      { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place },
+      progress.success ? progress.data : {},
+    );
+  }
+
+  #journal(id: string): z.infer<typeof journalSchema> | null {
+    return journalSchema.safeParse(this.#parts.store.journal(id)).data ?? null;
   }
 
   #holdPlace(running: Running | undefined): JobPlace | null {
@@ -305,9 +319,8 @@ const canGoOn = (error: Error): boolean =>
   error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
 
 /** What Store.journal gives back: written by this program, but perhaps by another version of it. */
-const journalSchema = z.object({
-  place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
-});
+const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
+const journalSchema = z.object({ place: placeSchema, sent: placeSchema.optional() });
 const journalProgressSchema = z.object({
   progress: z.number().min(0).max(1),
   elapsedS: z.number().min(0),

@@ -1,5 +1,6 @@
 /** What the queue is made of, given in so that tests can lead each part. */
 import type { Job, JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { Asker } from "../planning/lane.js";
 import type { PlotPlanner } from "../plotter/types.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 import type { PlotterPort } from "./plotter-port.js";
@@ -11,7 +12,7 @@ export interface Planning {
     drawing: string,
     settings: PlotSettings,
     firmware: string | null,
-    signal?: AbortSignal,
+    asker?: Asker,
   ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
   open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
 }

@@ -34,6 +34,8 @@ export interface RunPlan {
   readonly open: OpenPlanner;
   /** Where to begin; null for the drawing's beginning. A run that begins in the middle begins held. */
   readonly from: Place | null;
+  /** What the board had been given when that place was written down. */
+  readonly sent: Place | undefined;
   /** Percent of the set speeds, as it was before an interruption. */
   readonly speedPct: number;
 }
@@ -61,7 +63,7 @@ export class Runner {
 
   resume(): void {
     this.#pauseWanted = false;
-    if (this.#run !== null) this.#ask(this.#run.resume());
+    if (this.#run !== null) this.#ask(this.#resume(this.#run));
   }
 
   cancel(): void {
@@ -89,6 +91,12 @@ export class Runner {
     if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
+  /** A run that is resumed before it was ever held reports nothing of it by itself. */
+  async #resume(run: LivePlotRun): Promise<void> {
+    await run.resume();
+    if (!this.#pauseWanted) this.#reports.held(false, null);
+  }
+
   async #go(): Promise<void> {
     const end = await this.#plot().catch((error: unknown): RunEnd => {
       const wanted = this.isCancelling && error instanceof PlotwrightError && error.code === "cancelled";
@@ -101,17 +109,19 @@ export class Runner {
   }
 
   async #plot(): Promise<PlotOutcome> {
-    const { plotter, settings, open, from, speedPct } = this.#plan;
-    const planner = await open(this.#abort.signal);
+    const { plotter, settings, open, from, sent, speedPct } = this.#plan;
+    // What was broken off may have left the pen on the paper: it is taken up even to be cancelled, which lifts it.
+    const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
-      const run = await plotter.plot(planner, settings, { from, journal });
+      const run = await plotter.plot(planner, settings, { from, sent, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));
       // Wishes from the time when there was only a planner.
       if (this.isCancelling) this.#ask(run.cancel());
       else if (this.#pauseWanted) this.#ask(this.#hold(run));
+      else if (from !== null) this.#ask(this.#resume(run));
       if (speedPct !== 100) this.#ask(run.change({ speedPct }));
       return await run.finished;
     } finally {

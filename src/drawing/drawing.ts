@@ -61,6 +61,18 @@ export interface DrawingGroup {
 export interface DashPattern {
   readonly lengths: readonly number[];
   readonly offset: number;
+  /**
+   * For a shape that was stretched with its dashes: a way dx, dy on the page is as long as (a dx + c dy, b dx + d dy).
+   * Absent where it is as long as it looks.
+   */
+  readonly measure?: LinearMap;
+}
+
+export interface LinearMap {
+  readonly a: number;
+  readonly b: number;
+  readonly c: number;
+  readonly d: number;
 }
 
 /** The union of its shapes under `rule`, intersected with its parent (index into clips, −1 none). */

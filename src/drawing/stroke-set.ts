@@ -18,7 +18,7 @@ export interface StrokeSet {
 export interface StrokeLayer {
   readonly id: string;
   readonly name: string;
-  /** "#rrggbb" of its strokes where they agree, else null. */
+  /** "#rrggbb" that most of its strokes' length has in the file; null where they have none. */
   readonly color: string | null;
   /** Id of the layer that this is a further part of, where stops to take up ink split one; its settings hold. */
   readonly partOf?: string | undefined;

@@ -58,4 +58,13 @@ export const meanScale = (m: Affine): number => Math.sqrt(Math.abs(determinant(m
 export const largestScale = (m: Affine): number =>
   Math.max(Math.hypot(m.a, m.b), Math.hypot(m.c, m.d), 1e-12);
 
+/** The way back, without the translation, made to keep areas; null where there is none or it keeps lengths, too. */
+export function unstretched(m: Affine): { a: number; b: number; c: number; d: number } | null {
+  const det = determinant(m);
+  const isSimilar = Math.abs(largestScale(m) - meanScale(m)) <= 1e-9 * meanScale(m);
+  if (det === 0 || !Number.isFinite(det) || isSimilar) return null;
+  const k = meanScale(m) / det;
+  return { a: m.d * k, b: -m.b * k, c: -m.c * k, d: m.a * k };
+}
+
 export const isFiniteAffine = (m: Affine): boolean => Number.isFinite(m.a + m.b + m.c + m.d + m.e + m.f);

@@ -2,25 +2,29 @@
 import {
   RULE_EVENODD,
   RULE_NONZERO,
-  VERB_LINE,
-  VERB_MOVE,
   type ClipRegion,
   type DashPattern,
   type Drawing,
   type DrawingGroup,
 } from "../drawing/drawing.js";
+import { PlotwrightError } from "../errors.js";
 import type { Affine } from "../geometry/affine.js";
-import { EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
-import { ColumnBuffer, type PointBuffer } from "../geometry/growable.js";
+import { boxOfPoints, EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
+import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
-import { CoordColumn } from "./coord-column.js";
 import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
-import { ShapeColumns } from "./shape-columns.js";
 import type { Warnings } from "./warnings.js";
 
 /** A kilometre: far beyond any plotter, near enough that µm survive in single arithmetic steps. */
 const MAX_COORDINATE_MM = 1e6;
+
+/** 400 MB. A file of 200 MB seldom has more; blocks and copies in a few bytes may come to any number. */
+const MAX_COORDS = 50_000_000;
+
+/** From this share of the file on, the coordinates so far tell how many are to come; the rest may be denser. */
+const TELLING_SHARE = 0.01;
+const MARGIN = 1.25;
 
 /** How a shape is painted. Colours "#rrggbb" or null for none; lengths in page mm. */
 export interface Look {
@@ -39,28 +43,40 @@ export class DrawingBuilder {
   private readonly dashes: DashPattern[] = [];
   private readonly dashIndex = new Map<string, number>();
   private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
-  private readonly coords = new CoordColumn();
-  private readonly shapes = new ShapeColumns();
+  private readonly coords = new PointBuffer(1024);
+  /** Where the shapes end: the first one begins at 0. */
+  private readonly verbOffsets = new ColumnBuffer(Uint32Array);
+  private readonly coordOffsets = new ColumnBuffer(Uint32Array);
+  private readonly group = new ColumnBuffer(Uint32Array);
+  private readonly stroke = new ColumnBuffer(Int32Array);
+  private readonly fill = new ColumnBuffer(Int32Array);
+  private readonly fillRule = new ColumnBuffer(Uint8Array);
+  private readonly strokeWidth = new ColumnBuffer(Float32Array);
+  private readonly dash = new ColumnBuffer(Int32Array);
+  private readonly clip = new ColumnBuffer(Int32Array);
+  /**
+   * How much of the file has been drawn, 0 … 1. Coordinates are most of a large drawing: room is made at once for as many
+   * as there are likely to be, so that they are not held twice while they grow.
+   */
+  progress = 0;
   /** The look of the shape before, and its numbers. */
   private look: Look | null = null;
   private lookStroke = -1;
   private lookFill = -1;
   private lookDash = -1;
 
-  constructor(private readonly warnings: Warnings) {}
+  constructor(private readonly warnings: Warnings) {
+    this.verbOffsets.push(0);
+    this.coordOffsets.push(0);
+  }
 
   get shapeCount(): number {
-    return this.shapes.count;
+    return this.group.length;
   }
 
   /** Numbers held so far: what memory and time go by. */
   get coordCount(): number {
     return this.coords.length;
-  }
-
-  /** How much of the file has been drawn, 0 … 1: lets the columns be made as long as they will be. */
-  set progress(share: number) {
-    this.coords.share = this.shapes.share = share;
   }
 
   /** Adds a group; ids already taken get a number, so that they stay distinct. */
@@ -83,100 +99,43 @@ export class DrawingBuilder {
     clip: ClipNode | null,
     where: () => string,
   ): boolean {
-    const { coords, verbs, shapes } = this;
-    coords.reserve(shape.coords.length);
+    const { coords, verbs } = this;
+    this.reserveCoords(shape.coords.length);
     if (!writeMapped(shape.coords, map, coords.data, coords.length)) {
       this.warnings.add("coordinates-out-of-range", undefined, where());
       return false;
     }
     coords.length += shape.coords.length;
-    const count = shape.verbs.length;
-    verbs.reserve(count);
-    for (let i = 0; i < count; i++) verbs.data[verbs.length + i] = shape.verbs.data[i];
-    verbs.length += count;
+    for (let i = 0; i < shape.verbs.length; i++) verbs.push(shape.verbs.data[i]);
     if (look !== this.look) this.takeLook(look);
-    shapes.reserve(1);
-    const i = shapes.count++;
-    shapes.verbOffsets[i + 1] = verbs.length;
-    shapes.coordOffsets[i + 1] = coords.length;
-    shapes.group[i] = group;
-    shapes.stroke[i] = this.lookStroke;
-    shapes.fill[i] = this.lookFill;
-    shapes.fillRule[i] = look.evenOdd ? RULE_EVENODD : RULE_NONZERO;
-    shapes.strokeWidth[i] = look.strokeWidth;
-    shapes.dash[i] = this.lookDash;
-    shapes.clip[i] = clip === null ? -1 : clipIndexFor(clip, this.boxOfShapes(i, i + 1), this.clips);
+    this.verbOffsets.push(verbs.length);
+    this.coordOffsets.push(coords.length);
+    this.group.push(group);
+    this.stroke.push(this.lookStroke);
+    this.fill.push(this.lookFill);
+    this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
+    this.strokeWidth.push(finiteWidth(look.strokeWidth));
+    this.dash.push(this.lookDash);
+    this.clip.push(clip === null ? -1 : clipIndexFor(clip, this.boxOfLast(), this.clips));
     return true;
-  }
-
-  /**
-   * Adds polylines as shapes of one look, mapped to page mm: the numbers of the i-th one end at ends[i] in `from`. Answers
-   * how many: up to one that is out of range.
-   */
-  addPolylines(
-    from: Float64Array,
-    ends: Uint32Array,
-    count: number,
-    map: Affine,
-    look: Look,
-    group: number,
-  ): number {
-    if (count === 0) return 0;
-    const { coords, verbs, shapes } = this;
-    coords.reserve(ends[count - 1]);
-    shapes.reserve(count);
-    if (look !== this.look) this.takeLook(look);
-    const { data } = coords;
-    const { verbOffsets, coordOffsets } = shapes;
-    const { a, b, c, d, e, f } = map;
-    const first = shapes.count;
-    const shift = coords.length;
-    const verbShift = verbs.length - shift / 2;
-    let added = 0;
-    for (let k = 0; added < count; added++) {
-      const end = ends[added];
-      for (; k < end; k += 2) {
-        const x = a * from[k] + c * from[k + 1] + e;
-        const y = b * from[k] + d * from[k + 1] + f;
-        data[shift + k] = x;
-        data[shift + k + 1] = y;
-        // Written so that NaN is out of range.
-        if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) break;
-      }
-      if (k < end) break;
-      coordOffsets[first + added + 1] = coords.length = shift + end;
-      verbOffsets[first + added + 1] = verbShift + coords.length / 2;
-    }
-    const verbCount = (coords.length - shift) / 2;
-    verbs.reserve(verbCount);
-    verbs.data.fill(VERB_LINE, verbs.length, verbs.length + verbCount);
-    for (let i = first; i < first + added; i++) verbs.data[verbOffsets[i]] = VERB_MOVE;
-    verbs.length += verbCount;
-    shapes.count += added;
-    shapes.group.fill(group, first, shapes.count);
-    shapes.stroke.fill(this.lookStroke, first, shapes.count);
-    shapes.fill.fill(this.lookFill, first, shapes.count);
-    shapes.fillRule.fill(look.evenOdd ? RULE_EVENODD : RULE_NONZERO, first, shapes.count);
-    shapes.strokeWidth.fill(look.strokeWidth, first, shapes.count);
-    shapes.dash.fill(this.lookDash, first, shapes.count);
-    shapes.clip.fill(-1, first, shapes.count);
-    return added;
   }
 
   /** The box of shapes [from, to). */
   boxOfShapes(from: number, to: number): Box {
-    const { coordOffsets } = this.shapes;
-    return this.coords.boxOf(coordOffsets[from], coordOffsets[to]);
+    const { data } = this.coordOffsets;
+    return boxOfPoints(this.coords.data, data[from], data[to]);
   }
 
   boxOfLast(): Box {
-    return this.boxOfShapes(this.shapeCount - 1, this.shapeCount);
+    const { length, data } = this.coordOffsets;
+    return boxOfPoints(this.coords.data, data[length - 2], data[length - 1]);
   }
 
   /** The box of all curves themselves, where `boxOfShapes` has that of their control points. */
   extent(): Box {
     let box = EMPTY_BOX;
-    const { verbOffsets, coordOffsets } = this.shapes;
+    const verbOffsets = this.verbOffsets.data;
+    const coordOffsets = this.coordOffsets.data;
     for (let i = 0; i < this.shapeCount; i++) {
       const [from, to] = [verbOffsets[i], verbOffsets[i + 1]];
       box = uniteBoxes(box, curveBoxOf(this.verbs.data, from, to, this.coords.data, coordOffsets[i]));
@@ -186,17 +145,17 @@ export class DrawingBuilder {
 
   /** Moves everything: for files that do not say where their page is. */
   translate(dx: number, dy: number): void {
-    this.coords.translate(dx, dy);
-    for (const clip of this.clips) {
-      for (let i = 0; i < clip.coords.length; i += 2) {
-        clip.coords[i] += dx;
-        clip.coords[i + 1] += dy;
+    const all = [this.coords.data.subarray(0, this.coords.length), ...this.clips.map((clip) => clip.coords)];
+    for (const coords of all) {
+      for (let i = 0; i < coords.length; i += 2) {
+        coords[i] += dx;
+        coords[i + 1] += dy;
       }
     }
   }
 
   finish(widthMm: number, heightMm: number): Drawing {
-    const { shapes, shapeCount: count } = this;
+    const count = this.shapeCount;
     if (count === 0) this.warnings.add("empty-drawing");
     return {
       widthMm,
@@ -209,18 +168,31 @@ export class DrawingBuilder {
         count,
         verbs: this.verbs.view(),
         coords: this.coords.data.subarray(0, this.coords.length),
-        verbOffsets: shapes.verbOffsets.subarray(0, count + 1),
-        coordOffsets: shapes.coordOffsets.subarray(0, count + 1),
-        group: shapes.group.subarray(0, count),
-        stroke: shapes.stroke.subarray(0, count),
-        fill: shapes.fill.subarray(0, count),
-        fillRule: shapes.fillRule.subarray(0, count),
-        strokeWidth: shapes.strokeWidth.subarray(0, count),
-        dash: shapes.dash.subarray(0, count),
-        clip: shapes.clip.subarray(0, count),
+        verbOffsets: this.verbOffsets.view(),
+        coordOffsets: this.coordOffsets.view(),
+        group: this.group.view(),
+        stroke: this.stroke.view(),
+        fill: this.fill.view(),
+        fillRule: this.fillRule.view(),
+        strokeWidth: this.strokeWidth.view(),
+        dash: this.dash.view(),
+        clip: this.clip.view(),
       },
       warnings: this.warnings.toArray(),
     };
+  }
+
+  private reserveCoords(count: number): void {
+    const { coords, progress } = this;
+    if (coords.length + count <= coords.data.length) return;
+    if (coords.length + count > MAX_COORDS) {
+      throw new PlotwrightError(
+        "bad-file",
+        `The drawing comes to more than ${MAX_COORDS / 2_000_000} million points. Simplify it, or plot it in parts.`,
+      );
+    }
+    const expected = progress < TELLING_SHARE ? 0 : (MARGIN * coords.length) / progress - coords.length;
+    coords.reserve(Math.ceil(Math.min(MAX_COORDS - coords.length, Math.max(count, expected)) / 2));
   }
 
   private takeLook(look: Look): void {
@@ -242,7 +214,7 @@ export class DrawingBuilder {
   }
 
   private dashOf(dash: DashPattern): number {
-    const key = `${dash.lengths.join(" ")}@${dash.offset}`;
+    const key = JSON.stringify(dash);
     let index = this.dashIndex.get(key);
     if (index === undefined) {
       index = this.dashes.length;
@@ -252,6 +224,9 @@ export class DrawingBuilder {
     return index;
   }
 }
+
+/** A width that is beyond all numbers, or none, would be infinite or NaN in whatever is computed from it. */
+const finiteWidth = (mm: number): number => (mm >= 0 ? Math.min(mm, MAX_COORDINATE_MM) : 0);
 
 /** Writes the mapped pairs into `to` from `at` on. False where one is out of range or no number. */
 function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number): boolean {

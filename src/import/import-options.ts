@@ -1,6 +1,6 @@
 /** What the caller may say about how a file is to be read, whatever its format. */
-import { singleStrokeFont } from "./single-stroke-font.js";
-import type { TextFont } from "./text-font.js";
+import { singleStrokeFont } from "./text/single-stroke-font.js";
+import type { TextFont } from "./text/text-font.js";
 
 export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
 export type TextMode = (typeof TEXT_MODES)[number];

@@ -6,7 +6,6 @@
  * division by a power of ten gives the correctly rounded double (Clinger 1990); the rest goes
  * through Number().
  */
-import type { PointBuffer } from "../geometry/growable.js";
 import { drawSvgArc } from "./arc.js";
 import { ShapeBuffer } from "./shape-buffer.js";
 
@@ -59,6 +58,8 @@ export class NumberReader {
     }
     if (c === 46) {
       c = text.charCodeAt(++at);
+      // A point stands before a digit (SVG 2, §9.3.9).
+      if (!(c >= 48 && c <= 57)) return false;
       while (c >= 48 && c <= 57) {
         mantissa = mantissa * 10 + (c - 48);
         digits++;
@@ -84,14 +85,9 @@ export class NumberReader {
     return true;
   }
 
-  /** As `skipSeparator` and then `read`, without the calls for the separators that nearly all files have. */
+  /** The number after a separator. */
   readNext(): boolean {
-    const c = this.text.charCodeAt(this.at);
-    if (c <= 44) {
-      // What is above the comma begins a number, if it belongs to one, and is no separator.
-      if ((c === 32 || c === 44) && this.text.charCodeAt(this.at + 1) > 44) this.at++;
-      else this.skipSeparator();
-    }
+    this.skipSeparator();
     return this.read();
   }
 
@@ -132,79 +128,6 @@ for (const [letter, count] of Object.entries(ARGUMENTS)) {
   COUNT_OF_CODE[letter.toUpperCase().charCodeAt(0)] = count;
 }
 
-/**
- * Reads path data of which large files are full: one polyline, its numbers without exponents. Many are read where they
- * stand in the file's `text`, each from one of the first `count` of `places` up to a quote like the one before it, in one
- * loop: in a first import, before anything is compiled, it is calls that cost.
- *
- * Writes the numbers into `coords` from its beginning on, and into `ends` where those of each polyline end. Answers how
- * many it has read: up to data that is anything else, or until there are `most` numbers or more.
- */
-export function readPolylines(
-  coords: PointBuffer,
-  ends: Uint32Array,
-  text: string,
-  places: Uint32Array,
-  count: number,
-  most: number,
-): number {
-  let { data } = coords;
-  let n = 0;
-  for (let i = 0; i < count; i++) {
-    if (n >= most) return i;
-    const start = n;
-    let at = places[i];
-    const quote = text.charCodeAt(at - 1);
-    let c = text.charCodeAt(at);
-    if ((c | 32) !== 109) return i;
-    let relative = c === 109;
-    c = text.charCodeAt(++at);
-    for (;;) {
-      while (c === 32) c = text.charCodeAt(++at);
-      const negative = c === 45;
-      if (negative || c === 43) c = text.charCodeAt(++at);
-      let mantissa = 0;
-      let first = at;
-      while (c >= 48 && c <= 57) {
-        mantissa = mantissa * 10 + (c - 48);
-        c = text.charCodeAt(++at);
-      }
-      let digits = at - first;
-      let decimals = 0;
-      if (c === 46) {
-        first = at + 1;
-        c = text.charCodeAt(++at);
-        while (c >= 48 && c <= 57) {
-          mantissa = mantissa * 10 + (c - 48);
-          c = text.charCodeAt(++at);
-        }
-        decimals = at - first;
-        digits += decimals;
-      }
-      if (digits === 0 || mantissa >= MAX_EXACT || decimals > 22 || (c | 32) === 101) return i;
-      if (n === data.length) {
-        coords.length = n;
-        coords.reserve(n);
-        data = coords.data;
-      }
-      const value = (negative ? -mantissa : mantissa) / POWERS[decimals];
-      data[n] = value + (relative && n - start >= 2 ? data[n - 2] : 0);
-      n++;
-      while (c === 32) c = text.charCodeAt(++at);
-      if (c === 44) c = text.charCodeAt(++at);
-      else if ((n & 1) === 0) {
-        if (c === quote) break;
-        if ((c | 32) !== 108) continue;
-        relative = c === 108;
-        c = text.charCodeAt(++at);
-      }
-    }
-    if (n - start < 4) return i;
-    ends[i] = n;
-  }
-  return count;
-}
-
 class PathDataReader {
   private readonly reader = new NumberReader("");
   private shape = new ShapeBuffer();
@@ -236,34 +159,11 @@ class PathDataReader {
         this.previous = 122;
         reader.skipBlanks();
       } else {
-        const isPoint = (code | 32) === 109 || (code | 32) === 108;
-        const fault = isPoint ? this.readPoints(code) : this.readRuns(code, count);
+        const fault = this.readRuns(code, count);
         if (fault >= 0) return fault;
       }
     }
     return -1;
-  }
-
-  /** As `readRuns`, for m and l, of which most files are made. */
-  private readPoints(code: number): number {
-    const { reader, shape } = this;
-    const { text } = reader;
-    const relative = code >= 97;
-    let isMove = (code | 32) === 109;
-    reader.skipBlanks();
-    for (;;) {
-      if (!reader.read()) return this.faultAt();
-      const x = reader.value;
-      if (!reader.readNext()) return this.faultAt();
-      const y = reader.value;
-      const dx = relative ? shape.x : 0;
-      const dy = relative ? shape.y : 0;
-      if (isMove) shape.moveTo(x + dx, y + dy);
-      else shape.lineTo(x + dx, y + dy);
-      this.previous = isMove ? 109 : 108;
-      isMove = false;
-      if (!this.hasMore(text)) return -1;
-    }
   }
 
   /** Past blanks and a comma: whether another set of arguments follows. */
@@ -293,7 +193,7 @@ class PathDataReader {
     const { reader, args } = this;
     const { text } = reader;
     const relative = code >= 97;
-    const kind = code | 32;
+    let kind = code | 32;
     reader.skipBlanks();
     for (;;) {
       for (let i = 0; i < count; i++) {
@@ -302,6 +202,8 @@ class PathDataReader {
       }
       this.draw(kind, relative);
       this.previous = kind;
+      // Further points after a move are lines.
+      if (kind === 109) kind = 108;
       if (!this.hasMore(text)) return -1;
     }
   }
@@ -321,6 +223,12 @@ class PathDataReader {
     const dx = relative ? x0 : 0;
     const dy = relative ? y0 : 0;
     switch (kind) {
+      case 109: // m
+        shape.moveTo(args[0] + dx, args[1] + dy);
+        return;
+      case 108: // l
+        shape.lineTo(args[0] + dx, args[1] + dy);
+        return;
       case 104: // h
         shape.lineTo(args[0] + dx, y0);
         return;

@@ -25,9 +25,16 @@ const WORDS = {
   "mask-ignored": (n: number) =>
     `${many(n, "mask is", "masks are")} ignored, so what they hide is drawn. Use a clip path, or cut the shapes.`,
   "gradient-stroke": (n: number) =>
-    `${many(n, "line", "lines")} with a gradient or pattern as colour: drawn in one colour.`,
-  "gradient-fill": (n: number) =>
-    `${many(n, "fill", "fills")} with a gradient or pattern: taken as one colour.`,
+    `${many(n, "line", "lines")} with a gradient as colour: drawn in one colour.`,
+  "gradient-fill": (n: number) => `${many(n, "fill", "fills")} with a gradient: taken as one colour.`,
+  "pattern-stroke": (n: number, details: string) =>
+    `${many(n, "line", "lines")} with a pattern as colour${details}: drawn in one colour.`,
+  "pattern-fill": (n: number, details: string) =>
+    `${many(n, "fill", "fills")} with a pattern${details}: taken as one colour, the pattern is not drawn.`,
+  "blend-ignored": (n: number, details: string) =>
+    `${many(n, "blend mode is", "blend modes are")} ignored${details}: a pen cannot mix colours like a screen.`,
+  "paint-order-ignored": (n: number, details: string) =>
+    `${many(n, "paint order is", "paint orders are")} ignored${details}: fills are drawn first, then lines.`,
   "paint-missing": (n: number, details: string) =>
     `${many(n, "colour refers", "colours refer")} to something that is not in the file${details}.`,
   "path-data": (n: number, details: string) =>

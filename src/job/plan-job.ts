@@ -5,9 +5,9 @@
  *   settings ──layer codes──> what each layer asks for ──firmware's limits──> plan ──> trajectory ──compile──> commands
  */
 import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
-import type { BoardState, CommandStream } from "../ebb/command-stream.js";
-import { compile } from "../ebb/compile.js";
-import { motionForFirmware } from "../ebb/firmware-motion.js";
+import type { BoardState, CommandStream } from "../drivers/ebb/compile/command-stream.js";
+import { compile } from "../drivers/ebb/compile/compile.js";
+import { motionForFirmware } from "../drivers/ebb/protocol/firmware-motion.js";
 import { checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";

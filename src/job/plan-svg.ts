@@ -1,5 +1,5 @@
 /** The whole way from a drawing's text to commands, in one call. */
-import { importSvg } from "../import/import-svg.js";
+import { importSvg } from "../import/svg/import-svg.js";
 import { machineOf, type MachineChoice } from "../machines/profiles.js";
 import { NO_PENS, type PenSetup } from "../prepare/pens.js";
 import type { Prepared } from "../prepare/prepare.js";

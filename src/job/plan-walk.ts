@@ -1,7 +1,7 @@
 /** A straight move with the pen up, as a job of its own. */
-import { compile } from "../ebb/compile.js";
-import { motionForFirmware } from "../ebb/firmware-motion.js";
-import type { BoardState } from "../ebb/command-stream.js";
+import { compile } from "../drivers/ebb/compile/compile.js";
+import { motionForFirmware } from "../drivers/ebb/protocol/firmware-motion.js";
+import type { BoardState } from "../drivers/ebb/compile/command-stream.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { planTravel } from "../plan/plan.js";
 import type { JobSettings, MachineJob } from "./plan-job.js";

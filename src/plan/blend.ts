@@ -29,13 +29,11 @@
  * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { lesser } from "./branchless.js";
 import { CornerSpeeds } from "./corner-speeds.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
-import { keepFloor, type Phases } from "./floor-phases.js";
 import { SoftLine } from "./soft-line.js";
-import { NEGLIGIBLE } from "./straight.js";
+import { newStraight, writeStraight } from "./trapezoid.js";
 
 /** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
 const STRAIGHT = 1e-12;
@@ -46,26 +44,11 @@ const SHARP = 0.35;
 /** A straight piece shorter than this, in mm, is what rounding left between two curves. */
 const NO_PIECE = 1e-10;
 
-/** The shorter of segments not as long as this, mm, may be rounded in the other one's last place. */
-const LONG = 1e5;
-
-/**
- * Segments written at a time, for which there is room then; and how many blocks each of them makes at most. Few, so that V8 does not
- * enter compiled code in the middle of a long first call: such code boxes what the loop carries, and is kept.
- */
-const SLICE = 256;
-const MOST_BLOCKS = 4;
-
 export class BlendPlanner {
   private readonly line = new SoftLine();
   private readonly corners = new CornerSpeeds();
-  /** Filled anew for every straight. */
-  private readonly phases: Phases = { peak: 0, rise: 0, fall: 0 };
-  /** While blocks are written: mm of the drawing at the last point, and of the next segment that its corner takes. */
-  private along = 0;
-  private used = 0;
 
-  /** Writes one run from rest to rest; one of a single straight is for `writeSingle`. */
+  /** Writes one run from rest to rest. */
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const n = path.segmentCount;
     this.corners.reserve(n + 1);
@@ -95,13 +78,13 @@ export class BlendPlanner {
       const bx = x1 - x0;
       const by = y1 - y0;
       const s = Math.sqrt(bx * bx + by * by) / 2;
-      const cap = lesser(cap0, cap1);
+      const cap = Math.min(cap0, cap1);
       if (s > STRAIGHT) {
-        const half = (before + after < LONG ? lesser(before, after) : Math.min(before, after)) / 2;
+        const half = Math.min(before, after) / 2;
         const reach = line.reach(i, bx, by, s, half);
         tangent[i] = reach;
         sine[i] = s;
-        most[i] = Math.sqrt(lesser(cap, (accel * reach) / s));
+        most[i] = Math.sqrt(Math.min(cap, (accel * reach) / s));
       } else {
         tangent[i] = sine[i] = 0;
         most[i] = Math.sqrt(cap);
@@ -147,144 +130,53 @@ export class BlendPlanner {
     }
   }
 
-  /** Pieces last: one parabola a corner, a trapezoid on each straight between. */
-  private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    const { segmentCount: n } = path;
-    this.along = path.startAlong;
-    this.used = 0;
-    for (let from = 0; from < n; from += SLICE) {
-      const end = Math.min(n, from + SLICE);
-      out.reserve(MOST_BLOCKS * (end - from), end - from);
-      this.writeSlice(path, from, end, limits, out);
-    }
-  }
-
-  /**
-   * Segments [from, end), each with the corner after it. The straights are those of straight.ts, written here because a
-   * call for each of them and for each of their blocks takes longer than what it does.
-   */
-  private writeSlice(
-    path: RunPath,
-    from: number,
-    end: number,
-    { accel, floorS }: RunLimits,
-    out: BlockColumns,
-  ): void {
+  /** Blocks last: one parabola a corner, a trapezoid on each straight between. */
+  private writeBlocks(path: RunPath, { accel }: RunLimits, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
-    const { phases } = this;
     const { tangent, sine, vIn, vOut, change } = this.corners;
-    const { along: stands } = this.line;
-    const { durationS, x: bx, y: by, vx, vy, ax, ay, startS, alongMm } = out;
-    const twoA = 2 * accel;
-    const perTwoA = 1 / twoA;
-    let k = out.count;
-    let clock = out.clockS;
-    let along = this.along;
-    let used = this.used;
-    let v0 = vOut[from]!;
-    for (let i = from; i < end; i++) {
-      const ex = ux[i]!;
-      const ey = uy[i]!;
-      const whole = length[i]!;
-      const stand = stands[i]!;
-      const perMm = stand / whole;
+    const { along: drawn } = this.line;
+    const straight = newStraight();
+    let along = path.startAlong;
+    // mm of the segment that the corner before it takes.
+    let used = 0;
+    for (let i = 0; i < n; i++) {
+      const v0 = vOut[i]!;
       const v1 = vIn[i + 1]!;
       const after = vOut[i + 1]!;
+      const perMm = drawn[i]! / length[i]!;
       // Half of the time that the corner's curve takes: q/2A. Where speed is the same all the way from the corner before to
       // the one after it takes no longer if it is long and soft instead; unless it is sharp.
-      let tau = change[i + 1]! * perTwoA;
-      if (v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1 && sine[i + 1]! < SHARP) {
-        tau = tangent[i + 1]! / v1;
+      const isSteady = v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1;
+      const tau = isSteady && sine[i + 1]! < SHARP ? tangent[i + 1]! / v1 : change[i + 1]! / (2 * accel);
+      const rest = length[i]! - used - v1 * tau;
+      if (rest > NO_PIECE) {
+        straight.x = x[i]! + ux[i]! * used;
+        straight.y = y[i]! + uy[i]! * used;
+        straight.ux = ux[i]!;
+        straight.uy = uy[i]!;
+        straight.length = rest;
+        straight.v0 = v0;
+        straight.v1 = v1;
+        straight.cap2 = cap2[i]!;
+        straight.alongMm = along + used * perMm;
+        straight.alongPerMm = perMm;
+        writeStraight(straight, accel, out);
       }
-      const l = whole - used - v1 * tau;
-      if (l > NO_PIECE) {
-        const start2 = v0 * v0;
-        const cap = cap2[i]!;
-        let rise = 0;
-        let fall = 0;
-        let peak = v0;
-        let cruises = true;
-        // As fast as may be from end to end, mostly; else up and down again.
-        if (v0 !== v1 || start2 < cap) {
-          const end2 = v1 * v1;
-          const peak2 = Math.min((start2 + end2) / 2 + accel * l, Math.max(cap, start2, end2));
-          const least2 = NEGLIGIBLE * peak2;
-          if (peak2 - start2 > least2) rise = (peak2 - start2) * perTwoA;
-          if (peak2 - end2 > least2) fall = (peak2 - end2) * perTwoA;
-          if (rise > 0 || fall > 0) {
-            peak = Math.sqrt(peak2);
-            if (floorS > 0) {
-              phases.peak = peak;
-              phases.rise = rise;
-              phases.fall = fall;
-              keepFloor(l, v0, v1, accel, floorS, phases);
-              ({ peak, rise, fall } = phases);
-            }
-          }
-          cruises = l - rise - fall > Math.max(NEGLIGIBLE * l, least2 * perTwoA);
-        }
-        // Each phase begins where the one before ended, and the last one ends where the straight does: rounding opens no gap.
-        let isUp = rise > 0 && (fall > 0 || cruises);
-        let isSteady = fall > 0 && cruises;
-        const px = x[i]! + ex * used;
-        const py = y[i]! + ey * used;
-        const alongStart = along + used * perMm;
-        let at = 0;
-        let w0 = v0;
-        for (;;) {
-          let d = l - at;
-          let w1 = v1;
-          if (isUp) {
-            d = cruises ? rise : l - fall;
-            w1 = peak;
-          } else if (isSteady) {
-            d -= fall;
-            w1 = peak;
-          }
-          const sum = w0 + w1;
-          const t = (2 * d) / sum;
-          const a = ((w1 - w0) * sum) / (2 * d);
-          durationS[k] = t;
-          bx[k] = px + ex * at;
-          by[k] = py + ey * at;
-          vx[k] = ex * w0;
-          vy[k] = ey * w0;
-          ax[k] = ex * a;
-          ay[k] = ey * a;
-          startS[k] = clock;
-          alongMm[k] = alongStart + at * perMm;
-          clock += t;
-          k++;
-          if (isUp) isUp = false;
-          else if (isSteady) isSteady = false;
-          else break;
-          at += d;
-          w0 = w1;
-        }
-      }
-      along += stand;
+      along += drawn[i]!;
       used = after * tau;
-      v0 = after;
       if (tau === 0) continue;
-      const wx = ex * v1;
-      const wy = ey * v1;
-      const t = 2 * tau;
-      const per = 1 / t;
-      durationS[k] = t;
-      bx[k] = x[i + 1]! - wx * tau;
-      by[k] = y[i + 1]! - wy * tau;
-      vx[k] = wx;
-      vy[k] = wy;
-      ax[k] = (ux[i + 1]! * after - wx) * per;
-      ay[k] = (uy[i + 1]! * after - wy) * per;
-      startS[k] = clock;
-      alongMm[k] = along - v1 * tau * perMm;
-      clock += t;
-      k++;
+      const wx = ux[i]! * v1;
+      const wy = uy[i]! * v1;
+      out.push(
+        2 * tau,
+        x[i + 1]! - wx * tau,
+        y[i + 1]! - wy * tau,
+        wx,
+        wy,
+        (ux[i + 1]! * after - wx) / (2 * tau),
+        (uy[i + 1]! * after - wy) / (2 * tau),
+        along - v1 * tau * perMm,
+      );
     }
-    out.count = k;
-    out.clockS = clock;
-    this.along = along;
-    this.used = used;
   }
 }

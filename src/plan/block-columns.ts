@@ -1,9 +1,8 @@
 /**
  * The blocks of a trajectory while it is being made: columns that grow, and a running clock.
  *
- * A planner reserves what its next run needs and writes the arrays directly. When they must grow,
- * the share of the drawing already planned tells about how much the whole will need, so they seldom
- * grow twice.
+ * When they must grow, the share of the drawing already planned tells how much the whole will need, so they seldom grow
+ * twice.
  */
 const COLUMN_NAMES = ["durationS", "x", "y", "vx", "vy", "ax", "ay", "startS", "alongMm"] as const;
 
@@ -27,6 +26,7 @@ export class BlockColumns {
   jx: Float64Array<ArrayBuffer> | null;
   jy: Float64Array<ArrayBuffer> | null;
   private segmentsDone = 0;
+  private blocksDone = 0;
 
   /** @param segmentsExpected how many polyline segments the whole plan has: a hint for the sizes */
   constructor(
@@ -37,20 +37,20 @@ export class BlockColumns {
     this.jy = withJerk ? new Float64Array(0) : null;
   }
 
-  /** Makes room for `blocks` more, the outcome of `segments` segments of the drawing. */
-  reserve(blocks: number, segments: number): void {
+  /** Says that the blocks so far are those of `segments` more segments of the drawing. */
+  addSegments(segments: number): void {
     this.segmentsDone += segments;
-    if (this.count + blocks > this.durationS.length) this.grow(this.count + blocks);
+    this.blocksDone = this.count;
   }
 
-  /** A method of its own: what is rare is not compiled into what is often called, which would have to be done anew then. */
   private grow(needed: number): void {
-    const likely = Math.ceil((needed * this.segmentsExpected) / Math.max(1, this.segmentsDone));
-    // Between a quarter more and 32-fold: the first strokes may be unlike the rest.
-    this.resize(Math.min(Math.max(1.02 * likely, 1.25 * needed), 32 * needed) + 64);
+    const { segmentsDone, blocksDone } = this;
+    const likely = segmentsDone > 0 ? 1.02 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
+    // Up to 32 times as much: the first strokes may be unlike the rest.
+    this.resize(Math.min(likely > needed ? likely : 2 * needed, 32 * needed) + 64);
   }
 
-  /** Appends one block and moves the clock on; for what is not a hot loop. */
+  /** Appends one block and moves the clock on. */
   push(
     durationS: number,
     x: number,
@@ -61,7 +61,7 @@ export class BlockColumns {
     ay: number,
     alongMm: number,
   ): void {
-    if (this.count === this.durationS.length) this.reserve(1, 0);
+    if (this.count === this.durationS.length) this.grow(this.count + 1);
     const k = this.count++;
     this.durationS[k] = durationS;
     this.x[k] = x;
@@ -76,38 +76,17 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
-  /** Appends block i of `from`, which has no jerk. */
-  pushFrom(from: BlockColumns, i: number): void {
-    this.push(
-      from.durationS[i]!,
-      from.x[i]!,
-      from.y[i]!,
-      from.vx[i]!,
-      from.vy[i]!,
-      from.ax[i]!,
-      from.ay[i]!,
-      from.alongMm[i]!,
-    );
+  /** Block i, which lies beyond the end, becomes the last one. */
+  moveToEnd(i: number): void {
+    const { durationS, x, y, vx, vy, ax, ay, alongMm } = this;
+    this.push(durationS[i]!, x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, alongMm[i]!);
   }
 
-  /** As `push`, with jerk. */
-  pushJerk(
-    durationS: number,
-    x: number,
-    y: number,
-    vx: number,
-    vy: number,
-    ax: number,
-    ay: number,
-    jx: number,
-    jy: number,
-    alongMm: number,
-  ): void {
-    this.push(durationS, x, y, vx, vy, ax, ay, alongMm);
-    if (this.jx !== null && this.jy !== null) {
-      this.jx[this.count - 1] = jx;
-      this.jy[this.count - 1] = jy;
-    }
+  /** Jerk of the last block; only where there are columns for it. */
+  setJerk(jx: number, jy: number): void {
+    if (this.jx === null || this.jy === null) return;
+    this.jx[this.count - 1] = jx;
+    this.jy[this.count - 1] = jy;
   }
 
   /** Forgets the blocks and keeps the arrays. */

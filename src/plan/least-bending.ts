@@ -12,7 +12,6 @@
  * bounds, a symmetric system of five diagonals with the same factors each time, and the bounds. A few rounds come near
  * enough, since within bounds distant points hardly matter to each other. Linear, and the same backwards as forwards.
  */
-import { greater, lesser } from "./branchless.js";
 
 const ROUNDS = 4;
 /** Weight of the bounds, as a share of the diagonal. */
@@ -81,7 +80,7 @@ export class LeastBending {
     for (let i = 1; i < n; i++, r += FIELDS) {
       const after = length[i]!;
       const c = 1 / after;
-      const most = greater(a, c);
+      const most = Math.max(a, c);
       const weight = ((before + after) / 2) * most * most;
       const low2 = low[i + 1]!;
       const high2 = high[i + 1]!;
@@ -190,8 +189,7 @@ export class LeastBending {
       const low = rows[r + LOW]!;
       const high = rows[r + HIGH]!;
       const free = RELAXATION * x + rows[r + CARRY]!;
-      // The nearest place within bounds, without a branch: which one it is changes from point to point.
-      const y = (Math.abs(free - low) - Math.abs(free - high) + (low + high)) / 2;
+      const y = Math.min(high, Math.max(low, free));
       rows[r + CARRY] = free - RELAXATION * y;
       rows[r + HALFWAY] = rows[r + RIGHT]! + rows[r + HELD]! * (2 * y - free);
     }
@@ -231,8 +229,7 @@ export class LeastBending {
       const free = RELAXATION * x + rows[r + CARRY]!;
       const low = rows[r + LOW]!;
       const high = rows[r + HIGH]!;
-      const within = greater(low, lesser(high, free));
-      y[i] = within > high ? high : within;
+      y[i] = Math.min(high, Math.max(low, free));
     }
   }
 }

@@ -16,11 +16,9 @@ export interface RunLimits {
   readonly mixed: boolean;
   /** mm/s, where the path is marked for easing. */
   readonly easeSpeed: number;
-  /** Straight pieces are given no phase shorter than this, s, where that can be helped; 0: as short as they come. */
-  readonly floorS: number;
 }
 
-/** Fitted pieces may pass their limits by this much. */
+/** Merged blocks may exceed their limits by this much. */
 export const SLACK = 1.0009;
 
 /** Share of the board's highest step rate that a plan uses: rounding to whole rates must not pass it. */
@@ -36,7 +34,7 @@ export function runLimits(
   motion: MotionSettings,
   machine: MachineProfile | undefined,
 ): RunLimits {
-  const { motorAccelStepsPerS2, ease, fit } = motion;
+  const { motorAccelStepsPerS2, ease } = motion;
   const mixed = machine?.motors === "mixed";
   const motorAccel = machine && motorAccelStepsPerS2 ? motorAccelStepsPerS2 / machine.stepsPerMm : Infinity;
   return {
@@ -47,7 +45,6 @@ export function runLimits(
     motorSpeed: machine ? (STEP_RATE_SHARE * TICKS_PER_S) / machine.stepsPerMm : Infinity,
     mixed,
     easeSpeed: ease ? ease.speedMmPerS : Infinity,
-    floorS: fit ? fit.floorMs / 1000 : 0,
   };
 }
 
@@ -67,7 +64,7 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
 export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
   speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
 
-/** Whether the motors can go at (vx, vy), in a fitted piece. */
+/** Whether the motors can go at (vx, vy), in a merged block. */
 export function canStep({ motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
   const ax = Math.abs(vx);
   const ay = Math.abs(vy);

@@ -42,6 +42,16 @@ export function dropTiming(pen: PenSettings, fromPct: number): PenTiming {
   return { heightPct: pen.downPct, waitS: moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS) };
 }
 
+/** The servo's last frame, and its rest. */
+const RESEAT_S = 0.06;
+
+/** A pen that is down goes to another height, `byPct` away, at the rate at which `pen` is dropped. */
+export function reseatWaitS(pen: PenSettings, byPct: number): number {
+  if (pen.dropPctPerS) return RESEAT_S + byPct / pen.dropPctPerS;
+  const wayPct = pen.upPct - pen.downPct;
+  return RESEAT_S + (wayPct > 0 ? ((pen.dropMs / 1000) * byPct) / wayPct : 0);
+}
+
 function moveTime(pen: PenSettings, upPct: number, delayMs: number, ratePctPerS?: number | null): number {
   const way = upPct - pen.downPct;
   if (ratePctPerS) return delayMs / 1000 + way / ratePctPerS;

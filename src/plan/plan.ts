@@ -12,7 +12,7 @@ import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
-import { PenMoveColumns } from "./pen-move-columns.js";
+import { PenMoveWriter } from "./pen-moves.js";
 import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter } from "./run-writer.js";
@@ -94,7 +94,7 @@ class PlanBuilder {
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
   private readonly writer: RunWriter;
-  private readonly penMoves: PenMoveColumns;
+  private readonly penMoves: PenMoveWriter;
   private runCount = 0;
   private readonly firstBlock: Uint32Array;
   private readonly runStroke: Int32Array;
@@ -135,7 +135,7 @@ class PlanBuilder {
     this.firstBlock = new Uint32Array(2 * count + 2);
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
-    this.penMoves = new PenMoveColumns(3 * count + 2);
+    this.penMoves = new PenMoveWriter(3 * count + 2);
     // One segment fewer than points in every stroke, and a travel to it; and the way home.
     this.blocks = new BlockColumns(pointCount(strokes) + 1, motion.mode === "scurve");
     this.writer = new RunWriter(motion.mode, motion.fit ?? null);
@@ -203,7 +203,7 @@ class PlanBuilder {
   private movePen(up: boolean, { heightPct, waitS }: PenTiming): void {
     this.penUp = up;
     const { blocks } = this;
-    this.penMoves.push(this.runCount, up, blocks.clockS, waitS, heightPct);
+    this.penMoves.push({ beforeRun: this.runCount, up, startS: blocks.clockS, waitS, heightPct });
     blocks.clockS += waitS;
   }
 
@@ -237,9 +237,7 @@ class PlanBuilder {
         stroke: this.runStroke.slice(0, runCount),
         startS: this.runStartS.slice(0, runCount),
       },
-      get penMoves() {
-        return penMoves.moves;
-      },
+      penMoves: penMoves.finish(),
       totalS: blocks.clockS,
       endX: this.x,
       endY: this.y,

@@ -1,70 +1,56 @@
-/** One run from rest to rest, in the mode and with the fit that the settings ask for. */
+/**
+ * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged where that is asked for
+ * (merge.ts), and in `scurve` mode filtered over time (filter.ts).
+ */
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
-import { AccelerationFitter } from "./fit-accelerations.js";
-import { JerkFitter } from "./fit-jerks.js";
-import { ShortRunFitter } from "./fit-short-runs.js";
+import { writeFiltered } from "./filter.js";
 import { writeJunctionRun } from "./junction.js";
 import type { RunLimits } from "./limits.js";
+import { mergeBlocks, type MergeRules } from "./merge.js";
 import type { RunPath } from "./run-path.js";
-import { SCurvePlanner } from "./scurve.js";
+import { filteredPlan } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
-import { writeSingle } from "./straight.js";
 
 export class RunWriter {
   private readonly blend = new BlendPlanner();
-  private readonly sCurve = new SCurvePlanner();
-  private readonly fitter: AccelerationFitter | JerkFitter | null;
-  private readonly shortFitter: ShortRunFitter | null;
-  /** The run before fitting. */
-  private readonly unfitted: BlockColumns;
+  /** The run before the filter. */
+  private readonly unfiltered = new BlockColumns(0, false);
+  private readonly rules: MergeRules | null;
 
   constructor(
     private readonly mode: MotionMode,
     fit: FitSettings | null,
   ) {
-    this.fitter = fit && (mode === "scurve" ? new JerkFitter(fit) : new AccelerationFitter(fit, mode));
-    this.shortFitter = fit && mode === "blend" ? new ShortRunFitter(fit) : null;
-    this.unfitted = new BlockColumns(0, mode === "scurve");
+    this.rules = fit && {
+      toleranceMm: fit.toleranceMm,
+      floorS: fit.floorMs / 1_000,
+      isSmooth: mode !== "junction",
+    };
   }
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    // A single straight has no piece too many.
-    if (path.segmentCount === 1 && this.mode === "blend") return writeSingle(path, limits, out);
-    if (this.fitter === null || path.segmentCount < 2) return this.writeMode(path, limits, out);
-    this.unfitted.clear();
-    if (this.shortFitter?.takes(path, limits)) {
-      this.writeMode(path, limits, this.unfitted);
-      this.shortFitter.write(this.unfitted, path.end(), limits, out);
-      return;
-    }
-    this.writeMode(path, isDense(path, limits.speed) ? this.withMargin(limits) : limits, this.unfitted);
-    this.fitter.write(this.unfitted, path.end(), limits, out);
-  }
-
-  private withMargin(limits: RunLimits): RunLimits {
-    // Pieces of constant acceleration slow down for V where they must, on their own; and they keep the floor.
-    const speed = this.mode === "scurve" ? limits.speed * SPEED_MARGIN : limits.speed;
-    return { ...limits, accel: limits.accel * ACCEL_MARGIN, speed, floorS: 0 };
-  }
-
-  private writeMode(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     if (path.segmentCount === 0) return;
-    if (this.mode === "junction") writeJunctionRun(path, limits, out);
-    else if (this.mode === "blend") this.blend.write(path, limits, out);
-    else this.sCurve.write(path, limits, out);
+    if (this.mode === "scurve") this.writeFiltered(path, limits, out);
+    else this.writeBlocks(path, limits, out);
+    out.addSegments(path.segmentCount);
   }
-}
 
-/** Room that a dense curve's plan leaves for the fit: pieces longer than its own swing a little around it. */
-const ACCEL_MARGIN = 0.98;
-const SPEED_MARGIN = 0.985;
+  private writeFiltered(path: RunPath, runLimits: RunLimits, out: BlockColumns): void {
+    const { limits, kernel } = filteredPlan(path, runLimits);
+    const { unfiltered } = this;
+    unfiltered.clear();
+    this.writeBlocks(path, limits, unfiltered);
+    writeFiltered(unfiltered, path.end(), kernel, out);
+  }
 
-/** A segment passed in less than this is a sample of a curve, s. */
-const DENSE_S = 0.03;
-
-function isDense(path: RunPath, speed: number): boolean {
-  let short = 0;
-  for (let i = 0; i < path.segmentCount; i++) if (path.length[i]! < speed * DENSE_S) short++;
-  return 2 * short > path.segmentCount;
+  private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const first = out.count;
+    // A single straight has no corners: its blocks are the same in both modes.
+    if (this.mode === "junction" || path.segmentCount === 1) writeJunctionRun(path, limits, out);
+    else this.blend.write(path, limits, out);
+    if (this.rules !== null && path.segmentCount > 1) {
+      mergeBlocks(out, first, path.end(), limits, this.rules);
+    }
+  }
 }

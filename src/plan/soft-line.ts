@@ -26,7 +26,6 @@
  * Where a point has first been moved along the line by τ, segments leave the drawing by at most τ (s + half of the next
  * point's s); that much is taken from δ at the point and at its neighbours.
  */
-import { greater, lesser } from "./branchless.js";
 import { capSegments, type RunLimits } from "./limits.js";
 import { LeastBending } from "./least-bending.js";
 import { RunPath } from "./run-path.js";
@@ -139,8 +138,8 @@ export class SoftLine {
       const dx = x1 - x0;
       const dy = y1 - y0;
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      const half = lesser(before, after) / 2;
-      const v2 = lesser(cap0, cap1);
+      const half = Math.min(before, after) / 2;
+      const v2 = Math.min(cap0, cap1);
       x0 = x1;
       y0 = y1;
       before = after;
@@ -185,8 +184,8 @@ export class SoftLine {
       if (kind[i] === FREE) {
         const after = length[i]!;
         const s = sine[i]!;
-        leaves = s + greater(sine[i - 1]!, sine[i + 1]!) / 2;
-        const most = lesser((SHEAR / 2) * lesser(before, after), mayLeave / (leaves + NOT_ZERO));
+        leaves = s + Math.max(sine[i - 1]!, sine[i + 1]!) / 2;
+        const most = Math.min((SHEAR / 2) * Math.min(before, after), mayLeave / (leaves + NOT_ZERO));
         tau = between(EVEN * (after - before), -most, most);
         const per = tau * halfPerCosine(s * s);
         qx += per * (ux[i - 1]! + ux[i]!);
@@ -238,7 +237,7 @@ export class SoftLine {
           const s = Math.abs(t) / 2;
           turn[k] = t;
           sine[k] = s;
-          depth2 = (s * lesser(length[k - 1]!, length[k]!)) / 4;
+          depth2 = (s * Math.min(length[k - 1]!, length[k]!)) / 4;
         } else {
           const s = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / 2;
           turn[k] = cross < 0 ? -2 * s : 2 * s;
@@ -247,10 +246,10 @@ export class SoftLine {
       }
       if (k > 1) {
         const i = k - 1;
-        const rest = corner - greater(greater(taken0, taken2), taken1);
+        const rest = corner - Math.max(Math.max(taken0, taken2), taken1);
         left[i] = rest;
         if (kind[i] === FREE) {
-          const inside = greater(0, rest - greater(greater(depth0, depth2), depth1));
+          const inside = Math.max(0, rest - Math.max(Math.max(depth0, depth2), depth1));
           const side = between(turn[i]! / (2 * HARDLY), -1, 1);
           const more = (rest - inside) / 2;
           const middle = -side * more;
@@ -372,5 +371,4 @@ function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
 
-const between = (a: number, low: number, high: number): number =>
-  (Math.abs(a - low) - Math.abs(a - high) + low + high) / 2;
+const between = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));

@@ -43,7 +43,9 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
 
 /** An order to be up where the pen is up already is a wait, and the first one only makes sure: neither is a lift. */
 function liftCount({ penMoves }: Trajectory): number {
-  return penMoves.filter((move, k) => move.up && k > 0 && !penMoves[k - 1]!.up).length;
+  let lifts = 0;
+  for (let k = 1; k < penMoves.count; k++) if (penMoves.up[k]! > penMoves.up[k - 1]!) lifts++;
+  return lifts;
 }
 
 /** With no jerk speed² is a convex parabola in time: largest at an end. With jerk the inside is sampled. */

@@ -29,8 +29,8 @@ export interface Trajectory {
   /** mm along the run's source polyline at the block's start. */
   readonly alongMm: Float64Array;
   readonly runs: RunColumns;
-  /** Pen moves, in order of time. */
-  readonly penMoves: readonly PenMove[];
+  /** In order of time; `penMovesOf` gives them as objects. */
+  readonly penMoves: PenMoveColumns;
   /** The whole, pen waits included. */
   readonly totalS: number;
   /** Where it ends, mm. */
@@ -46,6 +46,17 @@ export interface RunColumns {
   readonly stroke: Int32Array;
   /** Seconds from the trajectory's start to the run's first motion. */
   readonly startS: Float64Array;
+}
+
+/** Pen moves as columns; all have `count` used entries (arrays may be longer). See `PenMove`. */
+export interface PenMoveColumns {
+  readonly count: number;
+  readonly beforeRun: Uint32Array;
+  /** 1: up, 0: down. */
+  readonly up: Uint8Array;
+  readonly startS: Float64Array;
+  readonly waitS: Float64Array;
+  readonly heightPct: Float64Array;
 }
 
 /** The pen is lifted or dropped before run `beforeRun` (= runs.count: after the last one). */
@@ -99,8 +110,8 @@ export function stateAt(
 ): MotionState {
   if (Number.isNaN(tS)) throw new RangeError("stateAt: the time is NaN, it must be seconds");
   const { penMoves, runs } = trajectory;
-  const move = lastNotAfter(tS, penMoves.length, (i) => penMoves[i]!.startS);
-  out.penUp = move < 0 || penMoves[move]!.up;
+  const move = lastNotAfter(tS, penMoves.count, (i) => penMoves.startS[i]!);
+  out.penUp = move < 0 || penMoves.up[move] === 1;
   const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]!);
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k]!;

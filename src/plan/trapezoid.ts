@@ -1,119 +1,88 @@
 /**
- * Straight segments between known speeds, as blocks: accelerate, cruise, brake; any may be missing.
+ * A straight between known speeds, as blocks: accelerate, cruise, brake; any may be missing.
  *
  *   v ^      ______           peak² = min(cap², (v0² + v1²)/2 + A ℓ)
  *     |     /      \          accelerate over (peak² − v0²)/2A, brake over (peak² − v1²)/2A,
  *  v0 |____/        \____ v1  cruise over the rest
  *     +-----------------> s
  *
- * Each block takes its acceleration from its own end speeds and exact length, (w1² − w0²)/2d, not
- * from A: rounding then never opens a gap between blocks.
+ * The caller's look-ahead has made sure that |v1² − v0²| ≤ 2 A ℓ. Each block takes its acceleration from its own end
+ * speeds and exact length, (w1² − w0²)/2d, not from A: rounding then never opens a gap between blocks.
  */
 import type { BlockColumns } from "./block-columns.js";
-import type { RunPath } from "./run-path.js";
 
-/** A change of speed² below this share of it, or a cruise below this share of its segment, is rounding. */
+/** A change of speed² below this share of it, or a cruise below this share of the straight, is rounding. */
 const NEGLIGIBLE = 1e-11;
 
-/** Writes the whole run; `path.v2` holds the speeds² found by the look-ahead, `path.cap2` the segments' limits. */
-export function writeTrapezoids(path: RunPath, accel: number, out: BlockColumns): void {
-  const { segmentCount: n, x, y, length, ux, uy, v2, cap2 } = path;
-  out.reserve(countTrapezoidBlocks(path, accel), n);
-  const { durationS, x: bx, y: by, vx, vy, ax, ay, startS, alongMm } = out;
-  const twoA = 2 * accel;
-  let k = out.count;
-  let clock = out.clockS;
-  let along = path.startAlong;
-  let w0 = 0;
-  for (let i = 0; i < n; i++) {
-    const l = length[i]!;
-    const ex = ux[i]!;
-    const ey = uy[i]!;
-    const start2 = v2[i]!;
-    const end2 = v2[i + 1]!;
-    const end = Math.sqrt(end2);
-    const free2 = (start2 + end2) / 2 + accel * l;
-    const peak2 = free2 < cap2[i]! ? free2 : cap2[i]!;
-    const least = NEGLIGIBLE * l;
-    const least2 = NEGLIGIBLE * peak2;
-    const rise = peak2 - start2 > least2 ? (peak2 - start2) / twoA : 0;
-    const fall = peak2 - end2 > least2 ? (peak2 - end2) / twoA : 0;
-    const cruise = l - rise - fall;
-    let done = 0;
-    if (rise > 0 && (fall > 0 || cruise > least)) {
-      const w1 = Math.sqrt(peak2);
-      const d = fall > 0 && cruise <= least ? l - fall : rise;
-      const a = (peak2 - start2) / (2 * d);
-      const t = (2 * d) / (w0 + w1);
-      durationS[k] = t;
-      bx[k] = x[i]!;
-      by[k] = y[i]!;
-      vx[k] = ex * w0;
-      vy[k] = ey * w0;
-      ax[k] = ex * a;
-      ay[k] = ey * a;
-      startS[k] = clock;
-      alongMm[k] = along;
-      clock += t;
-      k++;
-      done = d;
-      w0 = w1;
-    }
-    if (fall > 0 && cruise > least) {
-      const w1 = Math.sqrt(peak2);
-      const d = l - done - fall;
-      const t = (2 * d) / (w0 + w1);
-      durationS[k] = t;
-      bx[k] = x[i]! + ex * done;
-      by[k] = y[i]! + ey * done;
-      vx[k] = ex * w0;
-      vy[k] = ey * w0;
-      const a = (w1 - w0) / t;
-      ax[k] = ex * a;
-      ay[k] = ey * a;
-      startS[k] = clock;
-      alongMm[k] = along + done;
-      clock += t;
-      k++;
-      done += d;
-      w0 = w1;
-    }
-    const d = l - done;
-    const a = (end2 - w0 * w0) / (2 * d);
-    const t = (2 * d) / (w0 + end);
-    durationS[k] = t;
-    bx[k] = x[i]! + ex * done;
-    by[k] = y[i]! + ey * done;
-    vx[k] = ex * w0;
-    vy[k] = ey * w0;
-    ax[k] = ex * a;
-    ay[k] = ey * a;
-    startS[k] = clock;
-    alongMm[k] = along + done;
-    clock += t;
-    k++;
-    along += l;
-    w0 = end;
-  }
-  out.count = k;
-  out.clockS = clock;
+export interface Straight {
+  /** Where it begins, mm; its unit direction; its length, mm. */
+  x: number;
+  y: number;
+  ux: number;
+  uy: number;
+  length: number;
+  /** Speeds at its ends, mm/s, and the limit of speed² between them. */
+  v0: number;
+  v1: number;
+  cap2: number;
+  /** mm of the drawing at its beginning, and for each mm of it. */
+  alongMm: number;
+  alongPerMm: number;
 }
 
-/** How many blocks `writeTrapezoids` makes: the same choices, without the writing. */
-function countTrapezoidBlocks(path: RunPath, accel: number): number {
-  const { segmentCount: n, length, v2, cap2 } = path;
-  const twoA = 2 * accel;
-  let count = n;
-  for (let i = 0; i < n; i++) {
-    const l = length[i]!;
-    const free2 = (v2[i]! + v2[i + 1]!) / 2 + accel * l;
-    const peak2 = free2 < cap2[i]! ? free2 : cap2[i]!;
-    const least2 = NEGLIGIBLE * peak2;
-    const rise = peak2 - v2[i]! > least2 ? (peak2 - v2[i]!) / twoA : 0;
-    const fall = peak2 - v2[i + 1]! > least2 ? (peak2 - v2[i + 1]!) / twoA : 0;
-    const cruises = l - rise - fall > NEGLIGIBLE * l;
-    if (rise > 0 && (fall > 0 || cruises)) count++;
-    if (fall > 0 && cruises) count++;
+export const newStraight = (): Straight => ({
+  x: 0,
+  y: 0,
+  ux: 0,
+  uy: 0,
+  length: 0,
+  v0: 0,
+  v1: 0,
+  cap2: 0,
+  alongMm: 0,
+  alongPerMm: 1,
+});
+
+/** Appends the blocks of a straight under |a| ≤ `accel`. */
+export function writeStraight(straight: Straight, accel: number, out: BlockColumns): void {
+  const { length, v0, v1, cap2 } = straight;
+  const start2 = v0 * v0;
+  const end2 = v1 * v1;
+  const peak2 = Math.min((start2 + end2) / 2 + accel * length, Math.max(cap2, start2, end2));
+  const least2 = NEGLIGIBLE * peak2;
+  const rise = peak2 - start2 > least2 ? (peak2 - start2) / (2 * accel) : 0;
+  const fall = peak2 - end2 > least2 ? (peak2 - end2) / (2 * accel) : 0;
+  const peak = Math.sqrt(peak2);
+  const cruise = length - rise - fall;
+  const cruises = cruise > Math.max(NEGLIGIBLE * length, least2 / (2 * accel));
+  // The last phase ends where the straight ends: it takes what the others leave.
+  let from = 0;
+  let speed = v0;
+  if (rise > 0 && (fall > 0 || cruises)) {
+    const d = cruises ? rise : length - fall;
+    writePhase(straight, 0, d, v0, peak, out);
+    from = d;
+    speed = peak;
   }
-  return count;
+  if (fall > 0 && cruises) {
+    const d = length - from - fall;
+    writePhase(straight, from, d, speed, peak, out);
+    from += d;
+    speed = peak;
+  }
+  writePhase(straight, from, length - from, speed, v1, out);
+}
+
+/** `d` mm from speed w0 to speed w1. */
+function writePhase(
+  { x, y, ux, uy, alongMm, alongPerMm }: Straight,
+  from: number,
+  d: number,
+  w0: number,
+  w1: number,
+  out: BlockColumns,
+): void {
+  const a = ((w1 - w0) * (w1 + w0)) / (2 * d);
+  const along = alongMm + from * alongPerMm;
+  out.push((2 * d) / (w0 + w1), x + ux * from, y + uy * from, ux * w0, uy * w0, ux * a, uy * a, along);
 }

@@ -2,13 +2,13 @@
 import type { Drawing } from "../drawing/drawing.js";
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
-import type { LayerTable } from "./layers.js";
+import type { FileLayer, LayerTable } from "./layers.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { setFor } from "./set-for.js";
 import { inkPortions } from "./spread.js";
 
 /** A layer of the file with what it holds on this paper, whether it is drawn or hidden. */
-export interface PreparedLayer extends StrokeLayer {
+export interface PreparedLayer extends FileLayer {
   readonly visible: boolean;
   readonly strokeCount: number;
   readonly pointCount: number;

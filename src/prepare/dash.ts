@@ -2,7 +2,8 @@
 import type { DashPattern } from "../drawing/drawing.js";
 import type { Box } from "../geometry/box.js";
 import { insideRange } from "../geometry/clip.js";
-import { LineBuilder, distance, lineCount, type Lines } from "../geometry/polyline.js";
+import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
+import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
 
 /** A pattern finer than this per period, mm, is drawn solid: no pen resolves it. */
 const FINEST_PERIOD = 0.05;
@@ -22,11 +23,16 @@ export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern 
   return builder.finish();
 }
 
-/** The pattern on paper that is `scale` times as large as the file's page. */
-export const scaledPattern = (pattern: DashPattern, scale: number): DashPattern => ({
-  lengths: pattern.lengths.map((length) => length * scale),
-  offset: pattern.offset * scale,
-});
+/** The pattern on the paper; `map` takes the file's page to it, without stretching it. */
+export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern {
+  const scale = meanScale(map);
+  const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
+  if (measure === undefined) return pattern;
+  // A way on the paper is turned back to the page, and measured there.
+  const det = determinant(map);
+  const back = { a: map.d / det, b: -map.b / det, c: -map.c / det, d: map.a / det, e: 0, f: 0 };
+  return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), back) };
+}
 
 const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, length) => sum + length, 0);
 
@@ -57,7 +63,7 @@ class Dasher {
       const y0 = xy[2 * p - 1];
       const x1 = xy[2 * p];
       const y1 = xy[2 * p + 1];
-      const length = distance(x0, y0, x1, y1);
+      const length = this.lengthOf(x1 - x0, y1 - y0);
       if (!insideRange(x0, y0, x1, y1, box, range)) {
         this.pass(length);
         continue;
@@ -70,6 +76,12 @@ class Dasher {
       if (leave < 1) this.pass((1 - leave) * length);
     }
     this.endDash();
+  }
+
+  private lengthOf(dx: number, dy: number): number {
+    const { measure } = this.pattern;
+    if (measure === undefined) return Math.hypot(dx, dy);
+    return Math.hypot(measure.a * dx + measure.c * dy, measure.b * dx + measure.d * dy);
   }
 
   /** Draws the dashes of a straight piece. */

@@ -1,15 +1,22 @@
 /** Which layer each shape belongs to: by group of the file, by stroke colour, or all in one. */
-import type { Drawing, DrawingPaths } from "../drawing/drawing.js";
+import { PAIRS_OF_VERB, VERB_CLOSE, VERB_MOVE, type Drawing, type DrawingPaths } from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
+import { distance } from "../geometry/polyline.js";
 import { parseLayerName } from "./layer-codes.js";
 import type { LayerMode, PrepareSettings } from "../settings/prepare.js";
 
 /** StrokeSet keeps a layer index in 16 bits; what is beyond shares the last layer. */
 const MOST_LAYERS = 65_535;
 
+/** A layer as the file has it. */
+export interface FileLayer extends StrokeLayer {
+  /** How many colours its lines have; its `color` is the one that most of their length is drawn in. */
+  readonly colorCount: number;
+}
+
 export interface LayerTable {
   /** Only layers that hold a shape, in the file's order. */
-  readonly layers: readonly StrokeLayer[];
+  readonly layers: readonly FileLayer[];
   /** Index into `layers` for every shape. */
   readonly ofShape: Uint16Array;
 }
@@ -20,29 +27,31 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const keyOf = (shape: number): number =>
     mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(paths, shape), 0) : 0;
 
-  const used = new Uint8Array(keyCount);
-  const colors = new Int32Array(keyCount).fill(UNSEEN);
+  const inksOfKey: (Map<number, number> | undefined)[] = new Array(keyCount);
   const { group, stroke, fill } = paths;
+  let runMm = 0;
   for (let shape = 0; shape < paths.count; shape++) {
-    // Most are as the one before.
-    const before = shape - 1;
+    runMm += Math.max(lengthOf(paths, shape), DOT_MM);
+    // Most are as the next one: what a run of them has is added up once.
+    const next = shape + 1;
     const isAlike =
-      shape > 0 &&
-      group[shape] === group[before] &&
-      stroke[shape] === stroke[before] &&
-      fill[shape] === fill[before];
+      next < paths.count &&
+      group[shape] === group[next] &&
+      stroke[shape] === stroke[next] &&
+      fill[shape] === fill[next];
     if (isAlike) continue;
-    const key = keyOf(shape);
+    const inks = (inksOfKey[keyOf(shape)] ??= new Map<number, number>());
     const ink = inkOf(paths, shape);
-    colors[key] = colors[key] === UNSEEN || colors[key] === ink ? ink : MIXED;
-    used[key] = 1;
+    inks.set(ink, (inks.get(ink) ?? 0) + runMm);
+    runMm = 0;
   }
 
-  const layers: StrokeLayer[] = [];
+  const layers: FileLayer[] = [];
   const indexOfKey = new Uint16Array(keyCount);
   for (let key = 0; key < keyCount; key++) {
-    if (used[key] === 0) continue;
-    if (layers.length < MOST_LAYERS) layers.push(layerOf(drawing, mode, key, colors[key]));
+    const inks = inksOfKey[key];
+    if (!inks) continue;
+    if (layers.length < MOST_LAYERS) layers.push(layerOf(drawing, mode, key, inks));
     indexOfKey[key] = layers.length - 1;
   }
   const ofShape = new Uint16Array(paths.count);
@@ -76,16 +85,40 @@ export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTabl
   };
 }
 
-const UNSEEN = -2;
-const MIXED = -1;
+/** What a dot counts for beside lines, in the question which colour a layer is mostly drawn in. */
+const DOT_MM = 0.1;
+
+/** The length of a shape's lines on the file's page; a curve's is that of its control points' polygon. */
+function lengthOf({ verbs, coords, verbOffsets, coordOffsets }: DrawingPaths, shape: number): number {
+  let lengthMm = 0;
+  let start = coordOffsets[shape];
+  let at = start;
+  for (let v = verbOffsets[shape]; v < verbOffsets[shape + 1]; v++) {
+    const end = at + 2 * PAIRS_OF_VERB[verbs[v]];
+    if (verbs[v] === VERB_MOVE) [start, at] = [at, end];
+    if (verbs[v] === VERB_CLOSE) lengthMm += between(coords, at - 2, start);
+    for (; at < end; at += 2) lengthMm += between(coords, at - 2, at);
+  }
+  return lengthMm;
+}
+
+const between = (coords: Float64Array, from: number, to: number): number =>
+  distance(coords[from], coords[from + 1], coords[to], coords[to + 1]);
 
 /** The colour that a shape is drawn in: its stroke, else its fill (its outline is drawn then). */
 const inkOf = ({ stroke, fill }: DrawingPaths, shape: number): number =>
   stroke[shape] >= 0 ? stroke[shape] : fill[shape];
 
-function layerOf(drawing: Drawing, mode: LayerMode, key: number, ink: number): StrokeLayer {
-  const color = ink >= 0 ? drawing.colors[ink] : null;
-  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, color };
-  if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], color };
-  return { id: "all", name: "All strokes", color };
+/** `inks`: the length drawn in each colour. */
+function layerOf(
+  drawing: Drawing,
+  mode: LayerMode,
+  key: number,
+  inks: ReadonlyMap<number, number>,
+): FileLayer {
+  const [[ink]] = [...inks].sort(([, a], [, b]) => b - a);
+  const look = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size };
+  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...look };
+  if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], ...look };
+  return { id: "all", name: "All strokes", ...look };
 }

@@ -8,7 +8,6 @@
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength } from "../geometry/polyline.js";
-import { cutLines } from "../geometry/region.js";
 import { filledAreas } from "./areas.js";
 import {
   byLayer,
@@ -20,6 +19,7 @@ import {
   type PreparedLayer,
 } from "./assemble.js";
 import { clipRegions } from "./clip-regions.js";
+import { clipLines } from "./clipped-fills.js";
 import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
@@ -91,9 +91,9 @@ export function prepare(
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
 
   progress(0.15, "cutting");
+  if (drawing.clips.length > 0) lines = clipLines(lines, drawing, clipOf, options);
   lines = cropLines(lines, limit, warnings);
   if (settings.cropToPage) lines = cropToPage(lines, drawing, place);
-  if (drawing.clips.length > 0) lines = cutLines(lines, clipOf);
 
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);

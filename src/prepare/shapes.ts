@@ -1,6 +1,5 @@
 /** The steps of `prepare` while lines still belong to shapes: which, dashed, cropped, filled. */
 import type { Drawing } from "../drawing/drawing.js";
-import { meanScale } from "../geometry/affine.js";
 import {
   EMPTY_BOX,
   boxContains,
@@ -13,7 +12,7 @@ import {
 import { clipLinesToBox } from "../geometry/clip.js";
 import { LineBuilder, lineCount, pickLines, totalLength, type Lines } from "../geometry/polyline.js";
 import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
-import { dashLines, scaledPattern } from "./dash.js";
+import { dashLines, patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
 import { isFarAway, pageCorners, type Placement } from "./place.js";
@@ -74,8 +73,7 @@ export const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
 
 export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, limit: Box | null): Lines {
   if (drawing.dashes.length === 0) return lines;
-  const scale = meanScale(place.map);
-  const patterns = drawing.dashes.map((pattern) => scaledPattern(pattern, scale));
+  const patterns = drawing.dashes.map((pattern) => patternOnPaper(pattern, place.map));
   const patternOf = (shape: number) => {
     const dash = drawing.paths.dash[shape];
     return dash >= 0 && drawing.paths.stroke[shape] >= 0 ? patterns[dash] : null;

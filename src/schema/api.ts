@@ -123,6 +123,8 @@ export const plotterSchema = z.object({
   /** What it is busy with; "held": a plot that waits, pen up. */
   activity: z.enum(["none", "plotting", "held", "moving"]).default("none"),
   firmware: z.string().nullable(),
+  /** How long the motors may still run after an emergency stop, with this firmware and the last settings. */
+  emergencyStopMs: z.number().nullable().default(null),
   /** What is wrong and what to do, or null. */
   message: z.string().nullable(),
   penUp: z.boolean().nullable(),

@@ -29,6 +29,8 @@ import {
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
+import { defaultsOf } from "../settings/setting.js";
+import { STREAM_TABLE } from "../settings/stream.js";
 import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
 import { machineProfileSchema } from "./machine.js";
 import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";
@@ -38,13 +40,13 @@ const positive = (max: number) => z.number().gt(0).max(max);
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object(shapeOf(PAPER_TABLE));
 const layerId = z.string().max(500);
-/** A drawing with more layers than that is none that somebody could plot. */
-const MOST_LAYERS = 10_000;
-const layerIds = z.array(layerId).max(MOST_LAYERS);
+/** More layers than anybody could plot. */
+const MAX_LAYERS = 10_000;
+const layerIds = z.array(layerId).max(MAX_LAYERS);
 const byLayer = <T extends z.ZodType>(value: T) =>
   z
     .record(layerId, value)
-    .refine((record) => Object.keys(record).length <= MOST_LAYERS, `at most ${MOST_LAYERS} layers`);
+    .refine((record) => Object.keys(record).length <= MAX_LAYERS, `at most ${MAX_LAYERS} layers`);
 const hatchSchema = z.object(shapeWithDefaults(HATCH_TABLE));
 
 // Everything has a default, so that jobs and presets stored by an older version stay readable.
@@ -78,7 +80,7 @@ export const prepareSettingsSchema = z.object({
   hatch: hatchSchema.default(DEFAULT_PREPARE.hatch),
   layerHatches: z
     .array(hatchSchema.extend({ layer: layerId }))
-    .max(MOST_LAYERS)
+    .max(MAX_LAYERS)
     .default([]),
 }) satisfies z.ZodType<PrepareSettings>;
 
@@ -123,6 +125,12 @@ export const plotSettingsSchema = z.object({
   layerPens: byLayer(z.string().max(100)).default({}),
   penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
   layerStops: byLayer(z.boolean()).default({}),
+  /**
+   * Motion that the board is sent ahead of the pen. A board with a queue of one (before firmware 3) plays all of it
+   * after an emergency stop; less than 300 ms stops sooner, but then the pen stands still where the computer is busy
+   * for longer than that.
+   */
+  ...shapeWithDefaults(STREAM_TABLE),
   /** The whole profile of a machine that plotwright does not know by itself; counts when `machine` is its id. */
   customMachine: machineProfileSchema.nullable().default(null),
 });
@@ -144,5 +152,6 @@ export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   pens: [],
   layerPens: {},
   layerStops: {},
+  ...defaultsOf(STREAM_TABLE),
   customMachine: null,
 };

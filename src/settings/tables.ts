@@ -1,7 +1,8 @@
-/** All settings that have an option of their own, by where they stand in a job's settings. */
+/** All settings that have an option of their own, by where they stand in a job's settings ("": at the top). */
 import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
 import { PEN_TABLE } from "./pen.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
+import { STREAM_TABLE } from "./stream.js";
 import { rangeInWords, type Setting, type SettingsTable } from "./setting.js";
 
 export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
@@ -11,6 +12,7 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   "motion.draw": DRAW_TABLE,
   "motion.travel": TRAVEL_TABLE,
   pen: PEN_TABLE,
+  "": STREAM_TABLE,
 };
 
 export interface SettingFlag {
@@ -22,7 +24,7 @@ export interface SettingFlag {
 
 export const SETTING_FLAGS: readonly SettingFlag[] = Object.entries(SETTINGS_TABLES).flatMap(([at, table]) =>
   Object.entries(table).flatMap(([key, row]) =>
-    row.flag === undefined ? [] : [{ path: `${at}.${key}`, flag: row.flag, row }],
+    row.flag === undefined ? [] : [{ path: at === "" ? key : `${at}.${key}`, flag: row.flag, row }],
   ),
 );
 

@@ -15,22 +15,10 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   machines: ["units", "errors"],
   prepare: ["drawing", "geometry", "machines", "settings", "units", "errors"],
   plan: ["prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  ebb: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  job: ["import", "ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  export: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  board: ["ebb", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  schema: [
-    "board",
-    "ebb",
-    "plan",
-    "prepare",
-    "drawing",
-    "geometry",
-    "machines",
-    "settings",
-    "units",
-    "errors",
-  ],
+  drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  job: ["import", "drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  export: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
 };
 
 interface Import {

@@ -48,6 +48,18 @@ describe("who is there", () => {
     const { clock, session } = newSession(() => "Grbl 1.1h ['$' for help]\r\n");
     expect(await outcome(clock.run(session.identify(), 3))).toMatch(/^no-board: .*Grbl 1\.1h/);
   });
+
+  it.each([
+    ["OK", "OK\r\n", /It said: "OK"/],
+    ["its own error", "!4\r\n", /It said: .*"!4"/],
+    ["the command itself", "V\r\nERROR\r\n", /It said: .*"V", "ERROR"/],
+    ["bytes without an end", "\x81\x7e", /choose another device\.$/],
+  ])("takes a device that answers %s, as a modem may, for no plotter", async (_, reply, words) => {
+    const { clock, session } = newSession(() => reply);
+    const said = await outcome(clock.run(session.identify(), 3));
+    expect(said).toMatch(/^no-board: Something answers on this port, but it is not an EiBotBoard/);
+    expect(said).toMatch(words);
+  });
 });
 
 describe("answers and the commands they belong to", () => {
@@ -109,13 +121,23 @@ describe("answers and the commands they belong to", () => {
 
   it("says of a lost value that it was lost, and gives the others theirs", async () => {
     const { line, session } = newSession();
-    const all = [outcome(session.query("QG")), session.send("LT,2"), session.query("QS")];
+    const lost: (string | undefined)[] = [];
+    session.write([{ line: "QG", onReply: (error) => lost.push(error?.message) }]);
+    const all = [session.send("LT,2"), session.query("QS")];
     line.say("OK\r\n1,2\n\rOK\r\n");
-    expect(await Promise.all(all)).toEqual([
-      expect.stringContaining("answer to QG was lost"),
-      undefined,
-      "1,2",
-    ]);
+    expect(await Promise.all(all)).toEqual([undefined, "1,2"]);
+    expect(lost).toEqual([expect.stringContaining("answer to QG was lost")]);
+  });
+
+  it("asks again for a value that was lost", async () => {
+    const { line, session } = newSession();
+    const value = session.query("QG");
+    const after = session.query("QS");
+    line.say("1,2\n\rOK\r\n");
+    expect(await after).toBe("1,2");
+    line.say("1E\r\n");
+    expect(await value).toBe("1E");
+    expect(line.written).toEqual(["QG", "QS", "QG"]);
   });
 
   it("ignores garbage between answers, and counts it", async () => {
@@ -124,6 +146,75 @@ describe("answers and the commands they belong to", () => {
     line.say("\x80\xff?x\r\nOK\r\n#garbage\r\n3,4\n\rOK\r\n");
     expect(await Promise.all(all)).toEqual([undefined, "3,4"]);
     expect(session.strayCount).toBe(2);
+  });
+});
+
+describe("a reply that nobody asked for", () => {
+  const VERSION = "EBBv13_and_above EB Firmware Version 2.8.1\r\n";
+  /** A session that has said who it is, and the answers that it gives to what is asked from then on. */
+  async function identified() {
+    const rig = newSession();
+    rig.line.answerWith((line) => (line === "V" ? VERSION : null));
+    await rig.session.identify();
+    rig.line.answerWith(() => null);
+    const answers: string[] = [];
+    const ask = (...lines: string[]): void =>
+      rig.session.write(
+        lines.map((line) => ({
+          line,
+          onReply: (error, value) => answers.push(`${line}: ${error ? "lost" : value}`),
+        })),
+      );
+    return { ...rig, answers, ask };
+  }
+
+  it("an OK too many shifts the answers to no question", async () => {
+    const { line, answers, ask } = await identified();
+    ask("LT,1", "LT,2", "QG", "QS", "QC", "LT,3");
+    line.say("OK\r\nOK\r\nOK\r\n1E\r\n12,34\n\rOK\r\n394,300\r\nOK\r\n");
+    // Which of them is one too many nobody knows before the answer to V: what was asked before is not believed.
+    expect(line.written.slice(-2)).toEqual(["LT,3", "V"]);
+    line.say(`OK\r\n${VERSION}`);
+    ask("QS", "QC");
+    line.say("15,40\n\rOK\r\n394,301\r\nOK\r\n");
+    expect(answers).toEqual([
+      ...["LT,1: ", "LT,2: ", "QG: lost", "QS: lost", "QC: lost", "LT,3: "],
+      ...["QS: 15,40", "QC: 394,301"],
+    ]);
+  });
+
+  it("a value too many is given to no other question", async () => {
+    const { line, answers, ask } = await identified();
+    ask("QS", "QC");
+    line.say("7,8\n\r12,34\n\rOK\r\n394,300\r\nOK\r\n");
+    line.say(VERSION);
+    expect(answers).not.toContain("QC: 12,34");
+    ask("QC");
+    line.say("394,301\r\nOK\r\n");
+    expect(answers[answers.length - 1]).toBe("QC: 394,301");
+  });
+
+  it("step counters are no reading of the supply where they cannot be one", async () => {
+    const { line, answers, ask } = await identified();
+    ask("QC");
+    line.say("-12,34\n\rOK\r\n2000,5\n\r");
+    expect(answers).toEqual([]);
+  });
+
+  it("lost values hold up the commands behind them by no more than an answer", async () => {
+    const { line, answers, ask } = await identified();
+    ask("QG", "QS", "QC", "LT,3", "LT,4");
+    // Of all three questions nothing came; V is asked for at the first OK that fits nothing.
+    line.say("OK\r\n");
+    line.say(`OK\r\n${VERSION}`);
+    expect(answers).toEqual(["QG: lost", "QS: lost", "QC: lost", "LT,3: ", "LT,4: "]);
+  });
+
+  it("noise with a number behind an exclamation mark is no error of the board", async () => {
+    const { line, answers, ask } = await identified();
+    ask("LT,1", "LT,2");
+    line.say("x!37\r\n#!5~\r\nOK\r\nz!8 Err: Unknown command\r\n");
+    expect(answers).toEqual(["LT,1: ", "LT,2: lost"]);
   });
 });
 

@@ -150,7 +150,7 @@ describe("a host that stops for 150 ms every second", () => {
     },
   );
 
-  it("never lets the board run dry between slices of 5 ms, as firmware 2.4.4 takes its curves", async () => {
+  it("never lets the board run dry between the slices of 10 ms that firmware 2.4.4 gets", async () => {
     const loops = Array.from({ length: 900 }, (_, i): Point => [
       30 + i / 12 + 2 * Math.cos(i / 5),
       40 + 2 * Math.sin(i / 5),
@@ -165,7 +165,7 @@ describe("a host that stops for 150 ms every second", () => {
     const stopStalling = rig.host.stallRegularly(1, 0.15);
     const { streamer, report } = await play(rig, stream, { poll: { lines: ["QM"], everyS: 0.25 } });
     stopStalling();
-    expect(stream.count / trajectory.totalS).toBeGreaterThan(130);
+    expect(stream.count / trajectory.totalS).toBeGreaterThan(90);
     expect(report.exact).toBe(true);
     expect(rig.board.statistics().underrunCount).toBe(0);
     expect(streamer.underrunCount).toBe(0);

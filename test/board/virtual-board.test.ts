@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { VirtualBoard, type VirtualBoardOptions } from "../../src/board/virtual-board.js";
+import { VirtualBoard, type VirtualBoardOptions } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import { ManualClock } from "../support/manual-clock.js";
 
 const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));

@@ -219,7 +219,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("never expands entities, so that a bomb of them is a short text at most", async () => {
+  it("never lets entities grow, so that a bomb of them is a short text at most", async () => {
     const entities = [..."bcdefghij"]
       .map((name, i) => `<!ENTITY ${name} "${`&${"abcdefghij"[i]};`.repeat(10)}">`)
       .join("");

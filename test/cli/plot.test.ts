@@ -11,7 +11,7 @@ import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { CaughtIo, cli, cliWith, type CliRun } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
-vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => SVG }));
+vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
 
 const LIMIT_MS = 60_000;
 let dir: string;
@@ -67,7 +67,7 @@ describe("plotwright plot", () => {
     async () => {
       const record = new PlotRecord(dir, "virtual");
       const cutShort = (): void => {
-        record.begin("b.svg", SVG, DEFAULT_PLOT_SETTINGS);
+        record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
         const entry = { place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 };
         record.save(entry, 0.4);
       };
@@ -89,7 +89,7 @@ describe("plotwright plot", () => {
     "with a keyboard, a plot that is resumed waits for Enter",
     async () => {
       const record = new PlotRecord(dir, "virtual");
-      record.begin("b.svg", SVG, DEFAULT_PLOT_SETTINGS);
+      record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
       record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
       const io = new CaughtIo();
       const plotted = plot(io, "--resume");

@@ -11,7 +11,7 @@ import { cliReference } from "../../scripts/cli-reference.js";
 import { CaughtIo, cliWith } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
-vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => SVG }));
+vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
 // Whatever is plugged into this computer is left alone.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
 
@@ -94,7 +94,11 @@ describe("docs/cli.md", () => {
 
 function leaveCutShort(): void {
   const record = new PlotRecord(join(folder, "data"), "virtual");
-  record.begin("drawing.svg", SVG, DEFAULT_PLOT_SETTINGS);
+  record.begin(join(folder, "drawing.svg"), {
+    name: "drawing.svg",
+    settings: DEFAULT_PLOT_SETTINGS,
+    only: undefined,
+  });
   const place = { stroke: 0, alongMm: 2 };
   record.save({ place, xMm: 0, yMm: 0, penUp: false, elapsedS: 1 }, 0.4);
 }

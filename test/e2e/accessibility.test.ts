@@ -3,7 +3,14 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
-import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import {
+  chooseSample,
+  dropFile,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+  waitForSamples,
+} from "../support/page-actions.js";
 import { DESK, PAGE_STATES, PHONE, inStates, type Look } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
@@ -22,7 +29,7 @@ afterAll(async () => {
   data.remove();
 });
 
-async function openPage({ width, height }: Look = DESK): Promise<Page> {
+async function firstVisit({ width, height }: Look = DESK): Promise<Page> {
   const context = await browser.newContext({
     viewport: { width, height },
     hasTouch: width < 760,
@@ -30,7 +37,13 @@ async function openPage({ width, height }: Look = DESK): Promise<Page> {
   });
   const page = await context.newPage();
   await page.goto(server.url);
-  await waitForPlan(page);
+  await waitForSamples(page);
+  return page;
+}
+
+async function openPage(look: Look = DESK): Promise<Page> {
+  const page = await firstVisit(look);
+  await chooseSample(page);
   return page;
 }
 
@@ -45,6 +58,9 @@ async function unfold(page: Page): Promise<void> {
 describe("someone without a mouse", () => {
   it("reaches every control by Tab, and each says what it is", async () => {
     const page = await openPage();
+    // From the top, not from where the sample was pressed.
+    await page.reload();
+    await waitForPlan(page);
     const names = new Set<string>();
     for (let press = 0; press < 120; press++) {
       await page.keyboard.press("Tab");
@@ -69,15 +85,27 @@ describe("someone without a mouse", () => {
 });
 
 describe("axe finds nothing serious, light and dark", () => {
-  it.each([DESK, PHONE])("on the first visit, every group of settings unfolded, $name", async (look) => {
-    const page = await openPage(look);
-    await unfold(page);
+  it.each([DESK, PHONE])("on the first visit, $name", async (look) => {
+    const page = await firstVisit(look);
     for (const colorScheme of ["light", "dark"] as const) {
       await page.emulateMedia({ colorScheme });
       expect(await seriousFindings(page)).toEqual([]);
     }
     await page.context().close();
   });
+
+  it.each([DESK, PHONE])(
+    "with a sample on the paper, every group of settings unfolded, $name",
+    async (look) => {
+      const page = await openPage(look);
+      await unfold(page);
+      for (const colorScheme of ["light", "dark"] as const) {
+        await page.emulateMedia({ colorScheme });
+        expect(await seriousFindings(page)).toEqual([]);
+      }
+      await page.context().close();
+    },
+  );
 
   it("with a file that can't be read, a queue, a plot under way, and the question before cancelling", async () => {
     const page = await openPage();

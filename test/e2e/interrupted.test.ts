@@ -34,7 +34,6 @@ async function openPage(): Promise<void> {
   page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
   await page.goto(server.url);
-  await waitForPlan(page);
 }
 
 async function theJob(): Promise<Job> {
@@ -98,6 +97,7 @@ describe("a plot whose server was killed", () => {
     await page.context().close();
     server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
     await openPage();
+    await waitForPlan(page);
     await expectPartlyDrawn("Interrupted");
   });
 

@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { machineOf, VirtualBoard } from "../../src/index.js";
 import type { Job } from "../../src/schema/index.js";
-import { colorCounts, dropFile, plotBar, waitForPlan } from "../support/page-actions.js";
+import { chooseSample, colorCounts, dropFile, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 import { ascii } from "../support/virtual-plots.js";
 
@@ -258,7 +258,7 @@ describe("layers on a phone", () => {
     });
     const page = await context.newPage();
     await page.goto(test.server.url);
-    await waitForPlan(page);
+    await chooseSample(page);
     await dropFile(page, "beach.svg", SVG);
     await page.getByRole("button", { name: /^Drag sun/ }).waitFor({ state: "attached" });
     const before = await namesOn(page);

@@ -6,6 +6,7 @@ import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schem
 import { launchBrowser } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
 import {
+  chooseSample,
   dropFile,
   historyPanel,
   openTab,
@@ -26,7 +27,7 @@ beforeAll(async () => {
   page = await (await browser.newContext({ viewport: { width: 900, height: 600 } })).newPage();
   page.setDefaultTimeout(90_000);
   await page.goto(server.url);
-  await waitForPlan(page);
+  await chooseSample(page);
 });
 
 afterAll(async () => {

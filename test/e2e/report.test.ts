@@ -1,7 +1,14 @@
 /** What of a file is not drawn: said on the page, and shown on the paper where it is. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, dropFile, openTab, waitForPicture, waitForPlan } from "../support/page-actions.js";
+import {
+  chooseSample,
+  colorCounts,
+  dropFile,
+  openTab,
+  waitForPicture,
+  waitForPlan,
+} from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140">
@@ -67,7 +74,7 @@ describe("the report", () => {
     });
     const phone = await context.newPage();
     await phone.goto(test.server.url);
-    await waitForPlan(phone);
+    await chooseSample(phone);
     await dropFile(phone, "poster.svg", SVG);
     await openTab(phone, "Set up");
     const show = phone

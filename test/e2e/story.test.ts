@@ -7,6 +7,7 @@ import { ROOT } from "../../scripts/setup.mjs";
 import { launchBrowser } from "../support/browser.js";
 import { distanceToMix, rgbFromHex, rgbFromNumber, saturation } from "../support/colors.js";
 import {
+  chooseSample,
   colorCounts,
   dropFile,
   historyPanel,
@@ -73,11 +74,23 @@ async function noteShares(): Promise<void> {
 }
 
 describe("a newcomer with a drawing", () => {
-  it("finds a sample on the paper and is told that no plotter is plugged in", async () => {
-    await waitForPlan(page);
+  it("finds an empty sheet with nothing to plot, and is told that no plotter is plugged in", async () => {
+    await page.getByText("Drop a drawing here").waitFor();
     await page
       .getByText(/Virtual board/)
       .first()
+      .waitFor();
+    await plotBar(page).getByText("Choose a drawing, or try a sample.").waitFor();
+    for (const name of ["Plot", "Add to queue"]) {
+      expect(await plotBar(page).getByRole("button", { name, exact: true }).isDisabled()).toBe(true);
+    }
+  });
+
+  it("lays a sample on it with one click, ready to plot", async () => {
+    await chooseSample(page);
+    await plotBar(page)
+      .getByRole("button", { name: "Plot", exact: true })
+      .and(page.locator(":enabled"))
       .waitFor();
     expect(pixelCount(await inked(page))).toBeGreaterThan(2_000);
   });
@@ -136,7 +149,7 @@ describe("a newcomer with a drawing", () => {
 
   it("can do it on a phone without scrolling sideways", async () => {
     const phone = await openPage(PHONE);
-    await waitForPlan(phone);
+    await chooseSample(phone);
     const widthPx = await phone.evaluate(() => document.documentElement.scrollWidth);
     expect(widthPx).toBeLessThanOrEqual(PHONE.width);
     await phone.getByRole("button", { name: "Plot", exact: true }).waitFor();

@@ -3,7 +3,14 @@ import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { launchBrowser } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
-import { dropFile, historyPanel, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
+import {
+  chooseSample,
+  dropFile,
+  historyPanel,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+} from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("two-browsers");
@@ -40,7 +47,7 @@ async function pairedPage(path: string): Promise<Page> {
   const page = await context.newPage();
   await page.goto(`${server.url}${path}`);
   await page.waitForURL(`${server.url}/`);
-  await waitForPlan(page);
+  await chooseSample(page);
   return page;
 }
 

@@ -256,7 +256,7 @@ describe("when connecting", () => {
     await board.report();
     expect(await connected(board.path)).toMatchObject({
       connection: "absent",
-      message: expect.stringContaining("it is no EiBotBoard: choose another device"),
+      message: expect.stringContaining("it is not an EiBotBoard: choose another device"),
     });
   });
 

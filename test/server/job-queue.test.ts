@@ -192,7 +192,7 @@ describe("the queue", () => {
       message: "The board was unplugged.",
       place: { strokeIndex: 7, alongMm: 1.25 },
     });
-    expect(queue.recover(id).state).toBe("plotting");
+    expect(queue.recover(id).state).toBe("paused");
     const run = await plotter.nextRun();
     await settled();
     expect(run.asked).toEqual(["pause"]);
@@ -204,6 +204,22 @@ describe("the queue", () => {
     run.end({ kind: "done" });
     await settled();
     expect(queue.get(id).state).toBe("done");
+  });
+
+  it("goes on when it is resumed before the plotter has taken it up", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const broken = await plotter.nextRun();
+    await settled();
+    broken.record({ place: { stroke: 7, alongMm: 1.25 } });
+    broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    queue.recover(id);
+    expect(queue.resume(id).state).toBe("paused");
+    const run = await plotter.nextRun();
+    await settled();
+    expect(run.asked).toEqual(["resume"]);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
   });
 
   it("offers a plot whose board failed before anything was drawn, held at its beginning", async () => {

@@ -60,7 +60,7 @@ describe("a body", () => {
   it("of layers without end is refused, in a job and in a change", async () => {
     const many = (count: number, value: unknown): object =>
       Object.fromEntries(Array.from({ length: count }, (_, i) => [`layer ${i}`, value]));
-    const settings = { ...DEFAULT_PLOT_SETTINGS, layerPens: many(20_000, "a") };
+    const settings = { ...DEFAULT_PLOT_SETTINGS, layerPens: many(10_500, "a") };
     const refused = { status: 400, message: expect.stringMatching(/layerPens: at most 10000/) as string };
     expect(await fault(await send("POST", "/jobs", newJob({ settings })))).toMatchObject(refused);
     const job = jobSchema.parse(await (await send("POST", "/jobs", newJob({}))).json());
@@ -68,12 +68,12 @@ describe("a body", () => {
       refused,
     );
     for (const one of [
-      { ...DEFAULT_PLOT_SETTINGS, layerStops: many(20_000, true) },
-      { ...DEFAULT_PLOT_SETTINGS, pen: { ...DEFAULT_PLOT_SETTINGS.pen, layers: many(20_000, {}) } },
-      { ...DEFAULT_PLOT_SETTINGS, motion: { ...DEFAULT_PLOT_SETTINGS.motion, layers: many(20_000, {}) } },
+      { ...DEFAULT_PLOT_SETTINGS, layerStops: many(10_500, true) },
+      { ...DEFAULT_PLOT_SETTINGS, pen: { ...DEFAULT_PLOT_SETTINGS.pen, layers: many(10_500, {}) } },
+      { ...DEFAULT_PLOT_SETTINGS, motion: { ...DEFAULT_PLOT_SETTINGS.motion, layers: many(10_500, {}) } },
       {
         ...DEFAULT_PLOT_SETTINGS,
-        prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, layerRepeats: many(20_000, 2) },
+        prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, layerRepeats: many(10_500, 2) },
       },
     ]) {
       expect((await send("POST", "/jobs", newJob({ settings: one }))).status).toBe(400);

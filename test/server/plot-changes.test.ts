@@ -67,6 +67,14 @@ describe("changes while it runs", () => {
     expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
   });
 
+  it.each([0, 10, 25])("waits for the servo where the pen is pressed down to %i percent", async (downPct) => {
+    const { world, board, run } = await plotting("junction");
+    await world.advance(2);
+    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct } }));
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.statistics().movesBeforePenArrivedCount).toBe(0);
+  });
+
   it("takes new settings at the hold point while held", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(2);

@@ -5,7 +5,7 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 import { MOTION_MODES, stateAt, type Trajectory } from "../../src/index.js";
-import { firmwareFeatures } from "../../src/ebb/firmware.js";
+import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { seeded, settingsOf } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks, RETRACED } from "../support/stop-truth.js";

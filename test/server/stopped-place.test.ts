@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { pointOfPlace, strokeLengthMm } from "../../server/plotter/plan-places.js";
-import { stoppedPlace } from "../../server/plotter/stopped-place.js";
+import { placeBehindSent, stoppedPlace } from "../../server/plotter/stopped-place.js";
 import type { Place } from "../../src/index.js";
 import { strokesOf } from "../support/local-planner.js";
 
@@ -86,5 +86,31 @@ describe("where a plot was broken off", () => {
   it("stays the journal's where the pen is somewhere else, or further than it can have come", () => {
     expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, 500)).toEqual(journal);
     expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, 100)).toEqual(journal);
+  });
+
+  describe("by a kill, which lets the board play all that it was sent", () => {
+    /** A loop of 7 mm: out, round and over itself. */
+    const loop = strokesOf([0, 0, 20, 0, 20, 2, 18.5, 2, 18.5, -10]);
+    const crossing = { x: 18.5, y: 0, up: false };
+
+    it("is the crossing's later passage where the first was sent before the last entry", () => {
+      expect(stoppedPlace(loop, { stroke: 0, alongMm: 10 }, crossing, 60)).toEqual({
+        stroke: 0,
+        alongMm: 18.5,
+      });
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, crossing, 18)).toEqual({
+        stroke: 0,
+        alongMm: 25.5,
+      });
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 18.4 }, crossing, 18)).toEqual({
+        stroke: 0,
+        alongMm: 18.5,
+      });
+    });
+
+    it("is not known where nothing fits, or the pen is up", () => {
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 26 }, crossing, 18)).toBeNull();
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, { ...crossing, up: true }, 18)).toBeNull();
+    });
   });
 });

@@ -93,6 +93,13 @@ describe("the watched folder", () => {
     await queued("a.svg", "a.svg", "b.dxf", "late.svg");
   });
 
+  it("takes every format that can be read, and no settings", async () => {
+    await open();
+    for (const name of ["settings.json", "a.settings.json", "notes.txt", "a.hgl", "b.json", "c.PLT"])
+      put(name, "{}");
+    await queued("a.hgl", "b.json", "c.PLT");
+  });
+
   it("takes a file only when its size has stood still", async () => {
     await open(1_500);
     const whole = "<svg><!-- 1 2 3 4 5 6 --></svg>";

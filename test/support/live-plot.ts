@@ -41,7 +41,7 @@ export async function plotting(mode: MotionMode, strokes = DRAWING, firmware = "
 }
 
 /** The lines drawn so far, pen down. */
-const lines = (board: VirtualBoard): Float64Array[] =>
+const lines = (board: Pick<VirtualBoard, "drawn">): Float64Array[] =>
   board
     .drawn()
     .filter(({ penDown, xy }) => penDown && xy.length > 2)
@@ -84,7 +84,7 @@ export function seamsMm(board: VirtualBoard): number[] {
  * mm drawn, without the steps' own zigzag, which makes up to a twentieth more of a line by how the two motors' steps happen to
  * fall.
  */
-export function drawnMm(board: VirtualBoard): number {
+export function drawnMm(board: Pick<VirtualBoard, "drawn">): number {
   let sum = 0;
   for (const xy of lines(board)) {
     const whole = { xy, offsets: Uint32Array.of(0, xy.length / 2), tag: Uint32Array.of(0) };

@@ -50,6 +50,18 @@ export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
+/** Until the empty sheet of a first visit offers the samples, with their pictures as far as they are in sight. */
+export async function waitForSamples(page: Page): Promise<void> {
+  await page.locator(".sample").nth(5).waitFor({ state: "attached" });
+  await page.locator(".sample img").first().waitFor();
+}
+
+/** What a first visit begins with: one click on a sample. Waits for its plan. */
+export async function chooseSample(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Flower meadow" }).click();
+  await waitForPlan(page);
+}
+
 /** How many pixels of each colour (0xrrggbb) the screen shows at an element or in a box, decoded by the browser itself. */
 export async function colorCounts(
   ...[target, clip]: [Locator] | [Page, { x: number; y: number; width: number; height: number }]

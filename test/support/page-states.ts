@@ -4,7 +4,16 @@ import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { ROOT } from "../../scripts/setup.mjs";
 import { ruledSheet } from "./drawings.js";
-import { dropFile, historyPanel, openTab, plotBar, queuePanel, waitForPlan } from "./page-actions.js";
+import {
+  chooseSample,
+  dropFile,
+  historyPanel,
+  openTab,
+  plotBar,
+  queuePanel,
+  waitForPlan,
+  waitForSamples,
+} from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
 /** The size of a screen. */
@@ -33,6 +42,8 @@ export interface PageState {
   readonly device?: string;
   /** Leaves nothing behind, once a sheet that it opened is closed. */
   readonly isPassing?: true;
+  /** Begins with nothing on the paper; others begin with a sample there. */
+  readonly isFirstVisit?: true;
   reach(stand: Stand): Promise<void>;
 }
 
@@ -88,7 +99,12 @@ const button = (page: Page, name: string | RegExp) =>
   queuePanel(page).or(plotBar(page)).getByRole("button", { name });
 
 export const PAGE_STATES: readonly PageState[] = [
-  { name: "01-first-visit", isPassing: true, reach: async () => undefined },
+  {
+    name: "01-first-visit",
+    isPassing: true,
+    isFirstVisit: true,
+    reach: ({ page }) => waitForSamples(page),
+  },
   {
     name: "02-loaded",
     isPassing: true,
@@ -292,7 +308,7 @@ async function inGroup(
   const page = await context.newPage();
   try {
     await page.goto(server.url);
-    await waitForPlan(page);
+    if (!states[0]!.isFirstVisit) await chooseSample(page);
     for (const state of states) {
       await state.reach({ page, server, restart });
       for (const colorScheme of SCHEMES) {

@@ -3,7 +3,15 @@ import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-c
 import { importSvg, prepare, prepareSettingsOf, type StrokeSet } from "../../src/index.js";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "./browser.js";
-import { dropFile, nextFrames, openTab, plotBar, waitForPicture, waitForPlan } from "./page-actions.js";
+import {
+  chooseSample,
+  dropFile,
+  nextFrames,
+  openTab,
+  plotBar,
+  waitForPicture,
+  waitForPlan,
+} from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
 /** For what the page has to show: it is slow where the computer is busy. */
@@ -26,8 +34,15 @@ export class PageTest {
     });
   }
 
-  /** `args`: for the server. */
-  static async open(
+  /** With a sample on the paper. `args`: for the server. */
+  static async open(...options: Parameters<typeof PageTest.firstVisit>): Promise<PageTest> {
+    const test = await PageTest.firstVisit(...options);
+    await chooseSample(test.page);
+    return test;
+  }
+
+  /** With nothing on the paper. */
+  static async firstVisit(
     name: string,
     options: BrowserContextOptions = {},
     args: readonly string[] = [],
@@ -39,7 +54,6 @@ export class PageTest {
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
     test.page.setDefaultTimeout(PATIENCE_MS);
     await test.page.goto(server.url);
-    await waitForPlan(test.page);
     return test;
   }
 

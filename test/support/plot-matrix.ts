@@ -41,6 +41,8 @@ export const ALLOWED_MM = DEFAULT_MOTION.draw.cornerMm + DEFAULT_MOTION.fit!.tol
 /** Largest change of speed between two commands, mm/s; null: what the mode's corners jump by is the plan's. */
 export function allowedJump(mode: MotionMode, firmware: Firmware): number | null {
   if (mode === "junction") return null;
+  // Slices of constant speed: no promise, but not absurd.
+  if (compareFirmware(firmware, "2.5.3") < 0) return 10;
   return compareFirmware(firmware, "2.7.0") < 0 ? 5 : 1;
 }
 

@@ -2,11 +2,16 @@
  * A virtual board behind a real pseudo-terminal, in a process of its own: what the driver's tests plug in.
  * Started by pty-board.ts; told by messages what shall happen to the board.
  */
-import { spawn } from "@lydell/node-pty";
+import { chmodSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { spawn, type IPty } from "@lydell/node-pty";
 import { VirtualBoard } from "../../src/index.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { wakefulClock } from "./wakeful-clock.js";
 import type { FromBoard, ToBoard } from "./pty-board.js";
+
+const CR = 13;
 
 const { firmware, speed, futureSyntax, wakeful } = JSON.parse(process.argv[2]!) as {
   firmware: string;
@@ -18,40 +23,94 @@ const ownClock = wakeful ? wakefulClock() : null;
 const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed });
 const say = (message: FromBoard): void => void process.send!(message);
 
-// A shell holds the terminal open and makes it pass bytes as they are; its first line is the terminal's name.
-const terminal = spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], { encoding: null });
-let isOpen = false;
+const folder = mkdtempSync(path.join(tmpdir(), "plotwright-pty-"));
+chmodSync(folder, 0o755);
+const link = path.join(folder, "board");
+
+let terminal: IPty | null = null;
 let foreignAnswer: string | null = null;
-let head = "";
-terminal.onData((data: unknown) => {
-  const bytes = data as Buffer;
-  if (isOpen) {
-    if (foreignAnswer !== null) {
-      terminal.write(foreignAnswer);
+/** Bytes from the host that still arrive; after that the line is deaf and mute. */
+let bytesUntilDeaf = Infinity;
+/** 1: wait for the end of the present line; 2: the next letter is changed. */
+let refusing = 0;
+
+/** A shell holds a terminal open and makes it pass bytes as they are; its first line is the terminal's name. */
+function plugIn(opened: () => void): void {
+  const shell = spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], { encoding: null });
+  terminal = shell;
+  let head = "";
+  let isOpen = false;
+  shell.onData((data: unknown) => {
+    const bytes = data as Buffer;
+    if (isOpen) {
+      if (shell === terminal) fromHost(bytes);
       return;
     }
-    board.receive(bytes);
-    if (!board.accepting) terminal.pause();
+    head += bytes.toString("latin1");
+    const device = /^(\/dev\/\S+)\s/.exec(head)?.[1];
+    if (device === undefined) return;
+    isOpen = true;
+    symlinkSync(device, link);
+    opened();
+  });
+}
+
+function pullOut(): void {
+  rmSync(link, { force: true });
+  terminal?.kill("SIGKILL");
+  terminal = null;
+}
+
+function fromHost(bytes: Buffer): void {
+  if (foreignAnswer !== null) {
+    toHost(Buffer.from(foreignAnswer));
     return;
   }
-  head += bytes.toString("latin1");
-  const path = /^(\/dev\/\S+)\s/.exec(head)?.[1];
-  if (path !== undefined) {
-    isOpen = true;
-    if (futureSyntax) board.receive(Buffer.from("CU,10,1\r"));
-    say({ type: "open", path });
+  const heard = bytes.subarray(0, bytesUntilDeaf);
+  bytesUntilDeaf -= heard.length;
+  board.receive(refusing > 0 ? heard.map(changed) : heard);
+  if (!board.accepting) terminal?.pause();
+}
+
+function changed(byte: number): number {
+  if (refusing === 2) {
+    refusing = 0;
+    return "#".charCodeAt(0);
   }
+  if (refusing === 1 && byte === CR) refusing = 2;
+  return byte;
+}
+
+function toHost(bytes: Uint8Array): void {
+  if (bytesUntilDeaf > 0) terminal?.write(Buffer.from(bytes).toString("latin1"));
+}
+
+plugIn(() => {
+  if (futureSyntax) board.receive(Buffer.from("CU,10,1\r"));
+  say({ type: "open", path: link });
 });
-board.onDrain(() => terminal.resume());
-board.onSend((bytes) => terminal.write(Buffer.from(bytes).toString("latin1")));
-board.onDrop(() => terminal.kill("SIGKILL"));
+board.onDrain(() => terminal?.resume());
+board.onSend(toHost);
+board.onDrop(pullOut);
 process.on("message", (message: ToBoard) => {
   switch (message.type) {
     case "unplug":
       board.unplug();
       break;
+    case "replug":
+      plugIn(() => undefined);
+      break;
+    case "deaf":
+      bytesUntilDeaf = message.deaf ? (message.afterBytes ?? 0) : Infinity;
+      break;
+    case "refuse":
+      refusing = 1;
+      break;
     case "reset":
       board.resetByPower();
+      break;
+    case "restart":
+      board.restart();
       break;
     case "foreign":
       foreignAnswer = message.answer;
@@ -95,6 +154,7 @@ process.on("message", (message: ToBoard) => {
   }
 });
 process.on("disconnect", () => {
-  terminal.kill("SIGKILL");
+  pullOut();
+  rmSync(folder, { recursive: true, force: true });
   process.exit(0);
 });

@@ -4,7 +4,14 @@ import { fileURLToPath } from "node:url";
 import type { BoardStatistics, VirtualBoardState } from "../../src/index.js";
 
 export type ToBoard =
-  | { readonly type: "unplug" | "reset" | "button" | "report" }
+  /** `replug`: after `unplug` or `reset`, the board is there again at the same path. */
+  | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
+  /** It starts anew, its counters at 0, but its USB stays. */
+  | { readonly type: "restart" }
+  /** The line carries nothing in either direction and what is sent is lost; the board itself goes on. */
+  | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }
+  /** One letter of the next command is changed on its way, so the board refuses it (`!8`). */
+  | { readonly type: "refuse" }
   /** From now on the device answers every line as some other machine would. */
   | { readonly type: "foreign"; readonly answer: string }
   | { readonly type: "mute"; readonly mute: boolean }
@@ -33,7 +40,7 @@ export type FromBoard = { readonly type: "open"; readonly path: string } | Board
 /** `wakeful`: its clock stands still while the machine does not run its process. */
 export class PtyBoard {
   private constructor(
-    /** The terminal that a driver opens. */
+    /** What a driver opens: a link to the terminal, which stays the same over `unplug` and `replug`. */
     readonly path: string,
     private readonly child: ChildProcess,
   ) {}

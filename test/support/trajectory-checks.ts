@@ -3,6 +3,7 @@
  * It knows nothing of how the planner works: only the columns, the formula of a block, and the drawing.
  */
 import type { MotionLimits, StrokeSet, Trajectory } from "../../src/index.js";
+import { penMovesOf } from "../../src/plan/pen-moves.js";
 
 export interface Worst {
   /** Largest |v| / V and |a| / A (0 where there is no motion). */
@@ -51,7 +52,8 @@ export function worstOf(
     clock: 0,
     finite: allFinite(trajectory),
   };
-  const { runs, penMoves } = trajectory;
+  const { runs } = trajectory;
+  const penMoves = penMovesOf(trajectory);
   let clock = 0;
   let move = 0;
   let end: readonly [number, number] | null = null;

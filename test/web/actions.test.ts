@@ -4,6 +4,7 @@ import { createApiClient } from "../../web/api/client.js";
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
+import { makeJob } from "./fixtures.js";
 
 function makePage() {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
@@ -42,7 +43,7 @@ describe("a message of what went wrong", () => {
 });
 
 describe("a file that is dropped", () => {
-  const unreadable = { name: "sketches", text: () => Promise.reject(new Error("is a folder")) };
+  const unreadable = { name: "sketches", arrayBuffer: () => Promise.reject(new Error("is a folder")) };
 
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],
@@ -78,5 +79,36 @@ describe("a file that is dropped", () => {
     // Not by toBe: it would print all of both.
     expect(text === svg).toBe(true);
     expect(rest).toEqual({ name: "waves", settings: DEFAULT_PLOT_SETTINGS });
+  });
+});
+
+describe("a drawing of the last visit", () => {
+  const ofJob = { name: "waves", text: "<svg width='9'/>", jobId: "a", sourceId: "a" };
+  const jobSettings = { ...DEFAULT_PLOT_SETTINGS, penStops: "layers" as const };
+
+  it("comes back with the settings as they were left", () => {
+    const { store, actions } = makePage();
+    store.setState({ settings: jobSettings });
+    actions.restoreDrawing({ ...ofJob, jobId: null });
+    actions.takeJobSettings();
+    expect(store.getState()).toMatchObject({
+      settings: jobSettings,
+      drawing: { name: "waves", jobId: null },
+    });
+  });
+
+  it("that is a job's has the job's settings", () => {
+    const { store, actions } = makePage();
+    actions.restoreDrawing(ofJob);
+    store.setState({ jobs: [makeJob("a", { settings: jobSettings })] });
+    actions.takeJobSettings();
+    expect(store.getState()).toMatchObject({ settings: jobSettings, drawing: { jobId: "a" } });
+  });
+
+  it("is no job's any more once that was removed", () => {
+    const { store, actions } = makePage();
+    actions.restoreDrawing(ofJob);
+    actions.takeJobSettings();
+    expect(store.getState().drawing?.jobId).toBe(null);
   });
 });

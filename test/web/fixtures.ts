@@ -27,6 +27,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   id,
   name: "Virtual plotter",
   boardName: null,
+  emergencyStopMs: null,
   machine: null,
   kind: "virtual",
   device: null,

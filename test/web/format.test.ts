@@ -1,11 +1,13 @@
 import { describe, expect, it } from "vitest";
 import {
+  formatClockIn,
   formatCount,
   formatDuration,
   formatFixed,
   formatLength,
   formatMoment,
   formatPercent,
+  formatWhen,
   parseNumber,
 } from "../../web/ui/format.js";
 
@@ -15,19 +17,52 @@ describe("durations", () => {
   it("are read in the unit that suits them", () => {
     expect(plain(formatDuration(0))).toBe("0 s");
     expect(plain(formatDuration(42.4))).toBe("42 s");
-    expect(plain(formatDuration(185))).toBe("3:05 min");
-    expect(plain(formatDuration(2 * 3600 + 7 * 60))).toBe("2:07 h");
+    expect(plain(formatDuration(185))).toBe("3 min 5 s");
+    expect(plain(formatDuration(180))).toBe("3 min");
+    expect(plain(formatDuration(22 * 60 + 2))).toBe("22 min");
+    expect(plain(formatDuration(2 * 3600 + 12 * 60 + 9))).toBe("2 h 12 min");
+    expect(plain(formatDuration(26 * 3600))).toBe("26 h");
   });
 
   it("never show sixty seconds or sixty minutes", () => {
-    expect(plain(formatDuration(59.7))).toBe("1:00 min");
-    expect(plain(formatDuration(3599.6))).toBe("1:00 h");
-    expect(plain(formatDuration(7199))).toBe("2:00 h");
+    expect(plain(formatDuration(59.7))).toBe("1 min");
+    expect(plain(formatDuration(599.7))).toBe("10 min");
+    expect(plain(formatDuration(3599.6))).toBe("1 h");
+    expect(plain(formatDuration(7199))).toBe("2 h");
   });
 
   it("show a dash for what is no duration", () => {
     expect(formatDuration(Number.NaN)).toBe("–");
     expect(formatDuration(-1)).toBe("–");
+  });
+});
+
+describe("times of day", () => {
+  // A Friday.
+  const nowMs = new Date(2026, 10, 20, 18, 41).getTime();
+  const past = (...[year, month, day, hour, minute]: [number, number, number, number, number]): string =>
+    formatWhen(new Date(year, month, day, hour, minute).toISOString(), nowMs);
+
+  it("are on one clock of 24 hours, in the past as to come", () => {
+    expect(past(2026, 10, 20, 6, 5)).toBe("06:05");
+    expect(past(2026, 10, 20, 18, 40)).toBe("18:40");
+    expect(formatClockIn(nowMs, 60)).toBe("18:42");
+  });
+
+  it("tell the day where it is not today", () => {
+    expect(formatClockIn(nowMs, 22 * 3600)).toBe("Sat 16:41");
+    expect(formatClockIn(nowMs, 46.8 * 3600)).toBe("Sun 17:29");
+    expect(past(2026, 10, 19, 23, 59)).toBe("Thu 23:59");
+  });
+
+  it("tell the date where the name of the day could be another's", () => {
+    expect(past(2026, 10, 13, 18, 41)).toBe("13 Nov 18:41");
+    expect(formatClockIn(nowMs, 7 * 24 * 3600)).toBe("27 Nov 18:41");
+    expect(past(2025, 10, 3, 14, 5)).toBe("3 Nov 2025 14:05");
+  });
+
+  it("are a dash for what is no time", () => {
+    expect(formatWhen("soon", nowMs)).toBe("–");
   });
 });
 

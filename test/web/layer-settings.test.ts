@@ -85,13 +85,15 @@ describe("what a layer has of its own", () => {
 describe("pens", () => {
   it("are made of the layers' colours, each once, and given to the layers", () => {
     const red: LayerRow = { id: "roof", name: "roof", color: "#ffaa00" };
-    const made = pensFromColors(DEFAULTS, [...rows, red], (color) => color.toUpperCase());
+    const made = pensFromColors(DEFAULTS, [...rows, red], (color) => color?.toUpperCase() ?? "Any");
     expect(made.pens.map(({ name, color }) => [name, color])).toEqual([
       ["#0000FF", "#0000ff"],
+      ["Any", null],
       ["#FFAA00", "#ffaa00"],
     ]);
-    const [blue, orange] = made.pens.map(({ id }) => id);
-    expect(made.layerPens).toEqual({ sky: blue, sun: orange, roof: orange });
+    // A layer without a colour too: without a pen it would be drawn with the one before, and without a stop.
+    const [blue, any, orange] = made.pens.map(({ id }) => id);
+    expect(made.layerPens).toEqual({ sky: blue, guides: any, sun: orange, roof: orange });
     expect(pensFromColors(made, rows, String).pens).toEqual(made.pens);
   });
 

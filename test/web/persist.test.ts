@@ -1,5 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { PREPARE_TABLE } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import {
   DEFAULT_VIEW,
@@ -31,14 +32,14 @@ describe("what the page remembers", () => {
     expect(readRemembered(store)).toEqual(kept);
   });
 
-  it("forgets layer switches, which belong to one drawing", () => {
+  it("keeps layer switches, for the drawing that comes back with them", () => {
     const store = memoryStore();
     const settings = {
       ...DEFAULT_PLOT_SETTINGS,
       prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, hiddenLayers: ["sky"] },
     };
     writeRemembered(store, { settings, view: DEFAULT_VIEW });
-    expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual([]);
+    expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual(["sky"]);
   });
 
   it("is the defaults on a first visit", () => {
@@ -55,6 +56,44 @@ describe("what the page remembers", () => {
     expect(settings.pen.upPct).toBe(70);
     expect(settings.motion).toEqual(DEFAULT_PLOT_SETTINGS.motion);
     expect(view).toEqual({ ...DEFAULT_VIEW, theme: "dark" });
+  });
+
+  it("replaces a single value that does not fit, and nothing beside it", () => {
+    const { prepare, motion } = DEFAULT_PLOT_SETTINGS;
+    const pen = { id: "p1", name: "Blue", color: "#0000ff", widthMm: 0.3, offsetXMm: 0, offsetYMm: 0 };
+    const kept = {
+      ...DEFAULT_PLOT_SETTINGS,
+      prepare: { ...prepare, marginMm: 22, joinMm: 0.3, layerRepeats: { sky: 2 } },
+      motion: { ...motion, mode: "scurve", draw: { ...motion.draw, speedMmPerS: 17 } },
+      pens: [pen],
+    };
+    const stored = {
+      ...kept,
+      prepare: {
+        ...kept.prepare,
+        smoothRounds: 6,
+        place: { xMm: "far", yMm: 3 },
+        layerRepeats: { sky: 2, sea: 99 },
+      },
+      motion: {
+        ...kept.motion,
+        draw: { ...kept.motion.draw, cornerMm: -1 },
+        ease: { lengthMm: 0 },
+        fit: { toleranceMm: 7 },
+      },
+      pens: [{ ...pen, id: "", widthMm: 0 }, { ...pen, widthMm: -1 }, pen],
+    };
+    const { settings, view } = parseRemembered(
+      JSON.stringify({ settings: stored, view: { showTravel: true, openGroups: ["paper", 7] } }),
+    );
+    expect(settings).toEqual(kept);
+    expect(view).toEqual({ ...DEFAULT_VIEW, showTravel: true, openGroups: ["paper"] });
+  });
+
+  it("keeps the most that the page's fields offer", () => {
+    const prepare = { ...DEFAULT_PLOT_SETTINGS.prepare, smoothRounds: PREPARE_TABLE.smoothRounds.max };
+    const { settings } = parseRemembered(JSON.stringify({ settings: { prepare } }));
+    expect(settings.prepare).toEqual(prepare);
   });
 
   it("never throws and never lets an invalid setting in", () => {

@@ -65,6 +65,7 @@ const setUp = () => {
     planner,
     workers,
     heard,
+    timers,
     worker: () => lastOf(workers),
     asked: () => lastOf(lastOf(workers).asked),
     runTimers: () => timers.filter(({ isOn }) => isOn).forEach(({ callback }) => callback()),
@@ -125,6 +126,22 @@ describe("the planner", () => {
     expect(worker().exports).toEqual(["svg"]);
     worker().reply({ type: "exported", format: "svg", text: "<svg/>" });
     expect(heard).toEqual(["svg <svg/>"]);
+  });
+
+  it("ends a worker that reads a file for too long, and says so; not one that has read it", () => {
+    const { planner, workers, timers, heard } = setUp();
+    planner.request(taskOf({ key: "a", text: "<svg/>" }));
+    workers[0]!.reply({ type: "started", id: 1 });
+    workers[0]!.reply({ type: "imported", id: 1 });
+    expect(timers.map(({ isOn }) => isOn)).toEqual([false]);
+    workers[0]!.reply({ type: "planned", id: 1, planned: planned("a") });
+    planner.request(taskOf({ key: "b", text: "<svg/>" }));
+    workers[0]!.reply({ type: "started", id: 2 });
+    timers[1]!.callback();
+    expect(workers[0]!.isEnded).toBe(true);
+    expect(heard).toEqual(["a", expect.stringContaining("fault This file takes too long to read")]);
+    planner.request(taskOf({ key: "c", text: "<svg/>" }));
+    expect(workers[1]!.asked.map(({ drawingKey }) => drawingKey)).toEqual(["c"]);
   });
 
   it("says that the worker died, and starts another for the next request", () => {

@@ -18,6 +18,7 @@ import {
   SPEED_SHORT,
   type Pieces,
 } from "../../web/preview/scene.js";
+import { penMoveColumns } from "../../src/plan/pen-moves.js";
 
 const strokeSet = (...strokes: (readonly number[])[]): StrokeSet => ({
   xy: Float64Array.from(strokes.flat()),
@@ -68,7 +69,7 @@ const parabola = (): Trajectory => ({
     stroke: Int32Array.of(0),
     startS: Float64Array.of(0),
   },
-  penMoves: [],
+  penMoves: penMoveColumns([]),
   totalS: 1,
   endX: 40,
   endY: 20,

@@ -19,11 +19,18 @@ import {
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
+import { encodingOf, textOfBytes } from "../../src/index.js";
 import { text } from "../text/text.js";
 import type { DrawingText } from "../worker/protocol.js";
 
 /** Files as large as this are kept as they were read: only the worker makes text of them. */
 export const LARGE_BYTES = 1_000_000;
+
+/** Text; the bytes of a large file as they are, if they are UTF-8: decoding them would hold up the page. */
+export const contentOf = (buffer: ArrayBuffer): DrawingText => {
+  const bytes = new Uint8Array(buffer);
+  return bytes.length >= LARGE_BYTES && encodingOf(bytes) === "utf-8" ? buffer : textOfBytes(bytes);
+};
 
 export class ApiFault extends Error {
   override readonly name = "ApiFault";
@@ -86,8 +93,7 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
     dismissNotice: (id: string) => ask(okSchema, "DELETE", `/notices/${encodeURIComponent(id)}`),
     removeJob: (id: string) => ask(okSchema, "DELETE", job(id)),
     jobDrawing: async (id: string): Promise<DrawingText> => {
-      const bytes = await (await send("GET", `${job(id)}/drawing`)).arrayBuffer();
-      return bytes.byteLength < LARGE_BYTES ? new TextDecoder().decode(bytes) : bytes;
+      return contentOf(await (await send("GET", `${job(id)}/drawing`)).arrayBuffer());
     },
     setPlotterMachine: (id: string, machine: string): Promise<Plotter> =>
       ask(plotterSchema, "PATCH", plotter(id), { machine }),

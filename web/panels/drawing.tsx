@@ -1,4 +1,5 @@
 import { useId } from "react";
+import { DRAWING_EXTENSIONS } from "../../src/index.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatNumber } from "../ui/format.js";
@@ -20,7 +21,7 @@ export const DrawingPanel = () => {
           {size && <span className="note">{size}</span>}
         </p>
       )}
-      <ChooseFile />
+      <ChooseFile label={words.choose} />
       <p className="note">{words.chooseHint}</p>
       <Samples />
       <Report />
@@ -28,7 +29,9 @@ export const DrawingPanel = () => {
   );
 };
 
-const ChooseFile = () => {
+const ACCEPTED = ["image/svg+xml", ...DRAWING_EXTENSIONS.map((extension) => `.${extension}`)].join();
+
+export const ChooseFile = ({ label }: { label: string }) => {
   const id = useId();
   const { openFile } = useActions();
   return (
@@ -36,7 +39,7 @@ const ChooseFile = () => {
       <input
         id={id}
         type="file"
-        accept=".svg,image/svg+xml,.dxf,.hpgl,.hpg,.plt,.json"
+        accept={ACCEPTED}
         className="visually-hidden"
         onChange={(event) => {
           const file = event.target.files?.[0];
@@ -46,7 +49,7 @@ const ChooseFile = () => {
       />
       <label htmlFor={id} className="button">
         <Icon name="file" />
-        {words.choose}
+        {label}
       </label>
     </div>
   );

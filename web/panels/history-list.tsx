@@ -7,7 +7,7 @@ import { text } from "../text/text.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
 import { IconButton } from "../ui/icon-button.js";
 import { JobHead } from "./job-head.js";
-import { Thumb } from "./thumb.js";
+import { Thumb, jobDrawingPath } from "./thumb.js";
 
 const words = later.queue;
 const SHOWN_FIRST = 20;
@@ -39,7 +39,7 @@ const EndedJob = ({ job }: { job: Job }) => {
   const isMine = usePageState(mayOperate);
   return (
     <article className="job job-with-thumb" data-state={job.state}>
-      <Thumb job={job} />
+      <Thumb path={jobDrawingPath(job)} />
       <JobHead job={job} />
       <p className="job-line">
         <span>{timesOf(job)}</span>

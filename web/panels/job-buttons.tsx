@@ -58,11 +58,14 @@ const MainButton = ({ job }: { job: Job }) => {
 
 const StopButton = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
+  const takesMs = usePageState(
+    ({ plotters }) => plotters.find(({ id }) => id === job.plotterId)?.emergencyStopMs ?? null,
+  );
   return (
     <button
       type="button"
       className="button button-danger"
-      title={words.stopNowHint}
+      title={words.stopNowHint(takesMs)}
       onClick={() => void actOnJob(job.id, "emergency-stop")}
     >
       {words.stopNow}

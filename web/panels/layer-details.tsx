@@ -39,6 +39,7 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
   const change = useChange();
   return (
     <div className="layer-details">
+      {row.colorCount > 1 && <p className="note">{words.colorsHint}</p>}
       <CodesNote row={row} />
       <MotionFields row={row} />
       <PenFields row={row} />

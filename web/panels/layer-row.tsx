@@ -52,9 +52,14 @@ export const LayerRow = (props: LayerRowProps) => {
           onClick={props.onToggle}
         >
           <span className="layer-words">
-            <span className="layer-name">
-              <span className="visually-hidden">{words.detailsOf} </span>
-              {name}
+            <span className="layer-title">
+              <span className="layer-name">
+                <span className="visually-hidden">{words.detailsOf} </span>
+                {name}
+              </span>
+              {row.colorCount > 1 && (
+                <strong className="layer-mixed">{words.colors(formatCount(row.colorCount))}</strong>
+              )}
             </span>
             <Facts row={row} isShown={isShown} />
           </span>

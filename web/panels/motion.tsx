@@ -1,6 +1,6 @@
 import { useId } from "react";
 import { DEFAULT_FIT, MOTION_MODES, type MotionLimits, type MotionMode } from "../../src/index.js";
-import { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "../../src/internal.js";
+import { DRAW_TABLE, EASE_TABLE, FIT_TABLE, STREAM_TABLE, TRAVEL_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -33,6 +33,7 @@ export const MotionPanel = () => {
       <ModeChoice mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
       <Refinements motion={motion} />
+      <SendAhead />
     </SettingsGroup>
   );
 };
@@ -106,6 +107,19 @@ const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
         />
       )}
     </fieldset>
+  );
+};
+
+const SendAhead = () => {
+  const sendAheadMs = usePageState((state) => state.settings.sendAheadMs);
+  const { changeSettings } = useActions();
+  return (
+    <SettingField
+      setting={STREAM_TABLE.sendAheadMs}
+      value={sendAheadMs}
+      hint={words.sendAheadHint}
+      onChange={(value) => changeSettings("send ahead", (settings) => ({ ...settings, sendAheadMs: value }))}
+    />
   );
 };
 

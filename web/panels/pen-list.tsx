@@ -80,7 +80,8 @@ const FromColors = () => {
 };
 
 /** A word for a colour, roughly; its own name where no word fits. */
-const nameOfColor = (hex: string): string => {
+const nameOfColor = (hex: string | null): string => {
+  if (hex === null) return words.noColor;
   const [r = 0, g = 0, b = 0] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
   const most = Math.max(r, g, b);
   const least = Math.min(r, g, b);

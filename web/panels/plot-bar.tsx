@@ -15,6 +15,7 @@ export const PlotBar = () => {
   const planned = usePageState((state) => state.planned);
   const isPlanning = usePageState((state) => state.isPlanning);
   const hasJob = usePageState((state) => activeJob(state) !== null);
+  const drawingKey = usePageState((state) => state.drawing?.key);
   return (
     <section className="card plot-bar" aria-label={words.plot} data-active={hasJob || undefined}>
       <div className="plot-time">
@@ -26,7 +27,8 @@ export const PlotBar = () => {
         </span>
       </div>
       <Figures />
-      <Buttons />
+      {/* Another drawing begins with one copy again. */}
+      <Buttons key={drawingKey} />
       <RunningJob />
     </section>
   );
@@ -109,6 +111,7 @@ interface WordsProps {
 /** Why "Plot" can't be pressed, or what becomes of the press. */
 const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
   const link = usePageState((state) => state.link);
+  const hasDrawing = usePageState((state) => state.drawing !== null);
   if (link === "lost") return <p className="note note-error">{words.needsServer}</p>;
   if (isSending) {
     return (
@@ -117,6 +120,7 @@ const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
       </p>
     );
   }
+  if (!hasDrawing) return <p className="note">{words.needsDrawing}</p>;
   if (isBusy) return <p className="note">{words.queueBusy}</p>;
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };

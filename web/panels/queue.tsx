@@ -1,5 +1,6 @@
 import { useRef } from "react";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { queueTime } from "../state/queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
 import { text } from "../text/text.js";
@@ -57,17 +58,15 @@ const Empty = ({ ended }: { ended: readonly Job[] }) => {
   );
 };
 
-/** How much there is to do, and when it would be done if it ran on from now. */
+/** How much there is to do, and when it will be done while that is known. */
 const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   const nowMs = useNow();
-  const totalS = jobs.reduce(
-    (sum, job) => sum + (job.remainingS ?? job.expectedS ?? job.stats?.durationS ?? 0),
-    0,
-  );
+  const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
+  const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
+  const { totalS, isRunning } = queueTime(jobs, runsOn);
+  const total = words.total(jobs.length, formatDuration(totalS));
   return (
-    <span className="note">
-      {words.total(jobs.length, formatDuration(totalS), formatClockIn(nowMs, totalS))}
-    </span>
+    <span className="note">{isRunning ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}</span>
   );
 };
 

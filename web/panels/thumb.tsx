@@ -7,23 +7,25 @@ const MAX_BYTES = 1_000_000;
 const pictures = new Map<string, string | null>();
 const MAX_PICTURES = 200;
 
+export const jobDrawingPath = ({ id }: Pick<Job, "id">): string => `/jobs/${encodeURIComponent(id)}/drawing`;
+
 /**
- * A small picture of a job's file. As the source of an image an SVG runs no scripts and fetches nothing, so the
- * file can be shown as it is. Other formats, and large files, have no picture.
+ * A small picture of a drawing on the server, a job's or a sample. As the source of an image an SVG runs no scripts
+ * and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
  */
-export const Thumb = ({ job }: { job: Job }) => {
+export const Thumb = ({ path }: { path: string }) => {
   const box = useRef<HTMLSpanElement>(null);
-  const [url, setUrl] = useState(pictures.get(job.id) ?? null);
+  const [url, setUrl] = useState(pictures.get(path) ?? null);
   useEffect(() => {
-    if (!box.current || pictures.has(job.id)) return;
+    if (!box.current || pictures.has(path)) return;
     const watcher = new IntersectionObserver((entries) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       watcher.disconnect();
-      void pictureOf(job.id).then(setUrl);
+      void pictureOf(path).then(setUrl);
     });
     watcher.observe(box.current);
     return () => watcher.disconnect();
-  }, [job.id]);
+  }, [path]);
   return (
     <span className="thumb" ref={box} aria-hidden="true">
       {url !== null && <img src={url} alt="" loading="lazy" decoding="async" />}
@@ -31,16 +33,16 @@ export const Thumb = ({ job }: { job: Job }) => {
   );
 };
 
-const pictureOf = async (id: string): Promise<string | null> => {
-  const url = await fetchPicture(id).catch(() => null);
+const pictureOf = async (path: string): Promise<string | null> => {
+  const url = await fetchPicture(path).catch(() => null);
   if (pictures.size >= MAX_PICTURES) forgetOldest();
-  pictures.set(id, url);
+  pictures.set(path, url);
   return url;
 };
 
-const fetchPicture = async (id: string): Promise<string | null> => {
+const fetchPicture = async (path: string): Promise<string | null> => {
   const stop = new AbortController();
-  const response = await fetch(`/api/v1/jobs/${encodeURIComponent(id)}/drawing`, { signal: stop.signal });
+  const response = await fetch(`/api/v1${path}`, { signal: stop.signal });
   if (!response.ok || Number(response.headers.get("content-length") ?? 0) > MAX_BYTES) {
     stop.abort();
     return null;

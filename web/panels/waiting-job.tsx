@@ -9,7 +9,7 @@ import { Icon } from "../ui/icon.js";
 import { IconButton } from "../ui/icon-button.js";
 import { JobHead } from "./job-head.js";
 import { placeAfterMove, useRowDrag } from "./row-drag.js";
-import { Thumb } from "./thumb.js";
+import { Thumb, jobDrawingPath } from "./thumb.js";
 
 const words = later.queue;
 
@@ -25,7 +25,7 @@ export const WaitingJob = ({ job, queue, list }: WaitingJobProps) => {
   const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
   return (
     <article className="job job-with-thumb" data-state={job.state}>
-      <Thumb job={job} />
+      <Thumb path={jobDrawingPath(job)} />
       <JobHead job={job} />
       <p className="job-line">
         <span>

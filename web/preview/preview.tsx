@@ -1,7 +1,7 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { findMachine, penOf, stateAt, type StrokeLayer } from "../../src/index.js";
 import { drawnUntilS } from "../state/drawn-until.js";
-import { activeJob, currentPlotter, type PageState } from "../state/store.js";
+import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { layerColor } from "./color-map.js";
@@ -179,13 +179,12 @@ const markerOf = (state: PageState): Marker | null => {
   return { xMm: plotter.xMm, yMm: plotter.yMm, penUp: plotter.penUp ?? true };
 };
 
-/** What stands on the paper when no drawing does: how to begin, or what is wrong with the file. */
+/** What stands on the paper while the drawing does not: that it is being read, or what is wrong with it. */
 const PaperMessage = () => {
   const drawing = usePageState((state) => state.drawing);
   const fault = usePageState((state) => state.fault);
   const planned = usePageState((state) => state.planned);
   const isPlanning = usePageState((state) => state.isPlanning);
-  const isWorking = usePageState((state) => activeJob(state) !== null);
   if (fault) {
     return (
       <div className="paper-message paper-message-error" role="alert">
@@ -194,15 +193,7 @@ const PaperMessage = () => {
       </div>
     );
   }
-  if (!drawing) {
-    if (isWorking) return null;
-    return (
-      <div className="paper-message">
-        <strong>{text.drawing.none}</strong>
-        <p>{text.drawing.noneHint}</p>
-      </div>
-    );
-  }
+  if (!drawing) return null;
   if (!planned && isPlanning) {
     return (
       <div className="paper-message" role="status">

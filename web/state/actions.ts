@@ -1,6 +1,6 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import { LARGE_BYTES, type JobAction, type ApiClient } from "../api/client.js";
-import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
+import { contentOf, type JobAction, type ApiClient } from "../api/client.js";
+import { isDrawingName, MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
 import {
   machineProfileSchema,
   type Job,
@@ -14,6 +14,7 @@ import { text } from "../text/text.js";
 import type { Planner } from "../worker/planner.js";
 import type { DrawingText, ExportFormat } from "../worker/protocol.js";
 import type { Corner } from "./alignment-mark.js";
+import type { KeptDrawing } from "./kept-drawing.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
@@ -131,12 +132,29 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
+  /** A drawing of the last visit, for which the settings are as they were left. */
+  const restoreDrawing = (kept: KeptDrawing): void => {
+    store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
+    replan();
+  };
+
+  /** A drawing that came back as a job's has that job's settings, whatever another tab has kept meanwhile. */
+  const takeJobSettings = (): void => {
+    const { drawing, jobs, settings } = store.getState();
+    if (!drawing || drawing.jobId === null) return;
+    const job = jobs.find(({ id }) => id === drawing.jobId);
+    if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
+    else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) {
+      store.setState({ settings: job.settings });
+      replan();
+    }
+  };
+
   const openFile = async (file: File): Promise<void> => {
-    const read = file.size >= LARGE_BYTES ? file.arrayBuffer() : file.text();
-    const svg = await read.catch(() => null);
+    const svg = await file.arrayBuffer().then(contentOf, () => null);
     if (svg === null) notify("error", text.drawing.unreadable(file.name));
     else if (headOf(svg).includes("\0")) notify("error", text.drawing.notText(file.name));
-    else openDrawing(file.name.replace(/\.(svg|dxf|hpgl|hpg|plt|json)$/i, ""), svg);
+    else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, svg);
   };
 
   const openPasted = (svg: string): void => {
@@ -186,6 +204,8 @@ export const createActions = (deps: ActionDeps) => {
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
     openDrawing,
+    restoreDrawing,
+    takeJobSettings,
     openFile,
     openPasted,
     openSample,

@@ -141,14 +141,16 @@ export const removePen = (settings: PlotSettings, id: string): PlotSettings => (
   layerPens: Object.fromEntries(Object.entries(settings.layerPens).filter(([, penId]) => penId !== id)),
 });
 
-/** A pen for each colour that a layer has, taken from the pens there are where one has that colour. */
+/**
+ * A pen for each colour, taken from the pens there are where one has that colour. Every layer gets one: without a
+ * pen it would be drawn with whatever pen is in the holder.
+ */
 export const pensFromColors = (
   settings: PlotSettings,
   rows: readonly LayerRow[],
-  nameOf: (color: string) => string,
+  nameOf: (color: string | null) => string,
 ): PlotSettings =>
   rows.reduce((changed, { id, color }) => {
-    if (color === null) return changed;
     const known = changed.pens.some((pen) => pen.color === color)
       ? changed
       : addPen(changed, { name: nameOf(color), color });

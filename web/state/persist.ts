@@ -1,6 +1,6 @@
 /**
  * What the page remembers between visits, parsed by the same schema as everything that crosses a wire:
- * a stored value from an older version that no longer fits is replaced by the default, part by part.
+ * a stored value that does not fit, from an older version for example, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
 import { findMachine } from "../../src/index.js";
@@ -63,7 +63,7 @@ export const parseRemembered = (stored: string | null): Remembered => {
   return { settings: settingsOr(recordOf(root.settings)), view: partOr(viewSchema, DEFAULT_VIEW, root.view) };
 };
 
-/** Each part (paper and fill, speeds, pen, machine …) by itself: one that does not fit costs no other. */
+/** Each part (paper and fill, speeds, pen, machine …) by itself, so that each takes up the fields it lacks. */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
@@ -77,11 +77,29 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   return isKnown ? result.data : { ...result.data, machine: DEFAULT_PLOT_SETTINGS.machine };
 };
 
-/** Fields that a newer version added come from the default; a part that still does not fit is the default. */
+/** How many values of a part are replaced one by one; a part with more faults than that is replaced as a whole. */
+const MOST_FAULTS = 100;
+
+/** Fields that a newer version added come from the default, and so does each value that does not fit. */
 const partOr = <T>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
-  const isRecord = typeof whole === "object" && whole !== null && !Array.isArray(whole);
-  const result = schema.safeParse(isRecord ? { ...whole, ...recordOf(stored) } : stored);
-  return result.success ? result.data : whole;
+  let part: unknown = isRecord(whole) ? { ...whole, ...recordOf(stored) } : stored;
+  for (let faults = 0; faults < MOST_FAULTS; faults++) {
+    const result = schema.safeParse(part);
+    if (result.success) return result.data;
+    part = mended(part, whole, result.error.issues[0]?.path ?? []);
+  }
+  return whole;
+};
+
+/** `value` with the default's at `path`; what the default does not have (a pen, a layer's entry) is left out. */
+const mended = (value: unknown, whole: unknown, path: readonly PropertyKey[]): unknown => {
+  const [key, ...rest] = path;
+  if (Array.isArray(value) && Array.isArray(whole) && key !== undefined) {
+    return value.filter((_, index) => index !== key);
+  }
+  if (typeof key !== "string" || !isRecord(value) || !isRecord(whole)) return whole;
+  if (Object.hasOwn(whole, key)) return { ...value, [key]: mended(value[key], whole[key], rest) };
+  return Object.fromEntries(Object.entries(value).filter(([name]) => name !== key));
 };
 
 const parseJson = (stored: string | null): unknown => {
@@ -93,10 +111,10 @@ const parseJson = (stored: string | null): unknown => {
   }
 };
 
-const recordOf = (value: unknown): Record<string, unknown> =>
-  typeof value === "object" && value !== null && !Array.isArray(value)
-    ? (value as Record<string, unknown>)
-    : {};
+const isRecord = (value: unknown): value is Record<string, unknown> =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
+
+const recordOf = (value: unknown): Record<string, unknown> => (isRecord(value) ? value : {});
 
 export const readRemembered = (store: TextStore | null): Remembered => {
   try {
@@ -106,11 +124,10 @@ export const readRemembered = (store: TextStore | null): Remembered => {
   }
 };
 
-/** Layer switches belong to one drawing, so they are not kept. */
+/** Layer switches too: the drawing that they belong to comes back with them (see kept-drawing.ts). */
 export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
-  const kept = { settings: { ...settings, prepare: { ...settings.prepare, hiddenLayers: [] } }, view };
   try {
-    store?.setItem(KEY, JSON.stringify(kept));
+    store?.setItem(KEY, JSON.stringify({ settings, view }));
   } catch {
     // A full or refused store only means that the next visit begins with the defaults.
   }

@@ -59,6 +59,8 @@ export interface PageState {
   readonly redoStack: readonly PlotSettings[];
   readonly view: ViewSettings;
 
+  /** Until the browser has said what lay on the paper at the last visit. */
+  readonly isStarting: boolean;
   readonly drawing: OpenDrawing | null;
   readonly planned: Planned | null;
   readonly isPlanning: boolean;
@@ -109,6 +111,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     undoStack: [],
     redoStack: [],
     view,
+    isStarting: true,
     drawing: null,
     planned: null,
     isPlanning: false,

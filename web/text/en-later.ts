@@ -3,6 +3,13 @@
  * A translation is a second file of this shape.
  */
 export const enLater = {
+  emptyPaper: {
+    title: "Drop a drawing here",
+    hint: "SVG, DXF, HPGL or JSON. You can also paste it.",
+    choose: "Choose a file",
+    samples: "Or try a sample",
+  },
+
   queue: {
     start: "Start",
     about: (duration: string) => `about ${duration}`,
@@ -34,7 +41,8 @@ export const enLater = {
     cancelPlot: "Cancel the plot",
     keepPlotting: "Keep plotting",
     stopNow: "Stop at once",
-    stopNowHint: "Stops where it is. Only cutting the motors’ power is quicker.",
+    stopNowHint: (ms: number | null) =>
+      `Stops where it is${ms === null ? "" : `: with this plotter’s firmware after ${(ms / 1_000).toFixed(2)} s at most`}. Only cutting the motors’ power is quicker.`,
     speedPct: "Speed now",
     speedPctHint: "Percent of the plot’s set speeds; takes effect within a second.",
     applyHeights: "Apply pen and speed as they are set now",

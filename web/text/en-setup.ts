@@ -29,6 +29,9 @@ export const enSetup = {
     all: "All in one",
     none: "The drawing has no strokes.",
     strokes: (count: string, isOne: boolean) => `${count} ${isOne ? "stroke" : "strokes"}`,
+    colors: (count: string) => `${count} colours`,
+    colorsHint:
+      "The lines of this layer have several colours. One pen draws them all. To draw each colour with a pen of its own, choose “Layers from: Colours”.",
     show: (name: string) => `Draw ${name}`,
     drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
     dragHint: "Drag to change the order, or arrow up and down",
@@ -65,6 +68,7 @@ export const enSetup = {
     fromColors: "A pen for each colour",
     add: "Add a pen",
     newName: (number: number) => `Pen ${number}`,
+    noColor: "Pen without a colour",
     name: "Name",
     color: "Colour",
     offsetHint: "Plot the mark with the first pen, then with this one. Type how far its mark lies off.",

@@ -4,6 +4,8 @@
  */
 export const en = {
   appName: "plotwright",
+  /** In which the names of days and months are written. */
+  language: "en-GB",
   history: { undo: "Undo", redo: "Redo" },
   tabs: { label: "Panels", setup: "Set up", queue: "Queue", machine: "Plotter" },
   studio: "Sharing, plotters, camera",
@@ -16,8 +18,6 @@ export const en = {
     sample: "Samples",
     sampleHint: "Try one of the samples",
     dropHere: "Drop the drawing to lay it on the paper",
-    none: "No drawing yet",
-    noneHint: "Drop an SVG or DXF anywhere on this page, paste it, or choose a file.",
     reading: (name: string) => `Reading ${name}…`,
     planning: "Planning…",
     nothingToDraw: "Nothing to draw",
@@ -91,6 +91,8 @@ export const en = {
     },
     ease: "Begin and end strokes slowly",
     fit: "Draw dense curves in long sweeps",
+      sendAheadHint:
+        "Before firmware 3 the board still plays this after an emergency stop. Less stops sooner, but then the pen may pause where this computer is busy.",
     fitHint: "Fewer, longer commands to the board, so that long curves run without stutter.",
   },
 
@@ -111,6 +113,7 @@ export const en = {
     saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
     saved: (name: string) => `${name} has the new settings.`,
     added: (name: string) => `${name} is in the queue.`,
+    needsDrawing: "Choose a drawing, or try a sample.",
     needsServer: "Without the server nothing can be plotted.",
     needsPlotter: "No plotter is connected. The queue waits for one.",
   },
@@ -187,8 +190,8 @@ export const en = {
     removeNamed: (name: string) => `Remove ${name}`,
     openNamed: (name: string) => `Lay ${name} on the paper`,
     progress: (name: string) => `Progress of ${name}`,
-    total: (count: number, duration: string, clock: string) =>
-      `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}: done at ${clock}`,
+    total: (count: number, duration: string) => `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}`,
+    totalDoneAt: (total: string, clock: string) => `${total}: done at ${clock}`,
     waitsForPen: "Pen change",
     states: {
       queued: "Waiting",

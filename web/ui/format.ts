@@ -1,18 +1,26 @@
 /** Numbers as people read them. All in tabular figures, with thin spaces where a unit follows. */
+import { text } from "../text/text.js";
 
 const NARROW = "\u202f";
 
-/** Seconds as "42 s", "3:05 min", "2:07 h" (hours and minutes). Not finite: "–". */
+/** From here on a duration is told without its seconds. */
+const LONG_S = 600;
+
+/** Seconds as "42 s", "3 min 5 s", "22 min", "2 h 12 min". Not finite: "–". */
 export const formatDuration = (s: number): string => {
   if (!Number.isFinite(s) || s < 0) return "–";
-  if (s < 59.5) return `${Math.round(s)}${NARROW}s`;
-  const wholeS = Math.round(s);
-  if (wholeS < 3600) {
-    return `${Math.floor(wholeS / 60)}:${pad(wholeS % 60)}${NARROW}min`;
-  }
-  const minutes = Math.round(wholeS / 60);
-  return `${Math.floor(minutes / 60)}:${pad(minutes % 60)}${NARROW}h`;
+  const seconds = Math.round(s);
+  if (seconds < LONG_S) return inUnits(Math.floor(seconds / 60), "min", seconds % 60, "s");
+  const minutes = Math.round(s / 60);
+  return inUnits(Math.floor(minutes / 60), "h", minutes % 60, "min");
 };
+
+/** Without a first part of zero, and without a second one beside the first. */
+const inUnits = (large: number, largeUnit: string, small: number, smallUnit: string): string =>
+  [
+    ...(large > 0 ? [`${large}${NARROW}${largeUnit}`] : []),
+    ...(small > 0 || large === 0 ? [`${small}${NARROW}${smallUnit}`] : []),
+  ].join(" ");
 
 /** A point of time in a plot: "0:03.4" under an hour, "1:02:03" above. */
 export const formatMoment = (s: number): string => {
@@ -51,21 +59,31 @@ export const formatNumber = (n: number, digits = 2): string =>
 export const formatPercent = (share: number): string =>
   `${Math.floor(Math.min(1, Math.max(0, share)) * 100 + 1e-9)}${NARROW}%`;
 
-/** The clock at which something that takes `s` more seconds ends: "16:42". */
-export const formatClockIn = (nowMs: number, s: number): string => {
-  const end = new Date(nowMs + s * 1_000);
-  return `${pad(end.getHours())}:${pad(end.getMinutes())}`;
-};
+/** When something that takes `s` more seconds ends: "16:42", or "Sun 16:42" on another day. */
+export const formatClockIn = (nowMs: number, s: number): string =>
+  momentOf(new Date(nowMs + s * 1_000), nowMs);
 
-/** A moment of the past: "14:05" today, "Nov 3, 14:05" before; in the browser's own language. */
-export const formatWhen = (iso: string, nowMs: number = Date.now()): string => {
-  const at = new Date(iso);
+/** A moment of the past: "14:05" today, "Sun 14:05" or "3 Nov 14:05" before. */
+export const formatWhen = (iso: string, nowMs: number = Date.now()): string => momentOf(new Date(iso), nowMs);
+
+const DAY_MS = 86_400_000;
+
+/** The same clock everywhere, whatever the browser's language: 18:41 beside 06:41 PM reads like another time. */
+const momentOf = (at: Date, nowMs: number): string => {
   if (Number.isNaN(at.getTime())) return "–";
-  const isToday = at.toDateString() === new Date(nowMs).toDateString();
-  const time = { hour: "2-digit", minute: "2-digit" } as const;
-  return isToday
-    ? at.toLocaleTimeString([], time)
-    : at.toLocaleString([], { month: "short", day: "numeric", ...time });
+  const now = new Date(nowMs);
+  const clock = `${pad(at.getHours())}:${pad(at.getMinutes())}`;
+  if (at.toDateString() === now.toDateString()) return clock;
+  // Six days away at most, so that the name of the day means one day only.
+  const isNear = Math.abs(at.getTime() - nowMs) < 6 * DAY_MS;
+  const isThisYear = at.getFullYear() === now.getFullYear();
+  const day = at.toLocaleDateString(
+    text.language,
+    isNear
+      ? { weekday: "short" }
+      : { day: "numeric", month: "short", ...(isThisYear ? {} : { year: "numeric" }) },
+  );
+  return `${day} ${clock}`;
 };
 
 /** A number as typed by a person: comma or point, spaces ignored. Null where it is none. */

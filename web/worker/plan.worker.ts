@@ -14,6 +14,7 @@ import {
   prepare,
   prepareSettingsOf,
   strokeCount,
+  textOfBytes,
   trajectoryStats,
   type Drawing,
   type Placement,
@@ -23,7 +24,6 @@ import {
 import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";
-import { penColumnsOf } from "./pen-columns.js";
 import type {
   DrawingText,
   ExportRequest,
@@ -75,6 +75,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   try {
     const t0 = performance.now();
     const drawing = await drawingOf(request);
+    scope.postMessage({ type: "imported", id }, []);
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
@@ -106,13 +107,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
-    const pens = penColumnsOf(trajectory.penMoves);
-    return {
-      type: "planned",
-      id,
-      planned: { ...planned, trajectory: { ...trajectory, penMoves: [] } },
-      pens,
-    };
+    return { type: "planned", id, planned };
   } catch (error) {
     return { type: "fault", id, fault: faultOf(error, stage) };
   }
@@ -128,14 +123,10 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
   return imported.drawing;
 }
 
-/** The reader of a format is fetched when the first such file is opened. */
+/** The readers are fetched when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const text = typeof content === "string" ? content : new TextDecoder().decode(content);
-  if (/^[\ufeff\s]*</.test(text)) {
-    const { importSvg } = await import("./svg-format.js");
-    return importSvg(text);
-  }
-  const { importDrawing } = await import("./other-formats.js");
+  const text = typeof content === "string" ? content : textOfBytes(new Uint8Array(content));
+  const { importDrawing } = await import("./formats.js");
   return importDrawing("", text);
 }
 
@@ -188,7 +179,7 @@ const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
 });
 
 /** The trajectory's columns and the scene's buffers, each once. */
-function transferables({ planned: { trajectory, scene, picture }, pens }: PlannedReply): Transferable[] {
+function transferables({ planned: { trajectory, scene, picture } }: PlannedReply): Transferable[] {
   const buffers = new Set<ArrayBufferLike>([
     scene.draw.bytes,
     scene.travel.bytes,
@@ -198,11 +189,10 @@ function transferables({ planned: { trajectory, scene, picture }, pens }: Planne
     scene.grid.items.buffer,
   ]);
   for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
-  for (const column of Object.values(pens ?? {}) as ArrayBufferView[]) buffers.add(column.buffer);
   return [...buffers] as ArrayBuffer[];
 }
 
 const columnsOf = (trajectory: Trajectory): ArrayBufferView[] =>
-  [...Object.values(trajectory), ...Object.values(trajectory.runs)].filter((value) =>
-    ArrayBuffer.isView(value),
-  );
+  [trajectory, trajectory.runs, trajectory.penMoves]
+    .flatMap((columns) => Object.values(columns) as unknown[])
+    .filter((value) => ArrayBuffer.isView(value));

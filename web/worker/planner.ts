@@ -3,22 +3,22 @@
  *
  * A request that overtakes another one lets the worker finish the stage it is in; a worker that has not
  * turned to the new one PATIENCE_MS later is ended and started afresh, so that a huge drawing that was
- * dropped by mistake never stands in the way of the next one.
+ * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
+ * ended too: a damaged file may keep it for ever.
  */
 import type {
   DrawingText,
   ExportFormat,
   PlanFault,
   Planned,
-  PlannedReply,
   PlanSettings,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
 import { markMoment } from "../ui/moments.js";
-import { penMovesOf } from "./pen-columns.js";
 
 const PATIENCE_MS = 1_500;
+const READING_MS = 120_000;
 
 /** What this needs of a Worker; tests give their own. */
 export interface WorkerLike {
@@ -63,6 +63,8 @@ export class Planner {
   #latest: PlannerTask | null = null;
   #isBusy = false;
   #stopWaiting: (() => void) | null = null;
+  /** While the worker reads the file. */
+  #stopReading: (() => void) | null = null;
 
   constructor(start: () => WorkerLike, timer: PlannerTimer, listener: PlannerListener) {
     this.#start = start;
@@ -87,6 +89,7 @@ export class Planner {
   close(): void {
     this.#stopWaiting?.();
     this.#stopWaiting = null;
+    this.#stopReading?.();
     this.#worker?.terminate();
     this.#worker = null;
     this.#isBusy = false;
@@ -123,12 +126,26 @@ export class Planner {
     if (reply.id !== this.#newestId) return;
     this.#stopWaiting?.();
     this.#stopWaiting = null;
-    if (reply.type === "started") return;
+    this.#stopReading?.();
+    if (reply.type === "imported") return;
+    if (reply.type === "started") {
+      this.#stopReading = this.#timer.after(READING_MS, () => this.#endReading());
+      return;
+    }
     this.#isBusy = false;
     if (reply.type === "planned") {
       markMoment("plotwright-planned");
-      this.#listener.onPlanned(unpacked(reply));
+      this.#listener.onPlanned(reply.planned);
     } else this.#listener.onFault(reply.fault);
+  }
+
+  #endReading(): void {
+    this.close();
+    this.#listener.onFault({
+      code: "bad-file",
+      message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
+      stage: "import",
+    });
   }
 
   #restart(): void {
@@ -136,6 +153,3 @@ export class Planner {
     if (this.#latest) this.#send(this.#latest);
   }
 }
-
-const unpacked = ({ planned, pens }: PlannedReply): Planned =>
-  pens ? { ...planned, trajectory: { ...planned.trajectory, penMoves: penMovesOf(pens) } } : planned;

@@ -12,7 +12,6 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";
 import type { Scene } from "../preview/scene.js";
-import type { PenColumns } from "./pen-columns.js";
 
 /** The machine's motors bound the plan, so it is part of what is planned with. */
 export type PlanSettings = PlotSettings;
@@ -90,13 +89,13 @@ export interface PlanFault {
 export interface PlannedReply {
   readonly type: "planned";
   readonly id: number;
-  /** With `pens`, its trajectory comes without pen moves. */
   readonly planned: Planned;
-  readonly pens?: PenColumns;
 }
 
 export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
+  /** The file has been read. */
+  | { readonly type: "imported"; readonly id: number }
   | PlannedReply
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }

@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { AxisMotion, registersFor } from "../../../src/ebb/accumulator.js";
-import type { TickArithmetic } from "../../../src/ebb/firmware.js";
+import { AxisMotion, registersFor } from "../../../src/drivers/ebb/model/accumulator.js";
+import type { TickArithmetic } from "../../../src/drivers/ebb/protocol/firmware.js";
 
 interface Counted {
   ticks: number;

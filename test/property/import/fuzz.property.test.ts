@@ -1,7 +1,7 @@
 /** 10 000 damaged SVGs: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
 
@@ -41,6 +41,7 @@ describe("importSvg on damaged files", () => {
         const { paths, clips, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importSvg(text));
         expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
         expect(paths.coords.every(Number.isFinite), text).toBe(true);
+        expect(paths.strokeWidth.every(Number.isFinite), text).toBe(true);
         expect(
           clips.every((clip) => clip.coords.every(Number.isFinite)),
           text,

@@ -1,11 +1,20 @@
-/** Damaged DXF and HPGL: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
+/**
+ * Damaged DXF and HPGL: each gives a drawing with finite numbers or a PlotwrightError, and soon; every tenth is prepared and
+ * planned too. PLOTWRIGHT_FUZZ_CASES: how many, PLOTWRIGHT_FUZZ_FIRST: from which seed on.
+ */
 import { expect, it } from "vitest";
+import { planAndCompile } from "../../../server/planning/stages.js";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../src/import/registry.js";
+import { machineOf, type Drawing } from "../../../src/index.js";
+import { OLDEST_PLANNED_FIRMWARE, prepareJob } from "../../../src/internal.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
 
-const CASES = 1_000;
+const CASES = Number(process.env["PLOTWRIGHT_FUZZ_CASES"] ?? 2_000);
+const FIRST = Number(process.env["PLOTWRIGHT_FUZZ_FIRST"] ?? 0);
+const PLANNED_EACH = 10;
 /** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
 const LONGEST_S = 2;
 const HANGS_MS = 60_000;
@@ -13,8 +22,11 @@ const HANGS_MS = 60_000;
 const EDGES =
   "92 1|93 3|72 1|10 1|20 1|11 5|21 5|72 2|10 3|20 3|40 4|50 10|51 90|73 0|72 3|10 5|20 5|11 9|21 0|40 0.5|50 1|51 300|73 1|97 0";
 const DXF = [
-  "0 SECTION|2 HEADER|9 $INSUNITS|70 4|0 ENDSEC|0 SECTION|2 BLOCKS|0 BLOCK|8 0|2 B|10 0|20 0|0 LINE|8 0|10 0|20 0|11 1|21 1|0 ENDBLK|0 ENDSEC|0 SECTION|2 ENTITIES",
+  "0 SECTION|2 HEADER|9 $INSUNITS|70 4|0 ENDSEC|0 SECTION|2 TABLES|0 TABLE|2 VPORT|70 1|0 VPORT|2 *ACTIVE|10 0|20 0|0 ENDTAB|0 TABLE|2 LTYPE|0 LTYPE|2 DASH|73 2|40 3|49 1|49 -2|0 ENDTAB|0 TABLE|2 LAYER|70 2|0 LAYER|2 0|62 7|0 LAYER|2 a|62 -1|70 1|0 ENDTAB|0 ENDSEC|0 SECTION|2 BLOCKS|0 BLOCK|8 0|2 B|10 0|20 0|0 LINE|8 0|10 0|20 0|11 1|21 1|0 ENDBLK|0 ENDSEC|0 SECTION|2 ENTITIES",
   "0 LWPOLYLINE|8 0|90 3|70 1|10 0|20 0|42 1|10 90|20 0|91 2|10 90|20 50",
+  "0 POLYLINE|8 0|66 1|70 1|10 0|20 0|0 VERTEX|8 0|10 0|20 0|42 1|0 VERTEX|8 0|10 9|20 0|0 VERTEX|8 0|10 9|20 9|70 16|0 SEQEND|8 0",
+  "0 CIRCLE|8 a|10 5|20 5|40 2|0 ARC|8 0|10 5|20 5|40 2|50 10|51 80|0 ELLIPSE|8 0|10 5|20 5|11 3|21 1|40 0.5|41 0|42 6",
+  "0 SOLID|8 0|10 0|20 0|11 1|21 0|12 0|22 1|0 3DFACE|8 0|10 0|20 0|11 1|21 0|12 1|22 1|13 0|23 1|0 POINT|8 0|10 2|20 3|0 DIMENSION|2 B|8 0|10 1|20 1",
   "0 INSERT|8 0|2 B|10 1|20 2|41 2|50 30|70 2|44 5",
   "0 SPLINE|8 0|70 8|71 3|72 8|73 4|40 0|40 0|40 0|40 0|40 1|40 1|40 1|40 1|10 0|20 0|10 0|20 9|10 9|20 9|10 9|20 0",
   "0 TEXT|8 0|62 1|10 1|20 9|11 50|21 50|72 3|73 2|40 5|1 %%c20 at 45%%d",
@@ -37,7 +49,7 @@ const FILES: readonly (readonly [string, string])[] = [
 ];
 /** The first eight stand in for numbers. */
 const PIECES = [
-  ..."NaN 1e300 -1e308 1e-300 -1 0 99999 -0.5 10 72 92 HATCH EOF LB PE SI PU ; , % \\P \\S { } %% é".split(
+  ..."NaN 1e300 -1e308 1e-300 -1 0 99999 -0.5 10 72 92 VERTEX SEQEND LAYER ENDTAB ENDBLK ENDSEC HATCH EOF LB PE SI PU ; , % \\P \\S { } %% é".split(
     " ",
   ),
   "\u0003",
@@ -45,21 +57,44 @@ const PIECES = [
   "\u0000",
 ];
 
+const machine = machineOf(DEFAULT_PLOT_SETTINGS);
+const PLAN_ALL = {
+  from: null,
+  until: null,
+  startXMm: 0,
+  startYMm: 0,
+  settings: DEFAULT_PLOT_SETTINGS,
+  firmware: OLDEST_PLANNED_FIRMWARE,
+  board: { steps1: 0, steps2: 0, acc1: 0, acc2: 0 },
+};
+
 it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES} times`, () => {
   const drawn = FILES.map(() => 0);
-  for (let i = 0; i < CASES; i++) {
+  for (let i = FIRST; i < FIRST + CASES; i++) {
     const [name, file] = FILES[i % FILES.length];
     const text = mutate(file, PIECES, generator(i));
+    let drawing: Drawing;
     try {
       const mark = process.cpuUsage();
-      const { paths, widthMm, heightMm } = endWhenOver(HANGS_MS, () => importDrawing(name, text));
+      drawing = endWhenOver(HANGS_MS, () => importDrawing(name, text));
+      const { paths, widthMm, heightMm } = drawing;
       expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
-      expect(paths.coords.every(Number.isFinite), text).toBe(true);
+      expect([...paths.coords, ...paths.strokeWidth].every(Number.isFinite), text).toBe(true);
       expect(widthMm > 0 && heightMm > 0 && Number.isFinite(widthMm + heightMm), text).toBe(true);
       drawn[i % FILES.length]++;
     } catch (error) {
       if (!(error instanceof PlotwrightError)) throw new Error(`seed ${i}: ${text}`, { cause: error });
       expect(error.code, text).toBe("bad-file");
+      continue;
+    }
+    if (Math.floor(i / FILES.length) % PLANNED_EACH !== 0) continue;
+    try {
+      endWhenOver(HANGS_MS, () => {
+        const { prepared } = prepareJob(drawing, DEFAULT_PLOT_SETTINGS, machine);
+        planAndCompile(prepared, PLAN_ALL, machine);
+      });
+    } catch (error) {
+      if (!(error instanceof PlotwrightError)) throw new Error(`seed ${i}: ${text}`, { cause: error });
     }
   }
   // Most of HPGL is read whatever it is; a DXF out of step is not.

@@ -3,8 +3,7 @@ import { describe, expect, it } from "vitest";
 import fc from "fast-check";
 import svgpath from "svgpath";
 import { PAIRS_OF_VERB, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../../src/drawing/drawing.js";
-import { PointBuffer } from "../../../src/geometry/growable.js";
-import { drawPathData, readPolylines } from "../../../src/import/path-data.js";
+import { drawPathData } from "../../../src/import/path-data.js";
 import { ShapeBuffer } from "../../../src/import/shape-buffer.js";
 
 const number = fc.double({ min: -500, max: 500, noNaN: true }).map((v) => Math.round(v * 1000) / 1000);
@@ -73,73 +72,7 @@ function ends(shape: ShapeBuffer): [number, number][] {
   return result;
 }
 
-/** What path data is made of, and a little of what it is not. */
-const scraps = fc.array(
-  fc.oneof(
-    {
-      weight: 12,
-      arbitrary: fc
-        .tuple(fc.constantFrom("L", "l", " ", ","), number, number)
-        .map(([c, x, y]) => `${c}${x} ${y}`),
-    },
-    {
-      weight: 1,
-      arbitrary: fc.oneof(number.map(String), fc.constantFrom("M", "m", "L", "l", " ", ",", " , ")),
-    },
-    {
-      weight: 1,
-      arbitrary: fc.constantFrom(
-        "z",
-        "H",
-        "c",
-        "1e2",
-        "-.5",
-        ".",
-        "+",
-        "-",
-        ",,",
-        "x",
-        "9".repeat(20),
-        "none",
-        "\t",
-      ),
-    },
-  ),
-  { maxLength: 12 },
-);
-
 describe("path data", () => {
-  it("is read as a plain polyline only where that is the same", () => {
-    let plain = 0;
-    fc.assert(
-      fc.property(
-        fc.constantFrom("M", "m"),
-        number,
-        number,
-        scraps,
-        fc.boolean(),
-        (m, x, y, rest, isSpaced) => {
-          const d = `${m}${x} ${y}${rest.join(isSpaced ? " " : "")}`;
-          const coords = new PointBuffer(1);
-          const ends = new Uint32Array(3);
-          const text = `'${d}' "m1,1-2-2" "${d}"`;
-          const places = Uint32Array.of(1, d.length + 4, d.length + 15);
-          const count = readPolylines(coords, ends, text, places, 3, Infinity);
-          expect(readPolylines(new PointBuffer(), ends, text, places, 3, 4)).toBe(Math.min(count, 1));
-          if (count === 0) return;
-          plain++;
-          const { verbs, coords: expected } = read(d);
-          expect(count, d).toBe(3);
-          expect([...verbs.toArray()], d).toEqual([VERB_MOVE, ...Array(ends[0]! / 2 - 1).fill(VERB_LINE)]);
-          const numbers = [...expected.toArray()];
-          expect([...coords.data.subarray(0, ends[2])], d).toEqual([...numbers, 1, 1, -1, -1, ...numbers]);
-        },
-      ),
-      { numRuns: 3000 },
-    );
-    expect(plain).toBeGreaterThan(300);
-  });
-
   it("ends every segment where an independent reader does", () => {
     fc.assert(
       fc.property(path, (segments) => {

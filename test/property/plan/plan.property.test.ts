@@ -19,6 +19,7 @@ import {
   type Point,
 } from "../../support/arbitraries.js";
 import { worstOf } from "../../support/trajectory-checks.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const RUNS = { numRuns: 1000 };
 const motionIn = (mode: MotionMode): fc.Arbitrary<MotionSettings> =>
@@ -56,7 +57,9 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
   it("draws every stroke once, in order, with the pen down only then", () => {
     fc.assert(
       fc.property(arbitraryStrokeSet, arbitraryMotion, (strokes, motion) => {
-        const { runs, penMoves } = plan(strokes, motion, DEFAULT_PEN);
+        const planned = plan(strokes, motion, DEFAULT_PEN);
+        const { runs } = planned;
+        const penMoves = penMovesOf(planned);
         const drawn = Array.from(runs.stroke).filter((stroke) => stroke >= 0);
         expect(drawn).toEqual(Array.from({ length: strokes.offsets.length - 1 }, (_, i) => i));
         let up = true;

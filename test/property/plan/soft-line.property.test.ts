@@ -7,6 +7,7 @@ import { RunPath } from "../../../src/plan/run-path.js";
 import { SoftLine } from "../../../src/plan/soft-line.js";
 import { arbitraryLimits, arbitraryStroke, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { NearStroke, worstOf } from "../../support/trajectory-checks.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 const DELTA = 0.05;
@@ -18,7 +19,6 @@ const limits = (speed: number): RunLimits => ({
   motorSpeed: Infinity,
   mixed: false,
   easeSpeed: Infinity,
-  floorS: 0,
 });
 
 /** Wavy lines of 0.1 to 1 mm a segment, as curves are cut into. */
@@ -142,7 +142,7 @@ describe("a plan that goes on from a pen beside its line", () => {
         for (const mode of ["junction", "blend", "scurve"] as const) {
           const t = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, options);
           expect(Array.from(t.runs.stroke)).toEqual([0]);
-          expect(t.penMoves.map(({ up }) => up)).toEqual([false, true]);
+          expect(penMovesOf(t).map(({ up }) => up)).toEqual([false, true]);
           expect(Math.hypot(t.x[0]! - startX, t.y[0]! - startY)).toBeLessThan(1e-9);
           const worst = worstOf(t, strokes, draw, draw, draw.cornerMm + DELTA);
           expect(worst.accel).toBeLessThanOrEqual(1.001);

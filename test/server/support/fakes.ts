@@ -109,6 +109,7 @@ export class LedPlotter implements ManagedPlotter {
       id: this.id,
       name: this.#name,
       boardName: null,
+      emergencyStopMs: null,
       machine: null,
       kind: "virtual",
       device: null,

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { commandLine, compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
-import { placeOfStop } from "../../../src/board/stop-place.js";
-import { firmwareFeatures } from "../../../src/ebb/firmware.js";
-import { waitingCount } from "../../../src/ebb/replies.js";
+import { placeOfStop } from "../../../src/drivers/ebb/stream/stop-place.js";
+import { firmwareFeatures } from "../../../src/drivers/ebb/protocol/firmware.js";
+import { waitingCount } from "../../../src/drivers/ebb/protocol/replies.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { seeded } from "../../support/live-plot.js";
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { AxisMotion, registersFor } from "../../../src/ebb/accumulator.js";
-import type { TickArithmetic } from "../../../src/ebb/firmware.js";
+import { AxisMotion, registersFor } from "../../../src/drivers/ebb/model/accumulator.js";
+import type { TickArithmetic } from "../../../src/drivers/ebb/protocol/firmware.js";
 
 /**
  * Recorded by the firmware's own regression tests (evil-mad/EggBot, RegressionTests, outputs of 2023-05-07):

@@ -1,5 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { compareFirmware, firmwareFeatures, firmwareFromReply } from "../../../src/ebb/firmware.js";
+import {
+  compareFirmware,
+  firmwareFeatures,
+  firmwareFromReply,
+} from "../../../src/drivers/ebb/protocol/firmware.js";
 
 describe("the firmware table", () => {
   it.each([

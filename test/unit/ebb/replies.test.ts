@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { commandName, LineSplitter, replyShape } from "../../../src/ebb/replies.js";
+import { commandName, LineSplitter, replyShape } from "../../../src/drivers/ebb/protocol/replies.js";
 
 const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 
 /** The error that importing `text` throws. */
 function failure(text: string): PlotwrightError {
@@ -93,7 +93,7 @@ describe("importSvg on bad files", () => {
     expect(drawing.paths.coords[2]).toBeCloseTo(25.4, 9);
   });
 
-  it("does not expand entities of the file, so a bomb stays small", () => {
+  it("does not let entities of the file grow, so a bomb stays small", () => {
     const lines = Array.from({ length: 30 }, (_, i) => `<!ENTITY e${i + 1} "${`&e${i};`.repeat(10)}">`).join(
       "\n",
     );

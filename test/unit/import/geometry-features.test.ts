@@ -1,6 +1,6 @@
 /** Small SVGs, one per feature of shapes, paths, transforms, units and viewports; expected mm by hand. */
 import { describe, expect, it } from "vitest";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { codes, draw, page, pointsOf, shapes, shapesOf } from "./support/shapes.js";
 
 describe("basic shapes", () => {

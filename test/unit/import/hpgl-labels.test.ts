@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { importDrawing } from "../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../src/import/registry.js";
 import type { ImportOptions } from "../../../src/import/import-options.js";
-import type { TextFont } from "../../../src/import/text-font.js";
+import type { TextFont } from "../../../src/import/text/text-font.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
 const ETX = "\u0003";

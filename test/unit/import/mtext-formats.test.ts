@@ -1,7 +1,7 @@
 /** What the codes inside an MTEXT do to its letters. Height 7 makes an em of 10: boxes of 5 × 7, 7 from one to the next. */
 import { describe, expect, it } from "vitest";
 import type { ImportOptions } from "../../../src/import/import-options.js";
-import type { TextFont } from "../../../src/import/text-font.js";
+import type { TextFont } from "../../../src/import/text/text-font.js";
 import { boxes, drawDxf } from "./support/dxf.js";
 import { codes, shapesOf } from "./support/shapes.js";
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
-import { formatOf, importDrawing } from "../../../src/import/import-drawing.js";
+import { DRAWING_EXTENSIONS, formatOf, importDrawing, isDrawingName } from "../../../src/import/registry.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
 /** Group codes and values, as lines of a DXF. */
@@ -19,6 +19,15 @@ const dxf = (entities: string, more: { header?: string; tables?: string; blocks?
 const draw = (entities: string, more?: Parameters<typeof dxf>[1]) =>
   importDrawing("a.dxf", dxf(entities, more));
 const FRAME = "0 LINE 8 0 10 0 20 0 11 100 21 100";
+
+describe("the registry of formats", () => {
+  it("knows a file by each of its endings, in any case", () => {
+    expect(DRAWING_EXTENSIONS).toEqual(["svg", "dxf", "hpgl", "hpg", "hgl", "plt", "json"]);
+    for (const extension of DRAWING_EXTENSIONS)
+      expect(isDrawingName(`a.b.${extension.toUpperCase()}`)).toBe(true);
+    expect(["svg", "a.svg.txt", "a"].filter(isDrawingName)).toEqual([]);
+  });
+});
 
 describe("DXF", () => {
   it("turns y over and takes the page from the drawing", () => {

@@ -3,68 +3,12 @@ import { readdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { beforeAll, describe, expect, it } from "vitest";
-import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type Drawing } from "../../../src/drawing/drawing.js";
-import { flattenCubic } from "../../../src/geometry/cubic.js";
-import { PointBuffer } from "../../../src/geometry/growable.js";
-import { importSvg } from "../../../src/import/import-svg.js";
-import { MM_PER_PX } from "../../../src/units.js";
+import { disagreement } from "./support/disagreement.js";
 import { farthest, loadResvg, resvgShapes, type Polyline } from "./support/resvg-shapes.js";
 
 /** Of the page's larger side. */
 const TOLERANCE = 0.001;
 const ICONS_PER_SET = 75;
-
-function ourShapes({ paths }: Drawing): Polyline[][] {
-  const c = paths.coords;
-  return Array.from({ length: paths.count }, (_, i) => {
-    const lines: Polyline[] = [];
-    let line: Polyline = [];
-    let at = paths.coordOffsets[i];
-    const add = (x: number, y: number): void => {
-      line.push([x / MM_PER_PX, y / MM_PER_PX]);
-    };
-    for (let v = paths.verbOffsets[i]; v < paths.verbOffsets[i + 1]; v++) {
-      const verb = paths.verbs[v];
-      if (verb === VERB_CLOSE) line.push(line[0]);
-      else if (verb === VERB_CUBIC) {
-        const out = new PointBuffer();
-        flattenCubic(
-          out,
-          c[at - 2],
-          c[at - 1],
-          c[at],
-          c[at + 1],
-          c[at + 2],
-          c[at + 3],
-          c[at + 4],
-          c[at + 5],
-          1e-3,
-        );
-        for (let k = 0; k < out.length; k += 2) add(out.data[k], out.data[k + 1]);
-        at += 6;
-      } else {
-        if (verb === VERB_MOVE) lines.push((line = []));
-        add(c[at], c[at + 1]);
-        at += 2;
-      }
-    }
-    return lines;
-  });
-}
-
-/** The largest distance, both ways, shape by shape, as a part of the page. */
-function disagreement(svg: string): number {
-  const theirs = resvgShapes(svg);
-  const ours = ourShapes(importSvg(svg));
-  expect(ours.length).toBe(theirs.shapes.length);
-  const side = Math.max(theirs.width, theirs.height);
-  return Math.max(
-    0,
-    ...ours.map(
-      (lines, i) => Math.max(farthest(lines, theirs.shapes[i]), farthest(theirs.shapes[i], lines)) / side,
-    ),
-  );
-}
 
 /** Evenly spread over the folder, so that a new version of the set changes little. */
 function sample(packageName: string, folder: string): [string, string][] {

@@ -1,6 +1,6 @@
 /** Small SVGs, one per feature of colours, CSS and visibility. */
 import { describe, expect, it } from "vitest";
-import { importSvg } from "../../../src/import/import-svg.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
 import type { Drawing } from "../../../src/drawing/drawing.js";
 import { codes, draw, page, shapes } from "./support/shapes.js";
 
@@ -48,7 +48,7 @@ describe("colours", () => {
 
   it("draws a gradient stroke in its first colour, found through href, and says so", () => {
     const drawing = draw(
-      `<defs><linearGradient id="a"><stop stop-color="teal"/><stop stop-color="red"/></linearGradient><linearGradient id="b" xlink:href="#a"/></defs><path ${PATH} stroke="url(#b)"/>`,
+      `<defs><linearGradient id="a"><stop stop-color="teal"/><stop stop-color="red"/></linearGradient><linearGradient id="b" xlink:href="#a"/></defs><path d="M0 0l9 9" stroke="url(#b)"/>`,
     );
     expect(strokes(drawing)).toEqual(["#008080"]);
     expect(codes(drawing)).toEqual(["gradient-stroke"]);

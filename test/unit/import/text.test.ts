@@ -3,8 +3,8 @@ import { createRequire } from "node:module";
 import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/drawing/drawing.js";
 import { PlotwrightError } from "../../../src/errors.js";
-import { openOutlineFont } from "../../../src/import/outline-font.js";
-import type { TextFont } from "../../../src/import/text-font.js";
+import { openOutlineFont } from "../../../src/import/text/outline-font.js";
+import type { TextFont } from "../../../src/import/text/text-font.js";
 import { codes, draw, pointsOf, shapesOf } from "./support/shapes.js";
 
 const text = (body: string, attributes = 'x="10" y="50"'): string =>

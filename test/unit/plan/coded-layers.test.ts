@@ -9,6 +9,7 @@ import {
   withLayerCodes,
   type StrokeSet,
 } from "../../../src/index.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const SETTINGS = { ...NO_PENS, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
 
@@ -56,7 +57,7 @@ describe("codes in layer names, as settings", () => {
     const { motion, pen } = withLayerCodes(SETTINGS, strokes.layers);
     const coded = plan(strokes, motion, pen);
     const given = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN);
-    expect(coded.penMoves.map(({ up, heightPct, waitS }) => [up, heightPct, waitS])).toEqual([
+    expect(penMovesOf(coded).map(({ up, heightPct, waitS }) => [up, heightPct, waitS])).toEqual([
       [false, 30, 0.3],
       [true, 60, 0.25],
       [true, 60, 2],
@@ -72,7 +73,7 @@ describe("codes in layer names, as settings", () => {
     const strokes = { ...strokesNamed("a", "a"), layer: Uint16Array.of(0, 0) };
     const pen = { ...DEFAULT_PEN, layers: { l0: { beforeMs: 3_000 } } };
     const waits = (from?: { stroke: number; alongMm: number }) =>
-      plan(strokes, DEFAULT_MOTION, pen, { from }).penMoves.filter(({ waitS }) => waitS === 3).length;
+      penMovesOf(plan(strokes, DEFAULT_MOTION, pen, { from })).filter(({ waitS }) => waitS === 3).length;
     expect([waits(), waits({ stroke: 0, alongMm: 5 }), waits({ stroke: 1, alongMm: 0 })]).toEqual([1, 0, 0]);
   });
 });

@@ -15,6 +15,7 @@ import { blockLength } from "../../../src/plan/trajectory.js";
 import { AXIDRAW_LIKE } from "../../support/machine.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { worstOf } from "../../support/trajectory-checks.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const square: Point[] = [
   [10, 10],
@@ -46,12 +47,12 @@ describe("fitting", () => {
   const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
   const strokes = strokeSetOf([circle(20, 0.05, 2)]);
 
-  it("draws a circle of 20 mm radius at 50 mm/s in pieces of 80 ms and more, within ε", () => {
+  it("draws a circle of 20 mm radius at 50 mm/s in pieces of 50 ms and more (25 ms where they are filtered), within ε", () => {
     for (const mode of MOTION_MODES) {
       const t = plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN);
       const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
-      const drawS = t.penMoves[1]!.startS - t.runs.startS[1]!;
-      expect(drawS / (end - first)).toBeGreaterThan(0.08);
+      const drawS = t.penMoves.startS[1]! - t.runs.startS[1]!;
+      expect(drawS / (end - first)).toBeGreaterThan(mode === "scurve" ? 0.025 : 0.05);
       expect(worstOf(t, strokes, draw, draw, 0).distance).toBeLessThan(
         0.02 + sagitta(20, 0.05) + draw.cornerMm,
       );
@@ -72,19 +73,6 @@ describe("fitting", () => {
     expect(fitted("blend").gap).toBeLessThan(1e-9);
     expect(fitted("scurve").accelJump).toBeLessThan(1e-6);
     expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
-  });
-
-  it("holds the acceleration of scurve ramps for the floor at least, in at most 1.5 ms more", () => {
-    for (const length of [2.6, 2.9, 3.2, 3.5]) {
-      const line = strokeSetOf([[[0, 0], [length, 0]]]); // prettier-ignore
-      const planned = (fit: typeof DEFAULT_FIT | null) => {
-        const t = plan(line, { mode: "scurve", draw, travel: draw, fit }, DEFAULT_PEN, { returnHome: false });
-        return { totalS: t.totalS, shortestS: Math.min(...t.durationS.subarray(0, t.blockCount)) };
-      };
-      expect(planned(null).shortestS).toBeLessThan(0.0145);
-      expect(planned(DEFAULT_FIT).shortestS).toBeGreaterThan(0.015 - 1e-9);
-      expect(planned(DEFAULT_FIT).totalS).toBeLessThan(planned(null).totalS + 0.0015);
-    }
   });
 
   it("leaves a polygon's blocks as they are", () => {
@@ -198,7 +186,7 @@ describe("settings beyond speed and acceleration", () => {
     const t = plan(strokes, motion, pen);
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
-    expect(t.penMoves.map((m) => [m.heightPct, m.waitS])).toEqual([
+    expect(penMovesOf(t).map((m) => [m.heightPct, m.waitS])).toEqual([
       [30, 0.3],
       [60, 0.25],
       [10, 0.9],
@@ -209,7 +197,7 @@ describe("settings beyond speed and acceleration", () => {
   it("lift the pen less for short hops, and start moving once it is clear", () => {
     const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]], [[100, 100], [90, 90]]]); // prettier-ignore
     const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
-    const lifts = plan(strokes, base, pen).penMoves.filter((m) => m.up);
+    const lifts = penMovesOf(plan(strokes, base, pen)).filter((m) => m.up);
     expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
     expect(lifts[0]!.waitS).toBeCloseTo(0.25 / 3 / 2, 9);
     expect(lifts[1]!.waitS).toBeCloseTo(0.125, 9);
@@ -218,8 +206,8 @@ describe("settings beyond speed and acceleration", () => {
   it("time the pen by its rate and delay", () => {
     const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
     const t = plan(strokeSetOf([square]), base, pen);
-    expect(t.penMoves[0]!.waitS).toBeCloseTo(0.05 + 1, 9);
-    expect(t.penMoves[1]!.waitS).toBeCloseTo(0.02 + 0.1, 9);
+    expect(t.penMoves.waitS[0]!).toBeCloseTo(0.05 + 1, 9);
+    expect(t.penMoves.waitS[1]!).toBeCloseTo(0.02 + 0.1, 9);
   });
 
   it("keep every motor below the board's step rate, diagonals too", () => {

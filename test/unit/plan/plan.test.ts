@@ -9,6 +9,7 @@ import {
   type MotionSettings,
 } from "../../../src/index.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const motion: MotionSettings = { ...DEFAULT_MOTION, mode: "junction", fit: null };
 const square: Point[] = [
@@ -33,7 +34,7 @@ describe("the sequence of runs", () => {
       DEFAULT_PEN,
     );
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1, 1, -1]);
-    expect(t.penMoves.map((m) => [m.beforeRun, m.up, m.heightPct, m.waitS])).toEqual([
+    expect(penMovesOf(t).map((m) => [m.beforeRun, m.up, m.heightPct, m.waitS])).toEqual([
       [1, false, 30, 0.3],
       [2, true, 60, 0.25],
       [3, false, 30, 0.3],
@@ -44,7 +45,7 @@ describe("the sequence of runs", () => {
 
   it("of an empty drawing is nothing at all", () => {
     const t = plan(strokeSetOf([]), motion, DEFAULT_PEN);
-    expect([t.blockCount, t.runs.count, t.penMoves.length, t.totalS]).toEqual([0, 0, 0, 0]);
+    expect([t.blockCount, t.runs.count, t.penMoves.count, t.totalS]).toEqual([0, 0, 0, 0]);
   });
 
   it("makes of a dot a drop and a lift with no motion between", () => {
@@ -58,7 +59,7 @@ describe("the sequence of runs", () => {
   it("has no travel where the carriage stands already, and none home when told to stay", () => {
     const t = plan(strokeSetOf([square]), motion, DEFAULT_PEN, { startX: 10, startY: 10, returnHome: false });
     expect(Array.from(t.runs.stroke)).toEqual([0]);
-    expect(t.penMoves.map((m) => m.up)).toEqual([false, true]);
+    expect(penMovesOf(t).map((m) => m.up)).toEqual([false, true]);
     expect([t.endX, t.endY]).toEqual([10, 10]);
   });
 
@@ -73,8 +74,8 @@ describe("the sequence of runs", () => {
         [5, 5],
       ],
     ];
-    expect(plan(strokeSetOf(strokes), motion, DEFAULT_PEN).penMoves.length).toBe(2);
-    expect(plan(strokeSetOf(strokes, [0, 1]), motion, DEFAULT_PEN).penMoves.length).toBe(4);
+    expect(plan(strokeSetOf(strokes), motion, DEFAULT_PEN).penMoves.count).toBe(2);
+    expect(plan(strokeSetOf(strokes, [0, 1]), motion, DEFAULT_PEN).penMoves.count).toBe(4);
   });
 
   it("begins in mid-stroke where told to", () => {
@@ -94,7 +95,7 @@ describe("the state at a time", () => {
   });
 
   it("stands still while the pen drops and lifts", () => {
-    const [drop, lift] = t.penMoves;
+    const [drop, lift] = penMovesOf(t);
     for (const move of [drop!, lift!]) {
       const s = stateAt(t, move.startS + move.waitS / 2);
       expect(s).toMatchObject({ vx: 0, vy: 0, ax: 0, ay: 0, stroke: -1, penUp: move.up });
@@ -104,7 +105,7 @@ describe("the state at a time", () => {
 
   it("tells stroke and way along it while drawing", () => {
     const start = t.runs.startS[1]!;
-    const end = t.penMoves[1]!.startS;
+    const end = t.penMoves.startS[1]!;
     const s = stateAt(t, (start + end) / 2);
     expect(s).toMatchObject({ stroke: 0, penUp: false });
     expect(s.alongMm).toBeCloseTo(20, 6);
@@ -234,6 +235,6 @@ function circle(radius: number, step: number, turns: number): Point[] {
 
 function speedAt(t: ReturnType<typeof plan>, share: number): number {
   const start = t.runs.startS[1]!;
-  const s = stateAt(t, start + share * (t.penMoves[1]!.startS - start));
+  const s = stateAt(t, start + share * (t.penMoves.startS[1]! - start));
   return Math.hypot(s.vx, s.vy);
 }

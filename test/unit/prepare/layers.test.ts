@@ -96,3 +96,38 @@ describe("codes in layer names", () => {
     expect(strokesOf({ shownLayers: ["g0"], hiddenLayers: ["g0"] }, coded)).toEqual(["1>"]);
   });
 });
+
+describe("the colour of a layer", () => {
+  const BLUE = "#0000ff";
+  const PURPLE = "#800080";
+  const line = (stroke: string, y: number, lengthMm = 10) => ({ d: `M0 ${y}L${lengthMm} ${y}`, stroke });
+  const looksOf = (shapes: Parameters<typeof drawingOf>[0], settings: Partial<PrepareSettings> = {}) =>
+    preparedWith(settings, drawingOf(shapes)).layers.map(({ color, colorCount }) => [color, colorCount]);
+
+  it("is the one that most of its lines have, and it is told that there are others", () => {
+    const blue = Array.from({ length: 44 }, (_, k) => line(BLUE, k));
+    expect(looksOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
+    expect(looksOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
+    expect(looksOf(blue)).toEqual([[BLUE, 1]]);
+    expect(preparedWith({}, drawingOf([line(PURPLE, 50), ...blue])).strokes.layers[0]!.color).toBe(BLUE);
+  });
+
+  it("goes by length, not by how many shapes the file has, and not by the way with the pen up", () => {
+    const purples = [0, 1, 2].map((y) => line(PURPLE, y, 5));
+    expect(looksOf([...purples, line(BLUE, 9, 20)])).toEqual([[BLUE, 2]]);
+    // The closing side counts; the moves between subpaths do not.
+    const box = { d: "M0 0L8 0L8 8L0 8Z", stroke: BLUE };
+    expect(looksOf([box, line(PURPLE, 20, 30)])).toEqual([[BLUE, 2]]);
+    expect(looksOf([{ d: "M0 0L1 0M90 90L91 90", stroke: PURPLE }, line(BLUE, 9, 5)])).toEqual([[BLUE, 2]]);
+  });
+
+  it("is the commonest among dots", () => {
+    const dot = (stroke: string, x: number) => ({ d: `M${x} 5L${x} 5`, stroke });
+    expect(looksOf([dot(PURPLE, 1), dot(BLUE, 2), dot(BLUE, 3)])).toEqual([[BLUE, 2]]);
+  });
+
+  it("is the fill's where a shape has no stroke", () => {
+    const filled = { d: "M0 0L8 0L8 8Z", stroke: null, fill: PURPLE };
+    expect(looksOf([filled])).toEqual([[PURPLE, 1]]);
+  });
+});

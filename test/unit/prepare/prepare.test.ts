@@ -164,6 +164,37 @@ describe("cutting", () => {
     expect(draw(drawing)).toEqual([[20, 50, 60, 50]]);
   });
 
+  it("gives a fill without a line the edge of its clip as outline", () => {
+    const square = "M0 0L100 0L100 100L0 100Z";
+    const clips = [clipOf("M20 20L80 20L50 80Z")];
+    const fill = { d: square, clip: 0, stroke: null, fill: "#ff0000" };
+    const [edge, ...others] = draw(drawingOf([fill], { clips }));
+    expect(others).toEqual([]);
+    const corners = new Set(Array.from({ length: 4 }, (_, i) => `${edge[2 * i]} ${edge[2 * i + 1]}`));
+    expect(corners).toEqual(new Set(["20 20", "80 20", "50 80"]));
+    // What has a line of its own ends at the edge without one.
+    expect(draw(drawingOf([{ ...fill, stroke: "#000000" }], { clips }))).toEqual([]);
+    // A clip that cuts nothing off changes nothing.
+    const inside = { ...fill, d: "M45 30L55 30L50 40Z" };
+    expect(draw(drawingOf([inside], { clips }))).toEqual(draw(drawingOf([{ ...inside, clip: -1 }])));
+  });
+
+  it("stretches dashes with the shape that they belong to", () => {
+    // Twice as wide as it was drawn: dashes along x are twice as long as those along y.
+    const dashes = [
+      {
+        lengths: [Math.SQRT2, Math.SQRT2],
+        offset: 0,
+        measure: { a: Math.SQRT1_2, b: 0, c: 0, d: Math.SQRT2 },
+      },
+    ];
+    const [across, down] = ["M10 10L12.5 10", "M10 10L10 11.5"].map(
+      (d) => draw(drawingOf([{ d, dash: 0 }], { dashes }))[0],
+    );
+    expect(across[2] - across[0]).toBeCloseTo(2);
+    expect(down[3] - down[1]).toBeCloseTo(1);
+  });
+
   it("minds the rule of a clip region with a hole", () => {
     const ring = "M0 0L90 0L90 90L0 90ZM30 30L60 30L60 60L30 60Z";
     const through = (rule: number): number[][] =>
@@ -247,12 +278,12 @@ describe("layers", () => {
     { groups: ["first", "second", "empty"] },
   );
 
-  it("are the groups that hold something, with their counts and their colour where it is one", () => {
+  it("are the groups that hold something, with their counts and the colour that most of them is drawn in", () => {
     const { layers } = prepare(drawing, TRUE_SIZE);
     expect(layers.map(({ id, name, color, strokeCount: n, drawMm }) => [id, name, color, n, drawMm])).toEqual(
       [
         ["g0", "first", "#ff0000", 1, 10],
-        ["g1", "second", null, 2, 50],
+        ["g1", "second", "#ff0000", 2, 50],
       ],
     );
   });

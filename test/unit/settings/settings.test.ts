@@ -10,10 +10,12 @@ const valueAt = (settings: unknown, at: string): unknown =>
   at.split(".").reduce<unknown>((value, key) => (value as Record<string, unknown>)[key], settings);
 
 /** The default settings with one value changed. */
-function withValue(at: string, value: unknown): unknown {
+function withValue(path: string, value: unknown): unknown {
   const settings = structuredClone(DEFAULT_PLOT_SETTINGS) as unknown as Record<string, unknown>;
-  const keys = at.split(".");
-  const parent = valueAt(settings, keys.slice(0, -1).join(".")) as Record<string, unknown>;
+  const keys = path.split(".");
+  const parent = keys
+    .slice(0, -1)
+    .reduce<Record<string, unknown>>((at, key) => at[key] as Record<string, unknown>, settings);
   parent[keys.at(-1)!] = value;
   return settings;
 }
@@ -22,7 +24,7 @@ const accepts = (at: string, value: unknown): boolean =>
   plotSettingsSchema.safeParse(withValue(at, value)).success;
 
 const rows = Object.entries(SETTINGS_TABLES).flatMap(([at, table]) =>
-  Object.entries(table).map(([key, row]) => [`${at}.${key}`, row] as const),
+  Object.entries(table).map(([key, row]) => [at === "" ? key : `${at}.${key}`, row] as const),
 );
 const numbers = rows.flatMap(([at, row]) => (row.kind === "number" ? [[at, row] as const] : []));
 

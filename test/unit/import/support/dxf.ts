@@ -1,8 +1,8 @@
 /** Small DXF files, and letters of a known shape to write in them. */
 import type { Drawing } from "../../../../src/index.js";
-import { importDrawing } from "../../../../src/import/import-drawing.js";
+import { importDrawing } from "../../../../src/import/registry.js";
 import type { ImportOptions } from "../../../../src/import/import-options.js";
-import type { TextFont } from "../../../../src/import/text-font.js";
+import type { TextFont } from "../../../../src/import/text/text-font.js";
 
 /** 100 × 100 mm, the first shape of every drawing: on the page y runs down from 100. */
 const FRAME = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 100\n20 0\n10 100\n20 100\n10 0\n20 100";

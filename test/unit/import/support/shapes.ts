@@ -3,7 +3,7 @@ import { PAIRS_OF_VERB, type Drawing } from "../../../../src/drawing/drawing.js"
 import { flattenCubic } from "../../../../src/geometry/cubic.js";
 import { PointBuffer } from "../../../../src/geometry/growable.js";
 import type { ImportOptions } from "../../../../src/import/import-options.js";
-import { importSvg } from "../../../../src/import/import-svg.js";
+import { importSvg } from "../../../../src/import/svg/import-svg.js";
 
 const LETTERS = ["M", "L", "C", "Z"];
 

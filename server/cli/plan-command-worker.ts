@@ -1,0 +1,19 @@
+/** See plan-thread.ts. */
+import { parentPort, workerData } from "node:worker_threads";
+import { faultOf, type Fault } from "../planning/messages.js";
+import { runPlan } from "./plan.js";
+import type { FromPlanThread, PlanThreadInput } from "./plan-thread.js";
+
+const { file, settings, options } = workerData as PlanThreadInput;
+const post = (message: FromPlanThread): void => parentPort?.postMessage(message);
+
+let fault: Fault | null = null;
+try {
+  runPlan(file, settings, options, {
+    out: (text) => post({ type: "out", text }),
+    begin: (step) => post({ type: "begin", step }),
+  });
+} catch (error) {
+  fault = faultOf(error);
+}
+post({ type: "done", fault });

@@ -1,0 +1,53 @@
+/** Work that waits for its turn: a few places, and each client has one of them at most, so that none takes them all. */
+import { PlotwrightError } from "../../src/index.js";
+
+/** Who wants something planned. */
+export interface Asker {
+  /** Jobs of one client wait for each other; left out: the server itself. */
+  readonly client?: string | undefined;
+  /** Aborted when nobody waits for the result any more. */
+  readonly signal?: AbortSignal | undefined;
+}
+
+export type Lane = <T>(asker: Asker, work: () => Promise<T>) => Promise<T>;
+
+export function lane(places: number): Lane {
+  const running: string[] = [];
+  const waiting: { readonly client: string; readonly begin: () => void }[] = [];
+
+  function beginNext(): void {
+    if (running.length >= places) return;
+    const at = waiting.findIndex(({ client }) => !running.includes(client));
+    const next = waiting[at];
+    if (next === undefined) return;
+    waiting.splice(at, 1);
+    running.push(next.client);
+    next.begin();
+  }
+
+  function turnOf(client: string, signal: AbortSignal | undefined): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const one = { client, begin: resolve };
+      const leave = (): void => {
+        const at = waiting.indexOf(one);
+        if (at < 0) return;
+        waiting.splice(at, 1);
+        reject(new PlotwrightError("cancelled", "Planning was cancelled."));
+      };
+      waiting.push(one);
+      signal?.addEventListener("abort", leave, { once: true });
+      if (signal?.aborted === true) leave();
+      else beginNext();
+    });
+  }
+
+  return async ({ client = "", signal }, work) => {
+    await turnOf(client, signal);
+    try {
+      return await work();
+    } finally {
+      running.splice(running.indexOf(client), 1);
+      beginNext();
+    }
+  };
+}

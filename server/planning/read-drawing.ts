@@ -1,0 +1,13 @@
+import { readFileSync } from "node:fs";
+import { PlotwrightError, textOfBytes } from "../../src/index.js";
+
+/** The file's text; throws `bad-file` that says why it can't be read. */
+export function readDrawing(file: string): string {
+  try {
+    return textOfBytes(readFileSync(file));
+  } catch (cause) {
+    const { code, message } = cause as NodeJS.ErrnoException;
+    const why = code === "ENOENT" ? "there is no such file" : code === "EISDIR" ? "it is a folder" : message;
+    throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`, { cause });
+  }
+}

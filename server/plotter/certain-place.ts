@@ -1,0 +1,47 @@
+/**
+ * Where a board surely was with its motors supplied. A board goes on counting steps when the motors' supply is off,
+ * and counts from 0 again when it has started anew, so its counters alone do not say what is drawn.
+ *
+ *   one poll:  QS ─── where it was ───> QC ─── the supply is good ───> QL ─── the mark is still set
+ *
+ * The board answers these in order: what QC and QL find was true at QS already.
+ */
+import { parseSteps, type FirmwareFeatures, type Streamer } from "../../src/index.js";
+import { type PollTime } from "../../src/internal.js";
+import type { StreamPlace } from "../../src/index.js";
+import { isPowerLow } from "./health.js";
+
+/** A place of a stream, and the counters there (from home). */
+export interface CertainAt {
+  readonly place: StreamPlace;
+  readonly steps1: number;
+  readonly steps2: number;
+}
+
+export class CertainPlace {
+  private at: CertainAt | null = null;
+
+  constructor(
+    private readonly features: FirmwareFeatures,
+    private readonly origin: readonly [number, number],
+    /** The poll's last line. */
+    private readonly lastLine: string,
+  ) {}
+
+  /** One answer of a poll, in order; a place when it was the last one and all was well. */
+  answered(line: string, reply: string, asked: PollTime, streamer: Streamer): CertainAt | null {
+    if (line === "QS") this.at = this.placeOf(reply, asked, streamer);
+    else if (isPowerLow(line, reply)) this.at = null;
+    if (line !== this.lastLine) return null;
+    const { at } = this;
+    this.at = null;
+    return at;
+  }
+
+  private placeOf(reply: string, asked: PollTime, streamer: Streamer): CertainAt | null {
+    const [counter1, counter2] = parseSteps(reply);
+    const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
+    const place = streamer.placeOfCounters(this.features, steps1, steps2, asked);
+    return place && { place, steps1, steps2 };
+  }
+}

@@ -1,0 +1,76 @@
+/**
+ * Where a plot goes on after the board has refused one of its commands. The board goes on with those that it had been
+ * given behind it, each as it is: beside its place by the way that the refused one would have made.
+ *
+ *   planned   ━━━━━a━━━━━b━━━━━c━━━━━       refused: a to b
+ *   drawn     ━━━━━a━━━━━c'                 b to c, drawn from a on
+ *
+ * Where the stroke is straight, or the refused command was a short one, a to c' lies on the stroke, and the plot goes on
+ * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
+ */
+import type { MachineProfile, Place, StreamPlace, StrokeSet } from "../../src/index.js";
+import { isPenUpBefore, type RefusedCommand } from "../../src/internal.js";
+import { boardStateBefore, placeOfSteps, pointOfPlace, snappedPlace } from "./plan-places.js";
+import type { Part } from "./run-progress.js";
+
+/** What is drawn so near to the stroke counts as drawn. */
+const BESIDE_MM = 0.08;
+/** How far mm along the motion and mm along the drawing may be apart. */
+const SNAP_MM = 0.5;
+
+export interface RefusedStop {
+  readonly refused: RefusedCommand;
+  /** Where the board stopped, as if the refused command had run; null: nothing has run. */
+  readonly at: (StreamPlace & { readonly number: number }) | null;
+  readonly steps1: number;
+  readonly steps2: number;
+}
+
+type Point = { readonly x: number; readonly y: number };
+
+/** `placeOf`: on from a place of a stream, with the pen at x, y. */
+export function placeAfterRefusal(
+  strokes: StrokeSet,
+  machine: MachineProfile,
+  part: Part,
+  { refused, at, steps1, steps2 }: RefusedStop,
+  placeOf: (place: StreamPlace, x: number, y: number) => Place | null,
+): Place | null {
+  const { commands, trajectory, start } = part;
+  const index = refused.at.commandIndex;
+  const pointBefore = (i: number): Point => {
+    const state = boardStateBefore(commands, i, start);
+    return placeOfSteps(machine, state.steps1, state.steps2);
+  };
+  const [from, to] = [pointBefore(index), pointBefore(index + 1)];
+  const stand = placeOfSteps(machine, steps1, steps2);
+  const isAfter = at !== null && refused.command !== null && at.number > refused.command.number;
+  const dropsPen =
+    isPenUpBefore(trajectory, commands.planS[index]!) &&
+    !isPenUpBefore(trajectory, commands.planS[index + 1]!);
+  const isMove = from.x !== to.x || from.y !== to.y;
+  if (at && (!isAfter || (!isMove && !dropsPen))) return placeOf(at, stand.x, stand.y);
+
+  const place = placeOf(refused.at, from.x, from.y);
+  const run = commands.run[index]!;
+  if (!at || !place || run < 0 || !isMove) return place;
+  // The rest of the stroke, as far as it has run.
+  const isSame = at.stream === commands;
+  let on = place;
+  let end = from;
+  let wayMm = 0;
+  for (let i = index + 1; i < commands.count && commands.run[i] === run; i++) {
+    if (isSame && i > at.commandIndex) break;
+    const [a, b] = [pointBefore(i), pointBefore(i + 1)];
+    const isLast = isSame && i === at.commandIndex;
+    const next = isLast ? stand : { x: end.x + b.x - a.x, y: end.y + b.y - a.y };
+    wayMm += distance(end, next);
+    const moving = { ...next, vx: next.x - end.x, vy: next.y - end.y };
+    on = snappedPlace(strokes, { ...place, alongMm: place.alongMm + wayMm }, moving, SNAP_MM);
+    if (distance(pointOfPlace(strokes, on), next) > BESIDE_MM) return place;
+    end = next;
+  }
+  return on;
+}
+
+const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);

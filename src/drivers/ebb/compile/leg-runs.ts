@@ -1,0 +1,258 @@
+/**
+ * Runs for firmware with ramps (2.5.3 on): walks each run in time, cuts it into legs, and has each leg written as the
+ * command that the firmware does best.
+ *
+ *   plan    |--block--|--block--|b|b|b|----------block----------|
+ *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
+ *
+ * Cuts lie at the ends of blocks where they can, so that a leg is one parabola and its command exact; blocks too
+ * short for a command are taken together. Every leg is aimed from where the board truly is (the host model knows,
+ * step and phase) to where the plan is at the leg's end, with the plan's speeds at both ends: rounding never adds
+ * up. Linear in the number of blocks.
+ */
+import type { Trajectory } from "../../../plan/trajectory.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
+import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace, type RunWriter } from "./leg.js";
+import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
+import type { RunWalk } from "./run-walk.js";
+import type { StreamColumns } from "./stream-columns.js";
+
+/** Two speeds at a leg's ends that one acceleration misses by more are met by two (0.2 mm/s at 80 steps/mm). */
+const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
+
+/** Off the line by half a step, as a rate for one tick. */
+const MOST_OFF_RATE = ACCUMULATOR_RANGE / 2;
+
+/** 32 steps/s, 0.4 mm/s at 80 steps/mm. */
+const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
+
+/** A command needs a tick to run in and one to rest in. */
+const SHORTEST_TICKS = 26;
+
+export class LegRuns implements RunWriter {
+  private readonly leg = newLeg();
+  private readonly half = newLeg();
+  private runIndex = 0;
+  /** Where the leg being made ends: its tick, the block whose law holds there, and whether the run ends too. */
+  private cutTick = 0;
+  private cutBlock = 0;
+  private cutIsRunEnd = false;
+
+  constructor(
+    private readonly trajectory: Trajectory,
+    private readonly walk: RunWalk,
+    private readonly writer: LegWriter,
+    private readonly columns: StreamColumns,
+    private readonly m1: MotorPlace,
+    private readonly m2: MotorPlace,
+  ) {}
+
+  write(run: number): void {
+    const { walk, columns, leg } = this;
+    walk.begin(run, columns.boardTicks);
+    if (walk.first === walk.end) return;
+    this.runIndex = run;
+    let block = walk.first;
+    let notBefore = 0;
+    for (;;) {
+      const tick = columns.boardTicks;
+      this.cut(tick, block, notBefore);
+      this.aim(leg, tick, block);
+      if (this.writer.turnTicks > 0 && this.cutShort(leg, tick, block, notBefore)) this.aim(leg, tick, block);
+      if (this.writeLeg(leg)) {
+        notBefore = 0;
+        block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
+      } else {
+        notBefore = this.cutTick + this.writer.minTicks;
+      }
+      if (this.cutIsRunEnd) break;
+    }
+    this.rest(run);
+  }
+
+  /** Waits out the end of a run in which no step is due any more: the plan's time holds on every firmware. */
+  private rest(run: number): void {
+    const { walk, columns, m1, m2 } = this;
+    const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
+    if (ms < 1) return;
+    columns.text.line(`SM,${ms},0,0`);
+    const planS = walk.planS(columns.boardTicks);
+    columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+  }
+
+  /** Sets the next cut after `tick`, where `block` is under way; not before `notBefore`. */
+  private cut(tick: number, block: number, notBefore: number): void {
+    const { walk, writer } = this;
+    const last = walk.end - 1;
+    const runEnd = Math.max(walk.endTick(last), tick + 1);
+    const soonest = Math.max(tick + writer.minTicks, notBefore);
+    let k = block;
+    while (k < last && walk.endTick(k) < soonest) k++;
+    let end = k === last ? runEnd : walk.endTick(k);
+    if (k !== block) {
+      // Short blocks taken together: no more of a long one than it takes.
+      if (end - soonest >= writer.minTicks) end = soonest;
+    } else {
+      end = this.withinBlock(tick, block, soonest, end);
+    }
+    if (writer.turnTicks > 0) {
+      const turn = this.firstTurn(tick, block, k, soonest, end);
+      if (turn < end) {
+        end = turn;
+        k = walk.blockAt(end, block);
+      }
+    }
+    // What is left of the run must be enough for a command.
+    if (end < runEnd && runEnd - end < writer.minTicks) {
+      const earlier = runEnd - writer.minTicks;
+      end = earlier >= soonest && earlier < end ? earlier : runEnd;
+      k = walk.blockAt(end, block);
+      if (end === runEnd) k = last;
+      else if (k > block && end === walk.endTick(k - 1)) k--;
+    }
+    if (end < runEnd) {
+      while (k > block && walk.endTick(k - 1) >= end) k--;
+    }
+    this.cutTick = end;
+    this.cutBlock = k;
+    this.cutIsRunEnd = end >= runEnd;
+  }
+
+  /** Where to cut inside a block that is long enough: by the longest command. */
+  private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
+    const { walk, writer } = this;
+    const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
+    const longest = Math.max(Math.min(writer.maxTicks, jerkTicks), soonest - tick);
+    const pieces = Math.ceil((blockEnd - tick) / longest);
+    const end = pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
+    return end;
+  }
+
+  /** Where a motor turns back within a leg; Infinity where none does. */
+  private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
+    const { walk, writer } = this;
+    const earliest = Math.max(tick + writer.turnTicks, soonest - writer.minTicks);
+    const latest = end - writer.turnTicks;
+    for (let k = from; k <= to; k++) {
+      const after = k === from ? earliest : Math.max(earliest, walk.endTick(k - 1));
+      const turn = walk.turnTick(k, after, k === to ? latest : Math.min(latest, walk.endTick(k)));
+      if (turn !== Infinity) return turn;
+    }
+    return Infinity;
+  }
+
+  /**
+   * A motor that turns back too near to a leg's end for a leg of its own is driven without turning, which on a long leg
+   * takes it off the line by a quarter of that speed times the leg's time: then the turn gets the shortest leg. True: cut anew.
+   */
+  private cutShort({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
+    const { walk, writer } = this;
+    const motor = backwards(m1) > backwards(m2) ? m1 : m2;
+    if (backwards(motor) * ticks <= 4 * MOST_OFF_RATE || ticks < 2 * writer.minTicks) return false;
+    const soonest = Math.max(tick + writer.minTicks, notBefore);
+    const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
+    const end = isAtStart ? soonest : Math.max(soonest, this.cutTick - writer.minTicks);
+    if (end >= this.cutTick) return false;
+    let k = walk.blockAt(end, block);
+    while (k > block && walk.endTick(k - 1) >= end) k--;
+    this.cutTick = end;
+    this.cutBlock = k;
+    this.cutIsRunEnd = false;
+    return true;
+  }
+
+  private aim(leg: Leg, tick: number, block: number): void {
+    const { walk } = this;
+    walk.startLegs(tick, block, leg.m1, leg.m2);
+    walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
+    leg.ticks = this.cutTick - tick;
+    leg.isParabola = block === this.cutBlock && !walk.hasJerk(block);
+    leg.isLast = this.cutIsRunEnd && this.runIndex === this.trajectory.runs.count - 1;
+    this.slowDown(leg);
+  }
+
+  /** Takes more time where a motor would have to step too fast, or a whole run is too short for a command. */
+  private slowDown(leg: Leg): void {
+    const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
+    // An idle tick is made up for by speed, but not by more speed than may show: then the plot takes the tick.
+    const idle = peak > HIGHEST_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
+    const ticks = Math.max(
+      leg.ticks + idle,
+      Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
+      this.cutIsRunEnd ? SHORTEST_TICKS : 1,
+    );
+    if (ticks <= leg.ticks) return;
+    if (peak > HIGHEST_PLANNED_RATE) this.columns.warnOnce(TOO_FAST);
+    const part = leg.ticks / ticks;
+    for (const motor of [leg.m1, leg.m2]) {
+      motor.v0 *= part;
+      motor.v1 *= part;
+    }
+    this.walk.origin += ticks - leg.ticks;
+    leg.ticks = ticks;
+  }
+
+  /** Writes a leg as one command, or two where one acceleration cannot join the speeds. False: nothing to do yet. */
+  private writeLeg(leg: Leg): boolean {
+    if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
+      return this.put(leg);
+    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.put(leg);
+    const { half } = this;
+    half.ticks = leg.ticks >> 1;
+    half.isParabola = true;
+    half.isLast = false;
+    halve(leg.m1, leg.ticks, half.ticks, half.m1);
+    halve(leg.m2, leg.ticks, half.ticks, half.m2);
+    if (!this.put(half)) return this.put(leg);
+    leg.ticks -= half.ticks;
+    for (const [motor, first] of [
+      [leg.m1, half.m1],
+      [leg.m2, half.m2],
+    ] as const) {
+      motor.p0 = first.p1;
+      motor.v0 = first.v1;
+    }
+    this.put(leg);
+    return true;
+  }
+
+  private put(leg: Leg): boolean {
+    const { columns, m1, m2 } = this;
+    const planS = this.walk.planS(columns.boardTicks);
+    const ticks = this.writer.write(leg, m1, m2);
+    if (ticks === 0) return false;
+    columns.add(ticks, planS, this.runIndex, m1.steps, m2.steps, m1.acc, m2.acc);
+    return true;
+  }
+}
+
+const peakRate = (motor: MotorLeg, ticks: number): number =>
+  Math.max(Math.abs(motor.v0), Math.abs(motor.v1), meanRate(motor, ticks));
+
+const meanRate = (motor: MotorLeg, ticks: number): number =>
+  Math.abs(rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S));
+
+/** The lesser of the speeds at its ends, where they are opposite ones. */
+const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
+
+/** The way differs from what the mean of the two speeds would cover. */
+function isBent(motor: MotorLeg, ticks: number): boolean {
+  const mean = rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S);
+  return Math.abs((motor.v0 + motor.v1) / 2 - mean) > JOIN_RATE;
+}
+
+/**
+ * First of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
+ * a₁ + a₂ = 2 Δv/T and 3 a₁ + a₂ = 8 (Δp − v₀ T)/T².
+ */
+function halve(motor: MotorLeg, ticks: number, half: number, out: MotorLeg): void {
+  const toSteps = 1 / rateFromStepsPerS(TICKS_PER_S);
+  const v0 = motor.v0 * toSteps;
+  const v1 = motor.v1 * toSteps;
+  const mean = (motor.p1 - motor.p0 - v0 * ticks) / (ticks * ticks);
+  const accel = 4 * mean - (v1 - v0) / ticks;
+  out.p0 = motor.p0;
+  out.v0 = motor.v0;
+  out.p1 = motor.p0 + v0 * half + (accel * half * half) / 2;
+  out.v1 = (v0 + accel * half) / toSteps;
+}

@@ -1,0 +1,109 @@
+/**
+ * Legs for firmware 3: LT where the acceleration is constant, T3 elsewhere.
+ *
+ * A timed command of T ticks is followed by one idle tick, so a leg of n ticks is run in T = n − 1, its speeds
+ * raised by n/T. With R, A, J the accumulator gains exactly (before the division by 2 and 6 is cut off)
+ *
+ *   R T + A T²/2 + J T³/6
+ *
+ * J is chosen first, then A for the speed at the end, then R for the place at the end, each making good what
+ * rounding did to the one before; what then remains is at most T/2 counts, a few millionths of a step.
+ */
+import { ACCUMULATOR_RANGE } from "../../../units.js";
+import { rateAt, registersFor, sumOfRates } from "../model/accumulator.js";
+import type { CommandText } from "../protocol/commands.js";
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
+import { HIGHEST_RATE } from "../protocol/limits.js";
+
+const RANGE = ACCUMULATOR_RANGE;
+/** J counts in units of 91 mm/s³: held for longer, half a unit would bend the line by more than 2 µm. */
+const MAX_JERK_TICKS = 4_000;
+
+interface Arguments {
+  rate: number;
+  accel: number;
+  jerk: number;
+}
+
+export class SignedWriter implements LegWriter {
+  readonly minTicks = 125;
+  readonly maxTicks = 3_750;
+  readonly turnTicks = 0;
+  readonly idleTicks: number;
+  readonly joinsAnySpeeds = true;
+  private readonly a1: Arguments = { rate: 0, accel: 0, jerk: 0 };
+  private readonly a2: Arguments = { rate: 0, accel: 0, jerk: 0 };
+
+  constructor(
+    private readonly text: CommandText,
+    features: FirmwareFeatures,
+  ) {
+    this.idleTicks = features.idleTicksTimed;
+  }
+
+  maxTicksForJerk(): number {
+    return MAX_JERK_TICKS;
+  }
+
+  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+    const ticks = leg.ticks - this.idleTicks;
+    const stretch = leg.ticks / ticks;
+    const { a1, a2 } = this;
+    aim(leg, leg.m1, m1, ticks, stretch, a1);
+    aim(leg, leg.m2, m2, ticks, stretch, a2);
+    const hasJerk = a1.jerk !== 0 || a2.jerk !== 0;
+    this.text.name(hasJerk ? "T3" : "LT");
+    this.text.number(ticks);
+    for (const a of [a1, a2]) {
+      this.text.number(a.rate);
+      this.text.number(a.accel);
+      if (hasJerk) this.text.number(a.jerk);
+    }
+    this.text.end();
+    run(a1, ticks, m1);
+    run(a2, ticks, m2);
+    return leg.ticks;
+  }
+}
+
+function aim(
+  leg: Leg,
+  motor: MotorLeg,
+  place: MotorPlace,
+  ticks: number,
+  stretch: number,
+  out: Arguments,
+): void {
+  const planned = motor.p1 - motor.p0;
+  const error = motor.p0 + 0.5 - place.steps - place.acc / RANGE;
+  const way = (planned + correction(error, ticks, leg.isLast)) * RANGE;
+  const v0 = motor.v0 * stretch;
+  const v1 = motor.v1 * stretch;
+  // The trapezoid of the two speeds misses the way by J T³/12.
+  const excess = (v0 + v1) / 2 - (planned * RANGE) / ticks;
+  out.jerk = leg.isParabola ? 0 : Math.round((12 * excess) / (ticks * ticks));
+  out.accel = Math.round((v1 - v0 - (out.jerk * ticks * ticks) / 2) / ticks);
+  const bent = (out.accel * ticks) / 2 + (out.jerk * ticks * ticks) / 6;
+  out.rate = Math.round(way / ticks - bent);
+  keepInRange(out, ticks);
+}
+
+/** Rates are checked against the plan beforehand; this holds them where rounding and correction meet the limit. */
+function keepInRange(a: Arguments, ticks: number): void {
+  const registers = registersFor("signed", a.rate, a.accel, a.jerk);
+  const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);
+  const first = rateAt(1, registers.rate, registers.accel, registers.jerk);
+  const over = Math.max(first, last) - HIGHEST_RATE;
+  const under = -HIGHEST_RATE - Math.min(first, last);
+  if (over > 0) a.rate -= Math.ceil(over);
+  else if (under > 0) a.rate += Math.ceil(under);
+}
+
+function run(a: Arguments, ticks: number, place: MotorPlace): void {
+  const { rate, accel, jerk } = registersFor("signed", a.rate, a.accel, a.jerk);
+  const sum = place.acc + sumOfRates(ticks, rate, accel, jerk);
+  const steps = Math.floor(sum / RANGE);
+  place.steps += steps;
+  place.acc = sum - steps * RANGE;
+}

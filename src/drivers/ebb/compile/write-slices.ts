@@ -1,0 +1,90 @@
+/**
+ * Runs for firmware before 2.5.3, which has no ramps: SM at constant speed, in slices of about 10 ms.
+ *
+ * SM takes whole milliseconds and whole steps and works out the rate itself, rounded down. Each slice leads to the step
+ * nearest to where the plan is at the slice's end, so rounding never adds up. How long a slice really takes is known to
+ * the tick, and the next one makes good what is missing.
+ */
+import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
+import { slowRate } from "../model/slow-rate.js";
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
+import { newLeg, type MotorPlace, type RunWriter } from "./leg.js";
+import type { RunWalk } from "./run-walk.js";
+import type { StreamColumns } from "./stream-columns.js";
+
+/**
+ * The board reads a command in 4 to 7 ms (firmware before 2.7, EBB command reference, "Performance"): with shorter slices
+ * it would stand still between them. With longer ones the speed jumps more.
+ */
+const SLICE_MS = 10;
+const SLICE_TICKS = SLICE_MS * TICKS_PER_MS;
+
+/** Steps a millisecond that a motor can make. */
+const MOST_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
+
+export class SliceRuns implements RunWriter {
+  private readonly leg = newLeg();
+  /** Ticks by which the last run ended after its plan. */
+  private lateTicks = 0;
+
+  constructor(
+    private readonly features: FirmwareFeatures,
+    private readonly walk: RunWalk,
+    private readonly columns: StreamColumns,
+    private readonly m1: MotorPlace,
+    private readonly m2: MotorPlace,
+  ) {}
+
+  write(run: number): void {
+    const { walk, columns, features, leg, m1, m2 } = this;
+    walk.begin(run, columns.boardTicks - this.lateTicks);
+    if (walk.first === walk.end) return;
+    columns.warnOnce(OLD_FIRMWARE);
+    const last = walk.end - 1;
+    let block = walk.first;
+    let isLast = false;
+    while (!isLast) {
+      const leftTicks = walk.endTick(last) - columns.boardTicks;
+      isLast = leftTicks < 1.5 * SLICE_TICKS;
+      const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
+      // Where the slice will end: so whole milliseconds make no error of speed, except in the last slice.
+      const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
+      block = isLast ? last : walk.blockAt(tick, block);
+      walk.endLegs(tick, block, isLast, leg.m1, leg.m2);
+      const steps1 = Math.round(leg.m1.p1) - m1.steps;
+      const steps2 = Math.round(leg.m2.p1) - m2.steps;
+      const leastMs = Math.ceil(Math.max(Math.abs(steps1), Math.abs(steps2)) / MOST_STEPS_PER_MS);
+      if (leastMs > ms) walk.origin += (leastMs - ms) * TICKS_PER_MS;
+      if (leastMs > ms + 1) columns.warnOnce(TOO_FAST);
+      this.writeSlice(Math.max(leastMs, ms), steps1, steps2, run);
+    }
+    this.lateTicks = columns.boardTicks - walk.endTick(last);
+  }
+
+  private writeSlice(ms: number, steps1: number, steps2: number, run: number): void {
+    if (ms === 0) return;
+    const { columns, features, m1, m2 } = this;
+    const planS = this.walk.planS(columns.boardTicks);
+    columns.text.name("SM");
+    columns.text.number(ms);
+    columns.text.number(steps1);
+    columns.text.number(steps2);
+    columns.text.end();
+    const stepping = Math.max(this.step(m1, ms, steps1), this.step(m2, ms, steps2));
+    // Without a step it is a plain delay, with no idle tick after it.
+    const ticks = stepping > 0 ? stepping + features.idleTicks : ms * TICKS_PER_MS;
+    columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+  }
+
+  /** Moves one motor on; returns the ticks until its last step. */
+  private step(motor: MotorPlace, ms: number, steps: number): number {
+    if (steps === 0) return 0;
+    const rate = slowRate(this.features.arithmetic, ms, Math.abs(steps));
+    const counts = Math.abs(steps) * ACCUMULATOR_RANGE - motor.acc;
+    const ticks = Math.ceil(counts / rate);
+    motor.steps += steps;
+    motor.acc = ticks * rate - counts;
+    return ticks;
+  }
+}

@@ -1,0 +1,104 @@
+/**
+ * Legs for firmware 2.5.3 to 2.6: LM, where each motor stops after its own count of steps.
+ *
+ * The count is the nearest whole step to the plan's place, from the board's true count. The rate is then set so
+ * that the last step falls on the leg's last tick: both motors end together, and neither waits. There the
+ * accumulator holds little more than zero, so every leg begins like the one before.
+ *
+ *   tick k adds R + (k − 1) A, magnitudes; one idle tick follows
+ *
+ * LM must not come down to a rate of zero: the last step would never come. Rates are kept above 1 % of the mean.
+ */
+import { ACCUMULATOR_RANGE } from "../../../units.js";
+import { registersFor, sumOfRates, type Registers } from "../model/accumulator.js";
+import type { CommandText } from "../protocol/commands.js";
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import type { Leg, LegWriter, MotorLeg, MotorPlace } from "./leg.js";
+import { HIGHEST_RATE, SLOWEST_PART_OF_MEAN } from "../protocol/limits.js";
+
+const RANGE = ACCUMULATOR_RANGE;
+const JERK_ERROR_RATE = (0.5 * 80 * RANGE) / 25_000;
+
+interface Arguments {
+  /** Magnitude; the direction is in the sign of `steps`. */
+  rate: number;
+  accel: number;
+  steps: number;
+}
+
+export class SteppedWriter implements LegWriter {
+  readonly minTicks = 200;
+  readonly maxTicks = 3_750;
+  readonly turnTicks = 120;
+  readonly idleTicks = 0;
+  readonly joinsAnySpeeds = false;
+  private readonly a1: Arguments = { rate: 0, accel: 0, steps: 0 };
+  private readonly a2: Arguments = { rate: 0, accel: 0, steps: 0 };
+
+  constructor(
+    private readonly text: CommandText,
+    private readonly features: FirmwareFeatures,
+  ) {}
+
+  maxTicksForJerk(jerk: number): number {
+    return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
+  }
+
+  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+    const { a1, a2, text } = this;
+    const ticks = leg.ticks - this.features.idleTicks;
+    aim(leg.m1, m1, ticks, a1);
+    aim(leg.m2, m2, ticks, a2);
+    if (a1.steps === 0 && a2.steps === 0) return 0;
+    text.name("LM");
+    for (const a of [a1, a2]) {
+      text.number(a.rate);
+      text.number(a.steps);
+      text.number(a.accel);
+    }
+    text.end();
+    return Math.max(run(a1, ticks, m1), run(a2, ticks, m2)) + this.features.idleTicks;
+  }
+}
+
+function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments): void {
+  out.steps = Math.round(motor.p1) - place.steps;
+  if (out.steps === 0) {
+    out.rate = out.accel = 0;
+    return;
+  }
+  const direction = Math.sign(out.steps);
+  const way = Math.abs(out.steps) * RANGE - place.acc;
+  const mean = way / ticks;
+  const slope = (direction * (motor.v1 - motor.v0)) / ticks;
+  const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
+  const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
+  out.accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
+  // Rounded up: the last step comes on the last tick, never a tick too late.
+  out.rate = Math.ceil(mean - (out.accel * (ticks - 1)) / 2);
+}
+
+/** Runs the motor until its count is reached; returns the ticks that took. */
+function run(a: Arguments, ticks: number, place: MotorPlace): number {
+  if (a.steps === 0) return 0;
+  const registers = registersFor("late", a.rate, a.accel);
+  const way = Math.abs(a.steps) * RANGE - place.acc;
+  const last = tickOfSum(way, ticks, registers);
+  place.acc += sumOfRates(last, registers.rate, registers.accel, 0) - Math.abs(a.steps) * RANGE;
+  place.steps += a.steps;
+  return last;
+}
+
+/** First tick at which the sum of rates reaches `way`; it does so by `ticks`. */
+function tickOfSum(way: number, ticks: number, { rate, accel }: Registers): number {
+  let low = 1;
+  let high = ticks;
+  // Nearly always the last tick: look there first.
+  if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < way) return ticks;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (sumOfRates(middle, rate, accel, 0) >= way) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}

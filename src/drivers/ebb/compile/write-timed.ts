@@ -1,0 +1,105 @@
+/**
+ * Legs for firmware 2.7 to 2.8: LT with a constant acceleration a motor.
+ *
+ * Here LT takes the direction from the sign of Rate and applies Accel to its magnitude, and a magnitude that
+ * falls below zero wraps to full speed. So a motor never turns back within a leg (the compiler cuts there),
+ * and its speeds are held at or above zero.
+ *
+ * An accumulator of magnitudes does not know where between two steps the motor stands once it turns back:
+ * forward, acc is what is left behind; backward, what lies ahead. Where starting from zero is nearer to the
+ * truth, the command clears it.
+ */
+import { ACCUMULATOR_RANGE } from "../../../units.js";
+import { registersFor, sumOfRates } from "../model/accumulator.js";
+import type { CommandText } from "../protocol/commands.js";
+import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
+import { HIGHEST_RATE } from "../protocol/limits.js";
+
+const RANGE = ACCUMULATOR_RANGE;
+/** A speed error at a leg's ends, mm/s × 80 steps/mm, that a constant acceleration may make of a jerk. */
+const JERK_ERROR_RATE = (0.25 * 80 * RANGE) / 25_000;
+/** Below this (steps) an accumulator is left as it is. */
+const CLEAR_WORTH_STEPS = 0.1;
+
+interface Arguments {
+  rate: number;
+  accel: number;
+  clear: boolean;
+}
+
+export class TimedWriter implements LegWriter {
+  readonly minTicks = 125;
+  readonly maxTicks = 3_750;
+  readonly turnTicks = 30;
+  readonly idleTicks = 0;
+  readonly joinsAnySpeeds = false;
+  private readonly a1: Arguments = { rate: 0, accel: 0, clear: false };
+  private readonly a2: Arguments = { rate: 0, accel: 0, clear: false };
+
+  constructor(private readonly text: CommandText) {}
+
+  maxTicksForJerk(jerk: number): number {
+    return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
+  }
+
+  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+    const { a1, a2, text } = this;
+    aim(leg, leg.m1, m1, a1);
+    aim(leg, leg.m2, m2, a2);
+    // Both rates zero is refused by the board; nothing is lost by waiting for the next leg.
+    if (a1.rate === 0 && a2.rate === 0) return 0;
+    text.name("LT");
+    text.number(leg.ticks);
+    for (const a of [a1, a2]) {
+      text.number(a.rate);
+      text.number(a.accel);
+    }
+    const clear = (a1.clear ? 1 : 0) + (a2.clear ? 2 : 0);
+    if (clear !== 0) text.number(clear);
+    text.end();
+    run(a1, leg.ticks, m1);
+    run(a2, leg.ticks, m2);
+    return leg.ticks;
+  }
+}
+
+function aim(leg: Leg, motor: MotorLeg, place: MotorPlace, out: Arguments): void {
+  const { ticks } = leg;
+  const planned = motor.p1 - motor.p0;
+  const direction = planned < 0 || (planned === 0 && motor.v0 + motor.v1 < 0) ? -1 : 1;
+  const ahead = direction * (place.steps - motor.p0) - 0.5;
+  const errorKept = -(ahead + place.acc / RANGE);
+  const errorCleared = -ahead;
+  out.clear = Math.abs(errorCleared) + CLEAR_WORTH_STEPS < Math.abs(errorKept);
+  const error = out.clear ? errorCleared : errorKept;
+  const way = (Math.abs(planned) + correction(error, ticks, leg.isLast)) * RANGE;
+  const mean = way / ticks;
+  if (!(mean >= 1)) {
+    out.rate = out.accel = 0;
+    return;
+  }
+  const slope = (direction * (motor.v1 - motor.v0)) / ticks;
+  const steepest = (2 * Math.min(mean, HIGHEST_RATE - mean)) / (ticks + 1);
+  const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
+  const start = Math.round(mean - (accel * (ticks + 1)) / 2) + Math.trunc(accel / 2);
+  // At least 1: the direction is in the sign of the rate, and both rates zero would be refused.
+  out.rate = direction * Math.max(1, start);
+  out.accel = accel;
+  keepAboveZero(out, ticks);
+}
+
+/** Every tick's rate from 0 up: the first and the last one are the extremes. */
+function keepAboveZero(a: Arguments, ticks: number): void {
+  const { rate } = registersFor("half", a.rate, a.accel);
+  const lowest = Math.min(rate + a.accel, rate + ticks * a.accel);
+  if (lowest < 0) a.rate += Math.sign(a.rate) * -lowest;
+}
+
+function run(a: Arguments, ticks: number, place: MotorPlace): void {
+  if (a.clear) place.acc = 0;
+  const { rate, accel } = registersFor("half", a.rate, a.accel);
+  const sum = place.acc + sumOfRates(ticks, rate, accel, 0);
+  const steps = Math.floor(sum / RANGE);
+  place.steps += a.rate < 0 ? -steps : steps;
+  place.acc = sum - steps * RANGE;
+}

@@ -1,0 +1,277 @@
+/**
+ * The board's step generator, bit for bit, without counting ticks one by one.
+ *
+ * Every tick (40 µs) the interrupt adds a rate to each motor's 31-bit accumulator and steps when it
+ * overflows. A command loads three registers, and the rate of tick k = 1, 2, … is
+ *
+ *   r(k) = rate + k accel + jerk k(k+1)/2           sum of ticks 1 … t:
+ *   S(t) = t rate + accel t(t+1)/2 + jerk t(t+1)(t+2)/6
+ *   net steps = floor((acc + S)/2^31),  accumulator afterwards = (acc + S) mod 2^31
+ *
+ * The generations of firmware differ in how a command's arguments R, A, J become registers:
+ *
+ *   late   (to 2.6)      rate = R − A           accel = A        magnitudes; direction from the steps
+ *   half   (2.7 – 2.8)   rate = R − A/2         accel = A        magnitudes; direction from the steps or rate
+ *   signed (3.0 on)      rate = R − A/2 + J/6   accel = A − J    signed, 32 bits, division towards zero
+ *
+ * Source: ebb.c of each generation (evil-mad/EggBot). Exact in doubles: while |r| ≤ 2^31 every term of S
+ * stays below 2^53 up to MAX_PIECE_TICKS ticks; longer commands are taken piece by piece. A rate that
+ * leaves its range wraps as the registers do; the piece ends there and the next goes on with the wrapped rate.
+ */
+import { ACCUMULATOR_RANGE } from "../../../units.js";
+import type { TickArithmetic } from "../protocol/firmware.js";
+
+const RANGE = ACCUMULATOR_RANGE;
+const WORD = 2 ** 32;
+const MAX_PIECE_TICKS = 2 ** 16;
+/** A command that wraps its registers more often than this counts as one that never ends. */
+const MAX_PIECES = 100_000;
+
+/** One motor's registers; see the legend above. `forward` = false: its steps count down (late and half only). */
+export interface Registers {
+  readonly rate: number;
+  readonly accel: number;
+  readonly jerk: number;
+  readonly forward: boolean;
+}
+
+/** Registers that a command's signed arguments load. For late and half, the sign of `rate` is the direction. */
+export function registersFor(arithmetic: TickArithmetic, rate: number, accel: number, jerk = 0): Registers {
+  if (arithmetic === "signed") {
+    const loaded = rate - Math.trunc(accel / 2) + Math.trunc(jerk / 6);
+    return { rate: int32(loaded), accel: int32(accel - jerk), jerk, forward: true };
+  }
+  const magnitude = Math.abs(rate);
+  const taken = arithmetic === "late" ? accel : Math.trunc(accel / 2);
+  return { rate: magnitude - taken, accel, jerk: 0, forward: rate >= 0 && !Object.is(rate, -0) };
+}
+
+/** Rate of tick k. */
+export const rateAt = (k: number, rate: number, accel: number, jerk: number): number =>
+  rate + k * accel + jerk * ((k * (k + 1)) / 2);
+
+/** S(t): the sum of the rates of ticks 1 … t. Exact up to MAX_PIECE_TICKS while rates stay in range. */
+export const sumOfRates = (t: number, rate: number, accel: number, jerk: number): number =>
+  t * rate + accel * ((t * (t + 1)) / 2) + jerk * ((t * (t + 1) * (t + 2)) / 6);
+
+/** A stretch of ticks in which the rate keeps its sign and stays in range. */
+interface Piece {
+  /** Ticks before it. */
+  readonly fromTick: number;
+  readonly ticks: number;
+  readonly rate: number;
+  readonly accel: number;
+  readonly jerk: number;
+  /** Accumulator and net steps where it begins. */
+  readonly acc: number;
+  readonly net: number;
+}
+
+/** Where one motor stands after some ticks of a command. */
+export interface AxisPlace {
+  /** Signed steps since the command began. */
+  net: number;
+  acc: number;
+}
+
+/**
+ * One motor under one command, from its first tick to its last.
+ * `stepLimit`: the motor stops after that many steps in either direction (LM, L3, SM).
+ * `tickLimit`: it stops after that many ticks (LT, T3). One of both is Infinity.
+ */
+export class AxisMotion {
+  /** Ticks until this motor is done; Infinity when it never is. */
+  readonly ticks: number;
+  /** Steps made in either direction. */
+  readonly stepsMade: number;
+  /** Signed steps. */
+  readonly net: number;
+  /** Accumulator when done. */
+  readonly acc: number;
+  /** Rate of the last tick. */
+  readonly lastRate: number;
+  private readonly pieces: Piece[] = [];
+  private readonly forward: boolean;
+
+  constructor(
+    arithmetic: TickArithmetic,
+    registers: Registers,
+    acc: number,
+    stepLimit: number,
+    tickLimit: number,
+  ) {
+    this.forward = registers.forward;
+    const jerk = registers.jerk;
+    let { rate, accel } = registers;
+    let tick = 0;
+    let made = 0;
+    let net = 0;
+    let lastRate = rate;
+    let endless = false;
+    while (tick < tickLimit && made < stepLimit) {
+      if (arithmetic === "signed") accel = int32(accel);
+      rate = normalRate(arithmetic, rate, accel, jerk);
+      const isConstant = accel === 0 && jerk === 0;
+      if ((isConstant && rate === 0 && tickLimit === Infinity) || this.pieces.length >= MAX_PIECES) {
+        endless = true;
+        break;
+      }
+      const limit = isConstant ? longestConstantTicks(rate) : MAX_PIECE_TICKS;
+      let ticks = sameSignTicks(arithmetic, rate, accel, jerk, Math.min(limit, tickLimit - tick));
+      let steps = stepsAfter(ticks, rate, accel, jerk, acc);
+      if (made + Math.abs(steps) >= stepLimit) {
+        ticks = tickOfStep(stepLimit - made, ticks, rate, accel, jerk, acc);
+        steps = stepsAfter(ticks, rate, accel, jerk, acc);
+      }
+      this.pieces.push({ fromTick: tick, ticks, rate, accel, jerk, acc, net });
+      acc += sumOfRates(ticks, rate, accel, jerk) - steps * RANGE;
+      net += steps;
+      made += Math.abs(steps);
+      tick += ticks;
+      lastRate = rateAt(ticks, rate, accel, jerk);
+      rate = lastRate;
+      accel += ticks * jerk;
+    }
+    this.ticks = endless ? Infinity : tick;
+    this.stepsMade = made;
+    this.net = this.signed(net);
+    this.acc = acc;
+    this.lastRate = lastRate;
+  }
+
+  /** The place after `tick` ticks (0 … ticks; later ones stay at the end). */
+  placeAt(tick: number, out: AxisPlace): AxisPlace {
+    const piece = this.pieceAt(tick);
+    if (piece === undefined || tick >= this.ticks) {
+      out.net = this.net;
+      out.acc = this.acc;
+      return out;
+    }
+    const t = Math.max(0, Math.min(tick - piece.fromTick, piece.ticks));
+    const steps = stepsAfter(t, piece.rate, piece.accel, piece.jerk, piece.acc);
+    out.net = this.signed(piece.net + steps);
+    out.acc = piece.acc + sumOfRates(t, piece.rate, piece.accel, piece.jerk) - steps * RANGE;
+    return out;
+  }
+
+  /** Signed rate (counts a tick) during tick `tick` = 1 … ticks; 0 when the motor is done or has not begun. */
+  rateDuring(tick: number): number {
+    if (tick < 1 || tick > this.ticks) return 0;
+    const piece = this.pieceAt(tick - 1);
+    if (piece === undefined) return 0;
+    return this.signed(rateAt(tick - piece.fromTick, piece.rate, piece.accel, piece.jerk));
+  }
+
+  /** The registers as they stand after `tick` ticks: with them a motion can be taken up again. */
+  registersAfter(tick: number): Registers {
+    const piece = this.pieceAt(tick);
+    if (piece === undefined) return { rate: 0, accel: 0, jerk: 0, forward: this.forward };
+    const t = tick - piece.fromTick;
+    const rate = rateAt(t, piece.rate, piece.accel, piece.jerk);
+    return { rate, accel: piece.accel + t * piece.jerk, jerk: piece.jerk, forward: this.forward };
+  }
+
+  /** Steps in either direction within the first `tick` ticks. */
+  stepsMadeAfter(tick: number): number {
+    let made = 0;
+    for (const piece of this.pieces) {
+      if (piece.fromTick >= tick) break;
+      const t = Math.min(piece.ticks, tick - piece.fromTick);
+      made += Math.abs(stepsAfter(t, piece.rate, piece.accel, piece.jerk, piece.acc));
+    }
+    return made;
+  }
+
+  /** Late and half count magnitudes; 0 − n keeps zero from turning into −0. */
+  private signed(value: number): number {
+    return this.forward ? value : 0 - value;
+  }
+
+  private pieceAt(tick: number): Piece | undefined {
+    let low = 0;
+    let high = this.pieces.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.pieces[middle]!.fromTick <= tick) low = middle;
+      else high = middle - 1;
+    }
+    return this.pieces[low];
+  }
+}
+
+/** At a constant rate the sum stays exact for this long. */
+const longestConstantTicks = (rate: number): number => Math.floor(2 ** 52 / Math.max(1, Math.abs(rate)));
+
+/** Net steps within a piece after t of its ticks, counted in the sense of the rate. */
+const stepsAfter = (t: number, rate: number, accel: number, jerk: number, acc: number): number =>
+  Math.floor((acc + sumOfRates(t, rate, accel, jerk)) / RANGE);
+
+/** First tick of a piece by which `steps` steps were made; the piece makes at least that many. */
+function tickOfStep(
+  steps: number,
+  ticks: number,
+  rate: number,
+  accel: number,
+  jerk: number,
+  acc: number,
+): number {
+  let low = 1;
+  let high = ticks;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (Math.abs(stepsAfter(middle, rate, accel, jerk, acc)) >= steps) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}
+
+/** Brings the rate register into the range from which the coming tick's rate is in range. */
+function normalRate(arithmetic: TickArithmetic, rate: number, accel: number, jerk: number): number {
+  const first = rate + accel + jerk;
+  if (arithmetic === "signed") return rate - first + int32(first);
+  return rate - first + (((first % RANGE) + RANGE) % RANGE);
+}
+
+/** How many ticks (1 … limit) the rate stays in range and keeps the sign of the first one. */
+function sameSignTicks(
+  arithmetic: TickArithmetic,
+  rate: number,
+  accel: number,
+  jerk: number,
+  limit: number,
+): number {
+  const negative = rate + accel + jerk < 0;
+  const low = negative ? -RANGE : 0;
+  const high = negative ? -1 : RANGE - 1;
+  const inside = (k: number): boolean => {
+    const r = rateAt(k, rate, accel, jerk);
+    return r >= low && r <= high;
+  };
+  // Between its ends and its vertex the rate is monotone, so one comparison at each tells all.
+  let end = limit;
+  if (jerk !== 0) {
+    const vertex = -accel / jerk - 0.5;
+    if (vertex > 1 && vertex < end) end = Math.max(1, Math.floor(vertex));
+    if (arithmetic === "signed") end = Math.min(end, ticksBeforeAccelWraps(accel, jerk));
+  }
+  if (inside(end)) return end;
+  let good = 1;
+  let bad = end;
+  while (bad - good > 1) {
+    const middle = (good + bad) >> 1;
+    if (inside(middle)) good = middle;
+    else bad = middle;
+  }
+  return good;
+}
+
+/** The acceleration register is 32 bits as well. */
+function ticksBeforeAccelWraps(accel: number, jerk: number): number {
+  const room = jerk > 0 ? RANGE - 1 - accel : accel + RANGE;
+  return Math.max(1, Math.floor(room / Math.abs(jerk)));
+}
+
+function int32(value: number): number {
+  const wrapped = ((value % WORD) + WORD) % WORD;
+  return wrapped >= RANGE ? wrapped - WORD : wrapped;
+}

@@ -1,0 +1,24 @@
+/**
+ * The rate that the board itself works out for SM and XM: so many steps in so many milliseconds.
+ * Source: ebb.c of firmware 2.x and 3.x (evil-mad/EggBot).
+ */
+import type { TickArithmetic } from "../protocol/firmware.js";
+
+const SLOWEST_SHORT_MS = 30;
+
+/**
+ * Accumulator counts a tick for `steps` ≥ 0 in `ms` milliseconds; rounded down, so a move ends late, never early.
+ * Firmware 3 computes in single precision; older ones in integers, with only 15 bits up to 30 ms.
+ */
+export function slowRate(arithmetic: TickArithmetic, ms: number, steps: number): number {
+  if (ms <= 0) return Infinity;
+  if (arithmetic === "signed") {
+    const perMs = Math.fround(Math.fround(85_899_345.92) / Math.fround(ms));
+    return Math.trunc(Math.fround(Math.fround(steps) * perMs));
+  }
+  const ticks = 25 * ms;
+  if (ms <= SLOWEST_SHORT_MS) return Math.floor((steps * 2 ** 15) / ticks) * 2 ** 16;
+  const whole = Math.floor((Math.floor(steps / ms) * 2 ** 15) / 25);
+  const rest = Math.floor(((steps % ms) * 2 ** 15) / 25);
+  return whole * 2 ** 16 + Math.floor((rest * 2 ** 16) / ms);
+}

@@ -1,0 +1,150 @@
+/**
+ * Command lines of the EiBotBoard: those a plot begins and ends with, and a writer for the stream between.
+ */
+import { checkProfile } from "../../../machines/check-profile.js";
+import { servoPosFromPct } from "../../../machines/pen.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import { firmwareFeatures } from "./firmware.js";
+
+/** The servo goes its way in this part of the wait for it; the rest lets it come to rest. */
+const SERVO_PART_OF_WAIT = 0.65;
+const SERVO_FRAME_MS = 24;
+/** The standard servo's output: the only one that SP moves. */
+const STANDARD_PIN = 4;
+
+/** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
+export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
+  checkProfile(machine);
+  const features = firmwareFeatures(firmware);
+  const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
+  // Older boards keep their accumulators through EM: CS makes them known.
+  if (!features.enableClearsAccumulators && features.hasStepQuery) lines.push("CS");
+  return [...lines, ...penSetUpCommands(machine, pen)];
+}
+
+/** After the last plot: motors off, so that the carriage can be moved by hand. */
+export const closingCommands = (): string[] => ["EM,0,0"];
+
+/** Heights and speeds of the pen; they hold for every SP that follows. Empty where S2 moves the pen. */
+export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
+  const lift = penMoveOf(pen, true);
+  const drop = penMoveOf(pen, false);
+  const [upLine, upRateLine] = penMoveSetUp(machine, lift);
+  const [downLine, downRateLine] = penMoveSetUp(machine, drop);
+  return [upLine, downLine, upRateLine, downRateLine].filter((line) => line !== undefined);
+}
+
+/** One move of the pen from height to height. */
+export interface PenWay {
+  readonly up: boolean;
+  /** Where it ends, and how far that is, percent of the servo's range. */
+  readonly heightPct: number;
+  readonly wayPct: number;
+  /** The whole time from the command to a pen at rest. */
+  readonly timeMs: number;
+  /** As fast as asked for; null: as fast as it takes to be there in good time. */
+  readonly ratePctPerS?: number | null | undefined;
+}
+
+/** The move between the two heights of the settings. */
+export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
+  const wayPct = Math.abs(pen.upPct - pen.downPct);
+  const heightPct = up ? pen.upPct : pen.downPct;
+  const delayMs = up ? pen.liftMs : pen.dropMs;
+  const ratePctPerS = up ? pen.liftPctPerS : pen.dropPctPerS;
+  const timeMs = ratePctPerS ? delayMs + (1_000 * wayPct) / ratePctPerS : delayMs;
+  return { up, heightPct, wayPct, timeMs, ratePctPerS };
+}
+
+/** Height and speed of the SP of one direction; empty where S2 moves the pen. */
+export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
+  if (machine.controller.servoPin !== STANDARD_PIN) return [];
+  const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
+  return [
+    `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
+    `SC,${rateNumber},${servoRate(machine, way)}`,
+  ];
+}
+
+/** One pen move, holding the queue for `waitMs`. Heights and speeds of SP come from the set-up commands. */
+export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
+  const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
+  if (machine.controller.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
+  const position = servoPosFromPct(machine, way.heightPct);
+  return `S2,${position},${machine.controller.servoPin},${servoRate(machine, way)},${delayMs}`;
+}
+
+/** The longest delay that SP and S2 take. */
+export const MAX_DELAY_MS = 65_535;
+
+/** Change of servo position a 24 ms frame: the rate asked for, or one that is done with the way in good time. */
+function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
+  const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
+  const frames = ratePctPerS
+    ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
+    : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
+  const rate = ratePctPerS && wayPct === 0 ? 1 : (wayPct * unitsPerPct) / frames;
+  return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
+}
+
+const CR = 13;
+const COMMA = 44;
+const MINUS = 45;
+const ZERO = 48;
+
+/** Writes command lines into one growing block of ASCII. */
+export class CommandText {
+  private bytes: Uint8Array = new Uint8Array(1 << 12);
+  private length = 0;
+  private readonly digits = new Uint8Array(16);
+
+  get byteCount(): number {
+    return this.length;
+  }
+
+  /** A whole line, without its end. */
+  line(text: string): void {
+    this.name(text);
+    this.end();
+  }
+
+  name(text: string): void {
+    this.reserve(text.length);
+    for (let i = 0; i < text.length; i++) this.bytes[this.length++] = text.charCodeAt(i);
+  }
+
+  /** A comma and a whole number. */
+  number(value: number): void {
+    this.reserve(18);
+    this.bytes[this.length++] = COMMA;
+    let rest = value;
+    if (rest < 0) {
+      this.bytes[this.length++] = MINUS;
+      rest = -rest;
+    }
+    let count = 0;
+    do {
+      const next = Math.floor(rest / 10);
+      this.digits[count++] = ZERO + (rest - 10 * next);
+      rest = next;
+    } while (rest > 0);
+    while (count > 0) this.bytes[this.length++] = this.digits[--count]!;
+  }
+
+  end(): void {
+    this.reserve(1);
+    this.bytes[this.length++] = CR;
+  }
+
+  finish(): Uint8Array {
+    return this.bytes.slice(0, this.length);
+  }
+
+  private reserve(count: number): void {
+    if (this.length + count <= this.bytes.length) return;
+    const grown = new Uint8Array(2 * this.bytes.length + count);
+    grown.set(this.bytes);
+    this.bytes = grown;
+  }
+}

@@ -1,0 +1,137 @@
+/**
+ * What each firmware of the EiBotBoard can do: the one table that compiler, driver and virtual board read.
+ *
+ * Source: the firmware's release notes and ebb.c (repository evil-mad/EggBot).
+ */
+import { PlotwrightError } from "../../../errors.js";
+
+/** Which commands carry a plot: constant-rate slices, step-limited ramps, timed ramps, timed ramps with jerk. */
+export type MotionCommands = "slices" | "steps" | "timed" | "jerk";
+
+/**
+ * How the 25 kHz interrupt adds up rates.
+ * "late": the acceleration is added after the accumulator. "half": before it, with half a tick taken back,
+ * magnitudes only. "signed": as "half" with signed 32-bit rates and a jerk term.
+ */
+export type TickArithmetic = "late" | "half" | "signed";
+
+export interface FirmwareFeatures {
+  readonly version: string;
+  readonly motion: MotionCommands;
+  readonly arithmetic: TickArithmetic;
+  /** Ticks that pass at rest after every motion command. */
+  readonly idleTicks: number;
+  /** The same after a timed command (LT, T3). */
+  readonly idleTicksTimed: number;
+  /** Most commands that wait behind the running one (set by CU,4 where more than 1). */
+  readonly maxFifoDepth: number;
+  /** LM, LT, L3, T3 take a last argument that clears accumulators. */
+  readonly hasClear: boolean;
+  /** EM zeroes the accumulators too (it always zeroes the step counters). */
+  readonly enableClearsAccumulators: boolean;
+  readonly enableIsQueued: boolean;
+  readonly hasStepQuery: boolean;
+  readonly hasGeneralQuery: boolean;
+  readonly hasLimitQuery: boolean;
+  readonly hasHome: boolean;
+  /** SP,2: lift at once, past the queue. */
+  readonly hasImmediateLift: boolean;
+  /** ES drops a running LT too. */
+  readonly stopEndsTimed: boolean;
+  /** Replies can be switched to one line each, `NAME,values` (CU,10,1). */
+  readonly hasFutureSyntax: boolean;
+  /** Number of values in the reply to ES. */
+  readonly stopReplyValues: 1 | 5;
+}
+
+/** [version from which it holds, what changes]; later rows win. */
+const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
+  [
+    "0.0.0",
+    {
+      motion: "slices",
+      arithmetic: "late",
+      idleTicks: 1,
+      idleTicksTimed: 1,
+      maxFifoDepth: 1,
+      hasClear: false,
+      enableClearsAccumulators: false,
+      enableIsQueued: false,
+      hasStepQuery: false,
+      hasGeneralQuery: false,
+      hasLimitQuery: false,
+      hasHome: false,
+      hasImmediateLift: false,
+      stopEndsTimed: true,
+      hasFutureSyntax: false,
+      stopReplyValues: 5,
+    },
+  ],
+  ["2.4.3", { hasStepQuery: true }],
+  ["2.5.3", { motion: "steps" }],
+  ["2.6.2", { hasGeneralQuery: true, hasHome: true }],
+  [
+    "2.7.0",
+    {
+      motion: "timed",
+      arithmetic: "half",
+      idleTicks: 0,
+      idleTicksTimed: 0,
+      hasClear: true,
+      enableClearsAccumulators: true,
+      stopEndsTimed: false,
+    },
+  ],
+  ["2.8.0", { enableIsQueued: true }],
+  [
+    "3.0.0",
+    {
+      motion: "jerk",
+      arithmetic: "signed",
+      idleTicksTimed: 1,
+      maxFifoDepth: 32,
+      hasLimitQuery: true,
+      stopEndsTimed: true,
+      hasFutureSyntax: true,
+      stopReplyValues: 1,
+    },
+  ],
+  ["3.0.1", { hasImmediateLift: true }],
+];
+
+/** The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null when there is none. */
+export function firmwareFromReply(reply: string): string | null {
+  const match = /EBB.*?(\d+\.\d+(?:\.\d+)?)\s*$/.exec(reply.trim());
+  return match?.[1] ?? null;
+}
+
+/** −1, 0, 1 as `a` is older than, equal to or newer than `b`. Throws `bad-setting` for what is no version. */
+export function compareFirmware(a: string, b: string): number {
+  const x = parseVersion(a);
+  const y = parseVersion(b);
+  for (let i = 0; i < 3; i++) {
+    const difference = x[i]! - y[i]!;
+    if (difference !== 0) return Math.sign(difference);
+  }
+  return 0;
+}
+
+/** Looks a version up in the table. Versions between and after those listed take the row before them. */
+export function firmwareFeatures(version: string): FirmwareFeatures {
+  let features = { version } as FirmwareFeatures;
+  for (const [from, change] of TABLE) {
+    if (compareFirmware(version, from) >= 0) features = { ...features, ...change };
+  }
+  return features;
+}
+
+function parseVersion(version: string): readonly [number, number, number] {
+  const match = /^v?(\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?$/.exec(version.trim());
+  if (match === null) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `"${version}" is not a firmware version: expected three numbers such as 2.8.1.`,
+    );
+  }
+  return [Number(match[1]), Number(match[2]), Number(match[3] ?? 0)];
+}

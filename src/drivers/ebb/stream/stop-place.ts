@@ -1,0 +1,196 @@
+/**
+ * Where in its plan a board was stopped at once (ES). Its step counters alone do not say: a line may pass the same
+ * steps again and again, as at a narrow tip or where it goes back over itself.
+ *
+ *   which command   The question before ES, and the answer to it, say how many commands waited in the queue; all that
+ *                   were written are answered by then, so the one that ran is as many before the last one. It may
+ *                   have ended between question and ES: then it was the next.
+ *   where in it     the ticks after which its motors have made just the steps that the counters say, by the same
+ *                   arithmetic as the board's
+ *   which of these  Before firmware 3, ES tells how many steps of the command were left. Else the time of the stop:
+ *                   a motor that turns back within a command passes the same steps twice.
+ *
+ * Firmware 2.7 and 2.8 does not stop at all but plays what it has got: it stands where the last command ends.
+ */
+import type { BoardState } from "../compile/command-stream.js";
+import { commandLine } from "../compile/compile.js";
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { commandName } from "../protocol/replies.js";
+import { TICKS_PER_S } from "../../../units.js";
+import type { InFlight, StreamPlace } from "./timeline.js";
+import { MotionCommands } from "../model/motion-commands.js";
+import { RunningMove } from "../model/orders.js";
+import { Parameters } from "../model/parameters.js";
+
+type Steps = readonly [motor1: number, motor2: number];
+
+const NO_STEPS: Steps = [0, 0];
+/** Rounding of a plan's times against the board's. */
+const SAME_STEPS = 2;
+
+/** What is noted at a stop. */
+export interface StopNotes {
+  /** The board's time when it was told to stop, as the host has it. */
+  readonly boardS: number;
+  /** How many commands waited behind the running one just before; null: not told. */
+  waitingCount: number | null;
+  /** Of the running command, each motor's; null: not told. */
+  stepsLeft: readonly [number, number] | null;
+}
+
+export interface StopEvidence extends Readonly<StopNotes> {
+  /** The commands written last, in order. */
+  readonly commands: readonly InFlight[];
+  /** The one of them that the board has refused, so that it never ran. */
+  readonly refused?: InFlight | null;
+}
+
+/** `number`: of the command, as in `InFlight`. */
+export interface NumberedPlace extends StreamPlace {
+  readonly number: number;
+}
+
+/** The place of a stop whose counters say `steps1`, `steps2`, in the terms of the streams; null when nothing had run. */
+export function placeOfStop(
+  evidence: StopEvidence,
+  features: FirmwareFeatures,
+  steps1: number,
+  steps2: number,
+): NumberedPlace | null {
+  const { waitingCount, stepsLeft: left, refused } = evidence;
+  const commands = evidence.commands.filter((one) => one !== refused);
+  // Without the steps of a refused command, those after it run as much beside their plan.
+  const missing = refused ? stepsOf(refused, evidence.commands) : NO_STEPS;
+  const missingBefore = ({ number }: InFlight): Steps =>
+    refused && number > refused.number ? missing : NO_STEPS;
+  const last = commands[commands.length - 1];
+  if (!last) return null;
+  if (!features.stopEndsTimed) return placeIn(last, last.endS);
+  const first = waitingCount === null ? 0 : Math.max(0, commands.length - 1 - waitingCount);
+  const running = waitingCount === null ? commands : commands.slice(first, first + 2);
+  const boardS = Math.max(evidence.boardS, running[0]!.startS);
+  const fits = running.filter((command) => {
+    const { stream, index } = command;
+    const [missing1, missing2] = missingBefore(command);
+    const [end1, end2] = [stream.steps1[index]! - missing1, stream.steps2[index]! - missing2];
+    return !left || (left[0] === Math.abs(end1 - steps1) && left[1] === Math.abs(end2 - steps2));
+  });
+  const nearest = new NearestTick(features, steps1, steps2, boardS);
+  for (const command of fits.length > 0 ? fits : running) {
+    nearest.lookIn(command, stateBefore(command, evidence.commands), missingBefore(command));
+  }
+  return nearest.command && placeIn(nearest.command, nearest.boardS);
+}
+
+/** The place nearest to a board time at which the counters stood so; null where none of the commands passes there. */
+export function placeOfCounters(
+  commands: readonly InFlight[],
+  features: FirmwareFeatures,
+  steps1: number,
+  steps2: number,
+  boardS: number,
+): StreamPlace | null {
+  const nearest = new NearestTick(features, steps1, steps2, boardS);
+  for (const command of commands) {
+    const before = stateBefore(command, commands);
+    if (before && passes(command, before, steps1, steps2)) nearest.lookIn(command, before, NO_STEPS);
+  }
+  return nearest.command && nearest.offSteps <= SAME_STEPS ? placeIn(nearest.command, nearest.boardS) : null;
+}
+
+/** Whether a command's ends have the counters between them: most of them need no closer look. */
+function passes({ stream, index }: InFlight, before: BoardState, steps1: number, steps2: number): boolean {
+  const isBetween = (from: number, to: number, steps: number): boolean =>
+    steps >= Math.min(from, to) - SAME_STEPS && steps <= Math.max(from, to) + SAME_STEPS;
+  const [end1, end2] = [stream.steps1[index]!, stream.steps2[index]!];
+  return isBetween(before.steps1, end1, steps1) && isBetween(before.steps2, end2, steps2);
+}
+
+/** What a command adds to the counters. */
+function stepsOf(command: InFlight, commands: readonly InFlight[]): Steps {
+  const before = stateBefore(command, commands);
+  const { stream, index } = command;
+  return before ? [stream.steps1[index]! - before.steps1, stream.steps2[index]! - before.steps2] : NO_STEPS;
+}
+
+/** What the board held before a command; null for the very first one. */
+function stateBefore({ number, stream, index }: InFlight, commands: readonly InFlight[]): BoardState | null {
+  const before = index > 0 ? { stream, index: index - 1 } : commands.find((one) => one.number === number - 1);
+  if (!before) return null;
+  const { steps1, steps2, acc1, acc2 } = before.stream;
+  const i = before.index;
+  return { steps1: steps1[i]!, steps2: steps2[i]!, acc1: acc1[i]!, acc2: acc2[i]! };
+}
+
+function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: number): NumberedPlace {
+  const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
+  const fromS = stream.planS[index]!;
+  return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1]! - fromS) };
+}
+
+/** Of the ticks at which the counters come nearest to those told (they should be the same), the nearest in time. */
+class NearestTick {
+  command: InFlight | null = null;
+  boardS = 0;
+  offSteps = Infinity;
+  private offS = Infinity;
+
+  constructor(
+    private readonly features: FirmwareFeatures,
+    private readonly steps1: number,
+    private readonly steps2: number,
+    private readonly stopS: number,
+  ) {}
+
+  /** `missing`: steps that the counters lack against the command's plan. */
+  lookIn(command: InFlight, before: BoardState | null, [missing1, missing2]: Steps): void {
+    const { stream, index, startS, endS } = command;
+    const move = before && moveOf(commandLine(stream, index), this.features, before);
+    if (!move) {
+      const off = this.off(stream.steps1[index]! - missing1, stream.steps2[index]! - missing2);
+      this.offer(command, off, Math.min(endS, Math.max(startS, this.stopS)));
+      return;
+    }
+    const place = { net: 0, acc: 0 };
+    for (let tick = 0; tick <= move.ticks;) {
+      const off = this.off(
+        before.steps1 - missing1 + move.motion1.placeAt(tick, place).net,
+        before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
+      );
+      this.offer(command, off, startS + tick / TICKS_PER_S);
+      // A motor makes one step a tick at most.
+      tick += Math.max(1, off - this.offSteps);
+    }
+  }
+
+  private off(steps1: number, steps2: number): number {
+    return Math.max(Math.abs(steps1 - this.steps1), Math.abs(steps2 - this.steps2));
+  }
+
+  private offer(command: InFlight, offSteps: number, boardS: number): void {
+    const offS = Math.abs(boardS - this.stopS);
+    if (offSteps > this.offSteps || (offSteps === this.offSteps && offS >= this.offS)) return;
+    this.command = command;
+    this.boardS = boardS;
+    this.offSteps = offSteps;
+    this.offS = offS;
+  }
+}
+
+/** Null for a command in which the motors rest. */
+function moveOf(line: string, features: FirmwareFeatures, before: BoardState): RunningMove | null {
+  const name = commandName(line);
+  const parameters = new Parameters(line.slice(name.length));
+  const motion = new MotionCommands(features, () => false);
+  const orders =
+    name === "SM"
+      ? motion.slow(parameters, false)
+      : name === "LM"
+        ? motion.stepped(parameters, false)
+        : name === "LT" || name === "T3"
+          ? motion.timed(parameters, name === "T3")
+          : [];
+  const [order] = orders;
+  if (order?.kind !== "move") return null;
+  return RunningMove.begin(order, features.arithmetic, before.acc1, before.acc2);
+}

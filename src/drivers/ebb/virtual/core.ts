@@ -1,0 +1,428 @@
+/**
+ * The board behind its parser: motors, pen and the motion queue, as events in ticks.
+ *
+ * One order runs, up to `fifoDepth` wait. An order that waited begins at the very tick at which the one
+ * before it ends; one that comes later begins when it comes, and if the pen was moving that gap is an underrun.
+ */
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { sFromTicks, stepsPerSFromRate } from "../../../units.js";
+import { DrawnLine, type DrawnPolyline } from "./drawn-line.js";
+import { RunningMove, type Order } from "../model/orders.js";
+import { Servo } from "./servo.js";
+
+/** Below this a motor that stops between two commands has not been interrupted. */
+const MOVING_MM_PER_S = 1;
+const BOOT_SERVO_UP = 22_565;
+const BOOT_SERVO_DOWN = 15_302;
+const BOOT_SERVO_RATE = 400;
+
+export interface BoardStatistics {
+  readonly moveCount: number;
+  /** Seconds spent in moves. */
+  readonly movingS: number;
+  /** Seconds in moves, pen waits and delays. */
+  readonly busyS: number;
+  readonly penMoveCount: number;
+  /** Times the queue ran dry while the pen was moving, and for how long it stood. */
+  readonly underrunCount: number;
+  readonly underrunS: number;
+  readonly longestUnderrunS: number;
+  /** Largest change of velocity from one move to the next, rest included. */
+  readonly largestJumpMmPerS: number;
+  /** Longest time that one motor of a step-limited move stood while the other went on. */
+  readonly longestMotorWaitS: number;
+  /** mm moved with the pen down, by motor path. */
+  readonly drawnMm: number;
+  readonly travelMm: number;
+  /** Moves that began while the pen's servo was still on its way. */
+  readonly movesBeforePenArrivedCount: number;
+}
+
+interface Running {
+  readonly order: Order;
+  readonly startTick: number;
+  readonly endTick: number;
+  readonly move: RunningMove | null;
+}
+
+export class BoardCore {
+  /** Board time in ticks of 40 µs; not always whole, since commands arrive when they do. */
+  nowTick = 0;
+  steps1 = 0;
+  steps2 = 0;
+  acc1 = 0;
+  acc2 = 0;
+  /** What the board says of its pen; it knows only the standard output. */
+  penUp = true;
+  /** EM modes 1 … 5, 0 = off. */
+  mode1 = 0;
+  mode2 = 0;
+  lastMode = 1;
+  fifoDepth = 1;
+  autoEnable = true;
+  servoUp = BOOT_SERVO_UP;
+  servoDown = BOOT_SERVO_DOWN;
+  servoRateUp = BOOT_SERVO_RATE;
+  servoRateDown = BOOT_SERVO_RATE;
+  servoUsed = false;
+  readonly fifo: Order[] = [];
+
+  /** Where the pen really is. */
+  private isLifted = true;
+  private running: Running | null = null;
+  private servo = new Servo(BOOT_SERVO_UP);
+  private line: DrawnLine | null;
+  /** Since when the motion stands still (a fault); null while it runs. */
+  private frozenTick: number | null = null;
+  /** False: moves take their time and make no step (a fault). */
+  private makesSteps = true;
+  /** False: steps are counted, but the motors do not turn (no supply), so nothing is drawn. */
+  private turnsMotors = true;
+  private readonly totals = {
+    moveCount: 0,
+    movingTicks: 0,
+    busyTicks: 0,
+    penMoveCount: 0,
+    underrunCount: 0,
+    underrunTicks: 0,
+    longestUnderrunTicks: 0,
+    largestJumpMmPerS: 0,
+    longestMotorWaitTicks: 0,
+    drawnMm: 0,
+    travelMm: 0,
+    movesBeforePenArrivedCount: 0,
+  };
+  /** How the last move ended; null once anything but a move came after it. */
+  private lastMove: { endTick: number; v1: number; v2: number } | null = null;
+
+  constructor(
+    readonly features: FirmwareFeatures,
+    readonly machine: MachineProfile,
+    recordLine: boolean,
+  ) {
+    this.line = recordLine ? new DrawnLine(machine, false) : null;
+  }
+
+  get isBusy(): boolean {
+    return this.running !== null;
+  }
+
+  get hasRoom(): boolean {
+    return this.running === null || this.fifo.length < this.fifoDepth;
+  }
+
+  /** Tick of the running order's end; Infinity when nothing runs or it never ends. */
+  get nextEventTick(): number {
+    return this.frozenTick === null ? (this.running?.endTick ?? Infinity) : Infinity;
+  }
+
+  /** Whether the running order stands still, neither moving nor ending. Later it goes on where it stood. */
+  setFrozen(isFrozen: boolean): void {
+    if (isFrozen === (this.frozenTick !== null)) return;
+    if (isFrozen) {
+      this.frozenTick = this.nowTick;
+      return;
+    }
+    const { running } = this;
+    if (running !== null) {
+      const standstill = this.nowTick - this.motionTick;
+      const { startTick, endTick } = running;
+      this.running = { ...running, startTick: startTick + standstill, endTick: endTick + standstill };
+    }
+    this.frozenTick = null;
+  }
+
+  /** Whether moves make steps, or pass without any. */
+  setMakesSteps(makesSteps: boolean): void {
+    this.splitRunning();
+    this.makesSteps = makesSteps;
+  }
+
+  /** Whether the motors follow the steps that are counted. */
+  setTurnsMotors(turnsMotors: boolean): void {
+    if (turnsMotors === this.turnsMotors) return;
+    this.splitRunning();
+    this.turnsMotors = turnsMotors;
+    this.line?.begin(!this.isLifted, ...this.stepsNow());
+  }
+
+  /** Where on its way the running order is. */
+  private get motionTick(): number {
+    return this.frozenTick === null
+      ? this.nowTick
+      : Math.max(this.frozenTick, this.running?.startTick ?? this.frozenTick);
+  }
+
+  enqueue(order: Order): void {
+    if (this.running === null) this.start(order);
+    else this.fifo.push(order);
+  }
+
+  /** The running order has ended (at `nowTick`); the next begins. */
+  finishRunning(): void {
+    const running = this.running;
+    if (running === null) return;
+    this.settle(running, running.endTick);
+    this.running = null;
+    const next = this.fifo.shift();
+    if (next !== undefined) this.start(next);
+  }
+
+  /** ES. Returns whether moves were lost, and what was left of them. */
+  stop(): {
+    hit: boolean;
+    waiting1: number;
+    waiting2: number;
+    left1: number;
+    left2: number;
+  } {
+    const running = this.running;
+    const { arithmetic, stopEndsTimed } = this.features;
+    // Before firmware 3 the pen's moves and delays go on.
+    const isStoppable = (order: Order): boolean =>
+      arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !order.isTimed));
+    let hit = false;
+    let left: [number, number] = [0, 0];
+    const waiting = this.fifo.filter((order) => order.kind === "move" && isStoppable(order));
+    const waitingSteps = waiting.map((order) => (order.kind === "move" ? order : null));
+    if (running !== null && isStoppable(running.order)) {
+      hit = running.move !== null;
+      left = this.stepsLeft(running);
+      this.settle(running, this.motionTick);
+      this.running = null;
+    }
+    hit ||= waiting.length > 0;
+    const kept = this.fifo.filter((order) => !isStoppable(order));
+    this.fifo.length = 0;
+    this.fifo.push(...kept);
+    this.lastMove = null;
+    if (this.running === null) {
+      const next = this.fifo.shift();
+      if (next !== undefined) this.start(next);
+    }
+    const finite = (steps: number | undefined): number =>
+      steps !== undefined && Number.isFinite(steps) ? steps : 0;
+    return {
+      hit,
+      waiting1: finite(waitingSteps[0]?.axis1.steps),
+      waiting2: finite(waitingSteps[0]?.axis2.steps),
+      left1: left[0],
+      left2: left[1],
+    };
+  }
+
+  /** Step counters at this instant. */
+  stepsNow(): [number, number] {
+    const { running } = this;
+    if (running === null || running.move === null || !this.makesSteps) return [this.steps1, this.steps2];
+    const tick = Math.floor(this.motionTick - running.startTick);
+    const place = { net: 0, acc: 0 };
+    const net1 = running.move.motion1.placeAt(tick, place).net;
+    const net2 = running.move.motion2.placeAt(tick, place).net;
+    return [this.steps1 + net1, this.steps2 + net2];
+  }
+
+  /** CS, and EM on every firmware; the running move goes on. */
+  clearSteps(clearAccumulators: boolean): void {
+    this.splitRunning(() => {
+      this.steps1 = this.steps2 = 0;
+      if (clearAccumulators) this.acc1 = this.acc2 = 0;
+    });
+    this.line?.begin(!this.isLifted, 0, 0);
+  }
+
+  motorsMoving(): [boolean, boolean] {
+    const running = this.running;
+    if (running === null || running.move === null) return [false, false];
+    const tick = this.motionTick - running.startTick;
+    // Timed moves keep their ticks in motor 1's step field, so only its flag shows, whichever runs.
+    if (running.move.order.isTimed) return [true, false];
+    return [tick < running.move.motion1.ticks, tick < running.move.motion2.ticks];
+  }
+
+  moveServo(position: number, rate: number): void {
+    this.servo.moveTo(position, rate, this.nowTick);
+    this.servoUsed = true;
+  }
+
+  servoPosition(): number {
+    return this.servo.positionAt(this.nowTick);
+  }
+
+  /** The real pen goes up or down: a new stroke, or the end of one. */
+  liftPen(up: boolean): void {
+    if (up === this.isLifted) return;
+    this.isLifted = up;
+    this.totals.penMoveCount++;
+    const [steps1, steps2] = this.stepsNow();
+    this.line?.begin(!up, steps1, steps2);
+  }
+
+  enableMotors(mode1: number, mode2: number | null): void {
+    this.mode1 = mode1;
+    if (mode1 !== 0) this.lastMode = mode1;
+    if (mode2 !== null) this.mode2 = mode2 === 0 ? 0 : this.lastMode;
+    this.clearSteps(this.features.enableClearsAccumulators);
+  }
+
+  /** The same board after a reset: boot defaults, queue and counters lost, time and drawn line kept. */
+  rebooted(): BoardCore {
+    const running = this.running;
+    if (running !== null) this.settle(running, this.motionTick);
+    this.running = null;
+    const fresh = new BoardCore(this.features, this.machine, false);
+    fresh.nowTick = this.nowTick;
+    fresh.line = this.line;
+    Object.assign(fresh.totals, this.totals);
+    fresh.line?.begin(false, 0, 0);
+    fresh.turnsMotors = this.turnsMotors;
+    return fresh;
+  }
+
+  /** What was drawn until now, the running move included. */
+  drawn(): DrawnPolyline[] {
+    // The line is sampled as orders end: settle the part that is done, then go on from there.
+    this.splitRunning();
+    return this.line?.polylines() ?? [];
+  }
+
+  statistics(): BoardStatistics {
+    const { movingTicks, busyTicks, underrunTicks, longestUnderrunTicks, longestMotorWaitTicks, ...counts } =
+      this.totals;
+    return {
+      ...counts,
+      movingS: sFromTicks(movingTicks),
+      busyS: sFromTicks(busyTicks),
+      underrunS: sFromTicks(underrunTicks),
+      longestUnderrunS: sFromTicks(longestUnderrunTicks),
+      longestMotorWaitS: sFromTicks(longestMotorWaitTicks),
+    };
+  }
+
+  private start(order: Order): void {
+    if (order.kind === "move") {
+      this.startMove(RunningMove.begin(order, this.features.arithmetic, this.acc1, this.acc2), order);
+      return;
+    }
+    this.lastMove = null;
+    let ticks = 1;
+    if (order.kind === "servo") {
+      if (order.movesPen) {
+        this.liftPen(order.penUp ?? order.position > this.servoPosition());
+        this.moveServo(order.position, order.rate);
+      }
+      if (order.penUp !== null) this.penUp = order.penUp;
+      ticks = Math.max(1, order.ticks);
+    } else if (order.kind === "enable") {
+      this.enableMotors(order.mode1, order.mode2);
+    } else {
+      ticks = Math.max(1, order.ticks);
+    }
+    this.running = { order, startTick: this.nowTick, endTick: this.nowTick + ticks, move: null };
+  }
+
+  private startMove(move: RunningMove, order: Order): void {
+    if (this.autoEnable) {
+      this.mode1 = this.lastMode;
+      this.mode2 = this.lastMode;
+    }
+    this.totals.moveCount++;
+    if (this.servo.arrivalTick > this.nowTick + 1) this.totals.movesBeforePenArrivedCount++;
+    this.noteJoint(move);
+    const { motion1, motion2 } = move;
+    if (motion1.ticks > 0 && motion2.ticks > 0) {
+      const waitTicks = Math.abs(motion1.ticks - motion2.ticks);
+      this.totals.longestMotorWaitTicks = Math.max(this.totals.longestMotorWaitTicks, waitTicks);
+    }
+    this.running = { order, startTick: this.nowTick, endTick: this.nowTick + move.ticks, move };
+  }
+
+  /** Gap and jump between the last move and this one. */
+  private noteJoint(move: RunningMove): void {
+    const { totals } = this;
+    let before = this.lastMove;
+    if (before !== null) {
+      const gapTicks = this.nowTick - before.endTick;
+      const isMoving = this.speedMmPerS(before.v1, before.v2) > MOVING_MM_PER_S;
+      if (gapTicks > 0.5 && isMoving) {
+        totals.underrunCount++;
+        totals.underrunTicks += gapTicks;
+        totals.longestUnderrunTicks = Math.max(totals.longestUnderrunTicks, gapTicks);
+      }
+      if (gapTicks > 0.5) before = null;
+    }
+    const v1 = move.motion1.rateDuring(1) - (before?.v1 ?? 0);
+    const v2 = move.motion2.rateDuring(1) - (before?.v2 ?? 0);
+    totals.largestJumpMmPerS = Math.max(totals.largestJumpMmPerS, this.speedMmPerS(v1, v2));
+  }
+
+  private speedMmPerS(rate1: number, rate2: number): number {
+    const s1 = stepsPerSFromRate(rate1);
+    const s2 = stepsPerSFromRate(rate2);
+    return Math.hypot(xFromMotors(this.machine, s1, s2), yFromMotors(this.machine, s1, s2));
+  }
+
+  /** Takes over what a running order has done up to `tick`. */
+  private settle(running: Running, tick: number): void {
+    const { move } = running;
+    // The difference of two late times is not exactly the whole ticks of the move.
+    const isOver = move !== null && tick >= running.endTick;
+    const ticks = isOver ? move.ticks : Math.max(0, Math.min(tick, running.endTick) - running.startTick);
+    this.totals.busyTicks += ticks;
+    if (move === null) return;
+    this.totals.movingTicks += ticks;
+    if (!this.makesSteps) {
+      this.lastMove = null;
+      return;
+    }
+    const done = Math.floor(ticks);
+    if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2);
+    const place1 = move.motion1.placeAt(done, { net: 0, acc: 0 });
+    const place2 = move.motion2.placeAt(done, { net: 0, acc: 0 });
+    this.steps1 += place1.net;
+    this.steps2 += place2.net;
+    this.acc1 = place1.acc;
+    this.acc2 = place2.acc;
+    const wayMm = this.speedMmPerS(place1.net * RATE_OF_ONE_STEP_A_S, place2.net * RATE_OF_ONE_STEP_A_S);
+    if (this.isLifted) this.totals.travelMm += wayMm;
+    else this.totals.drawnMm += wayMm;
+    this.lastMove = {
+      endTick: tick,
+      v1: lastRate(move.motion1, done),
+      v2: lastRate(move.motion2, done),
+    };
+  }
+
+  /** Takes over what a running move has done, lets something be changed, and goes on with the rest of it. */
+  private splitRunning(change: () => void = () => undefined): void {
+    const { running } = this;
+    if (running === null || running.move === null) {
+      change();
+      return;
+    }
+    const tick = this.motionTick;
+    this.settle(running, tick);
+    change();
+    const done = Math.floor(tick - running.startTick);
+    const rest = running.move.restAfter(done, this.acc1, this.acc2);
+    const startTick = running.startTick + done;
+    this.running = { order: rest.order, startTick, endTick: startTick + rest.ticks, move: rest };
+  }
+
+  private stepsLeft(running: Running): [number, number] {
+    const { move, order } = running;
+    if (move === null || order.kind !== "move" || order.isTimed) return [0, 0];
+    const tick = Math.floor(this.motionTick - running.startTick);
+    return [
+      order.axis1.steps - move.motion1.stepsMadeAfter(tick),
+      order.axis2.steps - move.motion2.stepsMadeAfter(tick),
+    ];
+  }
+}
+
+const RATE_OF_ONE_STEP_A_S = 1 / stepsPerSFromRate(1);
+
+const lastRate = (motion: RunningMove["motion1"], ticks: number): number =>
+  motion.rateDuring(Math.min(ticks, motion.ticks));

@@ -1,0 +1,407 @@
+/**
+ * The board's commands: one table from name to what it does, and the bytes with which it answers.
+ *
+ * A command is answered when it has been taken (queued, or done where it acts at once). One that has to wait
+ * (full queue, CU,4 and HM until all is still) blocks everything behind it, as the board's parser does.
+ */
+import { commandName, replyShape } from "../protocol/replies.js";
+import { compareFirmware } from "../protocol/firmware.js";
+import type { BoardCore } from "./core.js";
+import { MotionCommands } from "../model/motion-commands.js";
+import type { Order } from "../model/orders.js";
+import { BoardFault, Parameters } from "../model/parameters.js";
+import { BoardQueries, type BoardInputs } from "./queries.js";
+import { TICKS_PER_S } from "../../../units.js";
+
+const MAX_LINE_BYTES = 255;
+const MS16 = 65_535;
+/** SP moves the servo on RB1; others go by S2. */
+const STANDARD_PIN = 4;
+const TICKS_PER_MS = TICKS_PER_S / 1_000;
+
+/** What a command does once it is parsed. */
+interface Action {
+  /** Orders for the queue, each taken as soon as there is room. */
+  readonly orders?: readonly Order[];
+  /** Waits until nothing runs, then does this. */
+  readonly whenIdle?: () => readonly Order[];
+  /** Values to answer; read when the command is answered. */
+  readonly values?: () => string;
+  /** No answer at all. */
+  readonly isSilent?: boolean;
+  /** Exactly these bytes. */
+  readonly raw?: string;
+  /** After the answer. */
+  readonly then?: () => void;
+}
+
+type Handler = (parameters: Parameters) => Action;
+
+/** Switches of the board that outlive a command but not a reset. */
+interface Switches {
+  future: boolean;
+  sendsOk: boolean;
+  testMode: boolean;
+}
+
+export interface InterpreterHooks {
+  readonly send: (text: string) => void;
+  /** R: boot defaults, the USB line stays. */
+  readonly reset: () => void;
+  /** RB, BL: the USB line drops. */
+  readonly restart: () => void;
+}
+
+export class Interpreter {
+  private readonly switches: Switches = { future: false, sendsOk: true, testMode: false };
+  private readonly motion: MotionCommands;
+  private readonly queries: BoardQueries;
+  private readonly handlers: ReadonlyMap<string, Handler>;
+  private blocked: { name: string; action: Action; orders: Order[]; extra: boolean } | null = null;
+
+  constructor(
+    private readonly core: BoardCore,
+    private readonly inputs: BoardInputs,
+    private readonly hooks: InterpreterHooks,
+  ) {
+    this.motion = new MotionCommands(core.features, () => this.switches.testMode);
+    this.queries = new BoardQueries(core, inputs);
+    this.handlers = this.commands();
+  }
+
+  /** A command waits for room or rest; nothing more is parsed until it is through. */
+  get isBlocked(): boolean {
+    return this.blocked !== null;
+  }
+
+  /** Parses one line (without its end) and does what it says. */
+  run(line: string): void {
+    if (line.length > MAX_LINE_BYTES) {
+      this.sendError("", new BoardFault(3, "Err: RX Buffer overrun"));
+      return;
+    }
+    const name = (line[1] === "," ? line.slice(0, 1) : line.slice(0, 2)).toUpperCase();
+    const rest = line.slice(name.length);
+    const handler = this.handlers.get(name);
+    try {
+      if (handler === undefined) throw unknownCommand(name);
+      if (rest !== "" && !rest.startsWith(",")) {
+        throw new BoardFault(5, `Err: Need comma next, found: '${rest[0]}'`);
+      }
+      const parameters = new Parameters(rest);
+      const action = handler(parameters);
+      this.blocked = { name, action, orders: [...(action.orders ?? [])], extra: parameters.hasMore };
+      this.resume();
+    } catch (error) {
+      if (!(error instanceof BoardFault)) throw error;
+      this.sendError(name, error);
+    }
+  }
+
+  /** Called whenever the queue has moved on. */
+  resume(): void {
+    const { blocked, core } = this;
+    if (blocked === null) return;
+    if (blocked.action.whenIdle !== undefined) {
+      if (core.isBusy) return;
+      blocked.orders.push(...blocked.action.whenIdle());
+      blocked.action = {};
+    }
+    while (blocked.orders.length > 0) {
+      if (!core.hasRoom) return;
+      core.enqueue(blocked.orders.shift()!);
+    }
+    this.blocked = null;
+    this.answer(blocked.name, blocked.action);
+    if (blocked.extra) this.sendError(blocked.name, new BoardFault(7, "Err: Extra parameter"));
+    blocked.action.then?.();
+  }
+
+  private answer(name: string, action: Action): void {
+    if (action.isSilent === true) return;
+    if (action.raw !== undefined) {
+      this.hooks.send(action.raw);
+      return;
+    }
+    const values = action.values?.();
+    if (this.switches.future) {
+      const extraLine = name === "QU" ? "\n" : "";
+      this.hooks.send((values === undefined ? name : `${name},${values}`) + "\n" + extraLine);
+      return;
+    }
+    const shape = replyShape(name);
+    let text = "";
+    if (values !== undefined) text += (shape.isNamed ? `${name},` : "") + values + (shape.valueEnd ?? "");
+    if (shape.ok) text += this.okText();
+    this.hooks.send(text);
+  }
+
+  private okText(): string {
+    if (this.switches.sendsOk) return "OK\r\n";
+    return this.core.features.hasFutureSyntax ? "\r\n" : "";
+  }
+
+  private sendError(name: string, fault: BoardFault): void {
+    if (this.switches.future && name !== "") this.hooks.send(`${name},!${fault.code} ${fault.text}\n`);
+    else this.hooks.send(`!${fault.code} ${fault.text}\r\n`);
+  }
+
+  private has(version: string): boolean {
+    return compareFirmware(this.core.features.version, version) >= 0;
+  }
+
+  private commands(): ReadonlyMap<string, Handler> {
+    const table: [string, string, Handler][] = [
+      ["V", "0.0.0", () => ({ values: () => this.queries.versionText() })],
+      ["SM", "0.0.0", (p) => ({ orders: this.motion.slow(p, false) })],
+      ["XM", "2.3.0", (p) => ({ orders: this.motion.slow(p, true) })],
+      ["LM", "2.5.0", (p) => ({ orders: this.motion.stepped(p, false) })],
+      ["L3", "3.0.0", (p) => ({ orders: this.motion.stepped(p, true) })],
+      ["LT", "2.7.0", (p) => ({ orders: this.motion.timed(p, false) })],
+      ["T3", "3.0.0", (p) => ({ orders: this.motion.timed(p, true) })],
+      ["TD", "3.0.1", (p) => ({ orders: this.motion.timedDouble(p) })],
+      ["HM", "2.6.2", (p) => this.home(p)],
+      ["SP", "0.0.0", (p) => this.pen(p)],
+      ["TP", "0.0.0", (p) => this.togglePen(p)],
+      ["S2", "2.2.0", (p) => this.servo(p)],
+      ["SC", "0.0.0", (p) => this.configure(p)],
+      ["SE", "2.2.0", (p) => this.engraver(p)],
+      ["EM", "0.0.0", (p) => this.enable(p)],
+      ["ES", "2.2.7", (p) => this.stop(p)],
+      ["CS", "2.4.3", () => this.done(() => this.core.clearSteps(true))],
+      ["CU", "0.0.0", (p) => this.configureUser(p)],
+      ["R", "0.0.0", () => ({ then: this.hooks.reset })],
+      ["RB", "2.5.4", () => ({ isSilent: true, then: this.hooks.restart })],
+      ["BL", "0.0.0", () => ({ isSilent: true, then: this.hooks.restart })],
+      ["QM", "2.2.6", () => ({ values: () => this.queries.motorsText() })],
+      ["QG", "2.6.2", () => ({ values: () => this.queries.generalText() })],
+      ["QS", "2.4.3", () => ({ values: () => this.core.stepsNow().join(",") })],
+      ["QP", "0.0.0", () => ({ values: () => (this.core.penUp ? "1" : "0") })],
+      ["QB", "0.0.0", () => ({ values: () => this.queries.takeButton() })],
+      ["QC", "2.2.3", () => ({ values: () => this.queries.currentText() })],
+      ["QE", "2.8.0", () => ({ values: () => this.queries.microstepText() })],
+      ["QR", "2.5.6", () => ({ values: () => (this.core.servoUsed ? "1" : "0") })],
+      ["QN", "0.0.0", () => ({ values: () => this.queries.padded(this.inputs.nodeCount, 10) })],
+      ["QL", "0.0.0", (p) => this.queryLayer(p)],
+      ["QT", "2.5.4", () => ({ values: () => this.inputs.name })],
+      ["QU", "3.0.0", (p) => this.queryUtility(p)],
+      ["SR", "2.5.6", (p) => this.servoTimeout(p)],
+      ["SL", "0.0.0", (p) => this.setLayer(p)],
+      ["SN", "0.0.0", (p) => this.setNode(p.uint())],
+      ["NI", "0.0.0", () => this.setNode(this.inputs.nodeCount + 1)],
+      ["ND", "0.0.0", () => this.setNode(this.inputs.nodeCount - 1)],
+      ["ST", "2.5.4", (p) => this.setName(p)],
+      ["PI", "0.0.0", (p) => this.pinInput(p)],
+      ["PO", "0.0.0", (p) => this.pinOutput(p)],
+      ["PD", "0.0.0", (p) => this.pinOutput(p)],
+    ];
+    return new Map(table.filter(([, since]) => this.has(since)).map(([name, , run]) => [name, run]));
+  }
+
+  // motors
+
+  private home(p: Parameters): Action {
+    const order = this.motion.home(p);
+    return { whenIdle: () => order(this.core.steps1, this.core.steps2) };
+  }
+
+  private enable(p: Parameters): Action {
+    const mode1 = p.uint(5);
+    if (!p.hasMore) {
+      // One argument: firmware from 2.8 on reads it and does nothing.
+      return this.core.features.enableIsQueued
+        ? { isSilent: !this.switches.future, raw: "EM" }
+        : this.done(() => this.core.enableMotors(mode1, null));
+    }
+    const mode2 = p.uint(5);
+    if (this.core.features.enableIsQueued) return { orders: [{ kind: "enable", mode1, mode2 }] };
+    return this.done(() => this.core.enableMotors(mode1, mode2));
+  }
+
+  private stop(p: Parameters): Action {
+    const disable = p.optionalUint(0, 1);
+    const { hit, waiting1, waiting2, left1, left2 } = this.core.stop();
+    if (disable === 1 && this.has("2.8.0")) {
+      this.core.mode1 = 0;
+      this.core.mode2 = 0;
+    }
+    const flag = hit ? 1 : 0;
+    const isShort = this.core.features.stopReplyValues === 1;
+    return { values: () => (isShort ? `${flag}` : [flag, waiting1, waiting2, left1, left2].join(",")) };
+  }
+
+  // pen and outputs
+
+  private pen(p: Parameters): Action {
+    const value = p.uint(3);
+    const { core } = this;
+    if (value > 1) {
+      if (!core.features.hasImmediateLift) throw new BoardFault(6, "Err: Invalid parameter value");
+      if (value === 3) this.liftForGood();
+      return this.done(() => {
+        core.moveServo(core.servoUp, core.servoRateUp);
+        core.penUp = true;
+        core.liftPen(true);
+      });
+    }
+    const delayMs = p.optionalUint(0, MS16);
+    if (p.hasMore) p.uint(24);
+    return { orders: [this.penOrder(value === 1, delayMs)] };
+  }
+
+  private penOrder(up: boolean, delayMs: number): Order {
+    const { core } = this;
+    return {
+      kind: "servo",
+      position: up ? core.servoUp : core.servoDown,
+      rate: up ? core.servoRateUp : core.servoRateDown,
+      ticks: delayMs * TICKS_PER_MS,
+      penUp: up,
+      movesPen: core.machine.controller.servoPin === STANDARD_PIN,
+      isPen: true,
+    };
+  }
+
+  /** SP,3: waiting pen-down orders go up too, and down means up from now on. */
+  private liftForGood(): void {
+    const { core } = this;
+    core.servoDown = core.servoUp;
+    core.fifo.forEach((order, i) => {
+      if (order.kind === "servo" && order.isPen) core.fifo[i] = { ...order, position: core.servoUp };
+    });
+  }
+
+  private togglePen(p: Parameters): Action {
+    return { orders: [this.penOrder(!this.core.penUp, p.optionalUint(0, MS16))] };
+  }
+
+  private servo(p: Parameters): Action {
+    const position = p.uint(MS16);
+    const pin = p.uint(24);
+    const rate = p.optionalUint(0, MS16);
+    const delayMs = p.optionalUint(0, MS16);
+    if (position === 0) return {};
+    // On the standard output, the board takes the pen for up only at exactly the height of SC,4.
+    const penUp = pin === STANDARD_PIN ? position === this.core.servoUp : null;
+    return {
+      orders: [
+        {
+          kind: "servo",
+          position,
+          rate,
+          ticks: delayMs * TICKS_PER_MS,
+          penUp,
+          movesPen: pin === this.core.machine.controller.servoPin,
+          isPen: false,
+        },
+      ],
+    };
+  }
+
+  private configure(p: Parameters): Action {
+    const which = p.uint(255);
+    const value = p.uint(MS16);
+    const { core } = this;
+    if (which === 4) core.servoUp = value;
+    else if (which === 5) core.servoDown = value;
+    else if (which === 10) core.servoRateUp = core.servoRateDown = value;
+    else if (which === 11) core.servoRateUp = value;
+    else if (which === 12) core.servoRateDown = value;
+    else if (which === 1 && value > 2) throw new BoardFault(6, "Err: Invalid parameter value");
+    return {};
+  }
+
+  private engraver(p: Parameters): Action {
+    p.uint(1);
+    p.optionalUint(0, 1_023);
+    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "output", ticks: 1 }] } : {};
+  }
+
+  private servoTimeout(p: Parameters): Action {
+    const ms = p.uint();
+    if (p.hasMore) this.core.servoUsed = p.uint(1) === 1;
+    return this.done(() => (this.inputs.servoTimeoutMs = ms));
+  }
+
+  // settings
+
+  private configureUser(p: Parameters): Action {
+    const which = p.uint(255);
+    const value = p.int();
+    const { core, switches } = this;
+    if (which === 1) return this.done(() => (switches.sendsOk = value !== 0));
+    if (which === 50) return this.done(() => (core.autoEnable = value !== 0));
+    if (which === 60) return this.done(() => (this.inputs.powerThreshold = value));
+    if (!core.features.hasFutureSyntax) return {};
+    if (which === 4) {
+      const depth = Math.min(core.features.maxFifoDepth, value);
+      return {
+        whenIdle: () => {
+          core.fifoDepth = depth;
+          return [];
+        },
+      };
+    }
+    if (which === 10) {
+      switches.future = value !== 0;
+      return { raw: switches.future ? "\n" : "CUOK\r\n" };
+    }
+    if (which === 251) return this.done(() => (switches.testMode = value !== 0));
+    return {};
+  }
+
+  private queryUtility(p: Parameters): Action {
+    const which = p.uint(255);
+    const { core } = this;
+    const answers: Record<number, number> = {
+      1: 0,
+      2: core.features.maxFifoDepth,
+      3: core.fifoDepth,
+      6: core.fifo.length,
+    };
+    const answer = answers[which];
+    if (answer === undefined) throw new BoardFault(6, "Err: Invalid parameter value");
+    const echoes = !this.has("3.0.2");
+    return { values: () => (echoes ? `${which},${answer}` : `${answer}`) };
+  }
+
+  private setLayer(p: Parameters): Action {
+    const value = p.uint(255);
+    const index = p.optionalUint(0, 31);
+    return this.done(() => (this.inputs.layer[index] = value));
+  }
+
+  private queryLayer(p: Parameters): Action {
+    const index = p.optionalUint(0, 31);
+    return { values: () => this.queries.padded(this.inputs.layer[index]!, 3) };
+  }
+
+  private setNode(value: number): Action {
+    return this.done(() => (this.inputs.nodeCount = value >>> 0));
+  }
+
+  private setName(p: Parameters): Action {
+    const name = p.text(16);
+    return this.done(() => (this.inputs.name = name));
+  }
+
+  private pinInput(p: Parameters): Action {
+    p.text(8);
+    return { values: () => (this.inputs.buttonDown ? "0" : "1") };
+  }
+
+  private pinOutput(p: Parameters): Action {
+    p.text(8);
+    return {};
+  }
+
+  private done(work: () => unknown): Action {
+    work();
+    return {};
+  }
+}
+
+function unknownCommand(name: string): BoardFault {
+  const hex = [...name].map((c) => c.charCodeAt(0).toString(16).toUpperCase().padStart(2, "0")).join("");
+  return new BoardFault(8, `Err: Unknown command '${commandName(name)}:${hex}'`);
+}

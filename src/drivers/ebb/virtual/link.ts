@@ -1,0 +1,92 @@
+/** The host's end of an in-process line to the virtual board, with the system's buffer in between. */
+import { PlotwrightError } from "../../../errors.js";
+import type { Transport } from "../../transport.js";
+
+interface LinkTarget {
+  readonly accepting: () => boolean;
+  readonly nowTick: () => number;
+  readonly take: (bytes: Uint8Array, arrivalTick: number) => void;
+}
+
+interface OutboxEntry {
+  readonly bytes: Uint8Array;
+  taken: number;
+  /** When the host wrote it: it waits in the system's buffer, so it is at hand the moment the board reads. */
+  readonly tick: number;
+  readonly resolve: () => void;
+  readonly reject: (error: Error) => void;
+}
+
+const PACKET_BYTES = 64;
+
+export class VirtualLink implements Transport {
+  private readonly outbox: OutboxEntry[] = [];
+  private dataListener: ((bytes: Uint8Array) => void) | null = null;
+  private closeListener: ((error?: Error) => void) | null = null;
+  private closed = false;
+  private isPumping = false;
+
+  constructor(
+    private readonly systemLimit: number,
+    private readonly target: LinkTarget,
+  ) {}
+
+  write(bytes: Uint8Array): Promise<void> {
+    if (this.closed) {
+      return Promise.reject(
+        new PlotwrightError("disconnected", "The virtual board's line is closed: open it again."),
+      );
+    }
+    return new Promise((resolve, reject) => {
+      this.outbox.push({ bytes: bytes.slice(), taken: 0, tick: this.target.nowTick(), resolve, reject });
+      this.pump();
+    });
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.dataListener = listener;
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.closeListener = listener;
+  }
+
+  close(): Promise<void> {
+    this.drop();
+    return Promise.resolve();
+  }
+
+  /** Ends the line; `error` says why, undefined after a plain close. */
+  drop(error?: Error): void {
+    if (this.closed) return;
+    this.closed = true;
+    for (const entry of this.outbox.splice(0)) {
+      entry.reject(error ?? new PlotwrightError("disconnected", "The line was closed before this was sent."));
+    }
+    this.closeListener?.(error);
+  }
+
+  deliver(bytes: Uint8Array): void {
+    if (!this.closed) this.dataListener?.(bytes);
+  }
+
+  /** Hands over packets while the board reads; a write counts as taken once the rest fits into the system's buffer. */
+  pump(): void {
+    if (this.isPumping) return;
+    this.isPumping = true;
+    while (!this.closed && this.outbox.length > 0 && this.target.accepting()) {
+      const entry = this.outbox[0]!;
+      const packet = entry.bytes.subarray(entry.taken, entry.taken + PACKET_BYTES);
+      entry.taken += packet.length;
+      if (entry.taken >= entry.bytes.length) this.outbox.shift()!.resolve();
+      this.target.take(packet, entry.tick);
+    }
+    this.isPumping = false;
+    let waitingBytes = 0;
+    for (const entry of this.outbox) {
+      waitingBytes += entry.bytes.length - entry.taken;
+      if (waitingBytes > this.systemLimit) break;
+      entry.resolve();
+    }
+  }
+}

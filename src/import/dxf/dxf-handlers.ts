@@ -1,0 +1,161 @@
+/**
+ * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH; LWPOLYLINE, of
+ * which it loses vertices, or never ends, where other groups stand between them; and POLYLINE, which it never ends where
+ * another entity stands in place of a VERTEX or SEQEND. Read group by group (AutoCAD DXF reference, ENTITIES) and
+ * registered with the parser, in whose form they come out.
+ */
+import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
+import { aciColor } from "./aci-color.js";
+import { bulgedVertices, readHatchLoops } from "./dxf-hatch.js";
+import { readPattern } from "./dxf-pattern.js";
+
+export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
+  class {
+    readonly ForEntityName = "LWPOLYLINE";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      const groups = groupsOf(scanner);
+      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
+      return { ...commonOf("LWPOLYLINE", groups), shape: isClosed, vertices: bulgedVertices(groups) };
+    }
+  },
+  class {
+    readonly ForEntityName = "POLYLINE";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      const groups = groupsOf(scanner);
+      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
+      const vertices: DxfPoint[] = [];
+      while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
+      // Without its SEQEND the line ends where another entity begins.
+      if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
+      return { ...commonOf("POLYLINE", groups), shape: isClosed, vertices };
+    }
+  },
+  class {
+    readonly ForEntityName = "TEXT";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      return textOf("TEXT", groupsOf(scanner), 73);
+    }
+  },
+  class {
+    readonly ForEntityName = "ATTRIB";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      return textOf("ATTRIB", groupsOf(scanner), 74);
+    }
+  },
+  class {
+    readonly ForEntityName = "MTEXT";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      return mtextOf(groupsOf(scanner));
+    }
+  },
+  class {
+    readonly ForEntityName = "HATCH";
+    parseEntity(scanner: DxfScanner): DxfEntity {
+      const groups = groupsOf(scanner);
+      return {
+        ...commonOf("HATCH", groups),
+        isSolid: numberIn(groups, 70) === 1,
+        loops: readHatchLoops(groups),
+        pattern: readPattern(groups),
+      };
+    }
+  },
+];
+
+/** All groups up to the next entity, where the scanner stays. */
+function groupsOf(scanner: DxfScanner): DxfGroup[] {
+  const groups: DxfGroup[] = [];
+  let group = scanner.next();
+  while (group.code !== 0 && !scanner.isEOF()) {
+    groups.push(group);
+    group = scanner.next();
+  }
+  // What an embedded object says repeats the entity's own groups with other values.
+  const embedded = groups.findIndex(({ code }) => code === 101);
+  return embedded < 0 ? groups : groups.slice(0, embedded);
+}
+
+function numberIn(groups: readonly DxfGroup[], code: number): number | undefined {
+  const value = groups.find((group) => group.code === code)?.value;
+  return typeof value === "number" && Number.isFinite(value) ? value : undefined;
+}
+
+const textIn = (groups: readonly DxfGroup[], code: number): string =>
+  String(groups.find((group) => group.code === code)?.value ?? "");
+
+function pointIn(groups: readonly DxfGroup[], code: number): DxfPoint | undefined {
+  const x = numberIn(groups, code);
+  const y = numberIn(groups, code + 10);
+  return x === undefined || y === undefined ? undefined : { x, y };
+}
+
+const vertexOf = (groups: readonly DxfGroup[]): DxfPoint => ({
+  x: numberIn(groups, 10) ?? 0,
+  y: numberIn(groups, 20) ?? 0,
+  bulge: numberIn(groups, 42) ?? 0,
+  splineControlPoint: ((numberIn(groups, 70) ?? 0) & 16) !== 0,
+});
+
+/** What every entity may have, under the parser's own names. */
+function commonOf(type: string, groups: readonly DxfGroup[]): DxfEntity {
+  const colorIndex = numberIn(groups, 62);
+  const color =
+    numberIn(groups, 420) ?? (colorIndex === undefined ? undefined : aciColor(Math.abs(colorIndex)));
+  return {
+    type,
+    layer: textIn(groups, 8) || "0",
+    visible: (numberIn(groups, 60) ?? 0) === 0,
+    inPaperSpace: (numberIn(groups, 67) ?? 0) !== 0,
+    ...(colorIndex === undefined ? {} : { colorIndex }),
+    ...(color === undefined ? {} : { color }),
+    extrusionDirectionZ: numberIn(groups, 230) ?? 1,
+  };
+}
+
+function textOf(type: string, groups: readonly DxfGroup[], valignCode: number): DxfEntity {
+  const isInvisible = type === "ATTRIB" && ((numberIn(groups, 70) ?? 0) & 1) === 1;
+  const common = commonOf(type, groups);
+  const start = pointIn(groups, 10);
+  const end = pointIn(groups, 11);
+  const flags = numberIn(groups, 71) ?? 0;
+  return {
+    ...common,
+    visible: common.visible === true && !isInvisible,
+    writing: {
+      text: textIn(groups, 1),
+      style: textIn(groups, 7),
+      height: numberIn(groups, 40) ?? 1,
+      widthFactor: numberIn(groups, 41) ?? 1,
+      angleDeg: numberIn(groups, 50) ?? 0,
+      obliqueDeg: numberIn(groups, 51) ?? 0,
+      isBackward: (flags & 2) !== 0,
+      isUpsideDown: (flags & 4) !== 0,
+      start: start ?? { x: 0, y: 0 },
+      end: end ?? null,
+      halign: numberIn(groups, 72) ?? 0,
+      valign: numberIn(groups, valignCode) ?? 0,
+    },
+  };
+}
+
+function mtextOf(groups: readonly DxfGroup[]): DxfEntity {
+  const along = pointIn(groups, 11);
+  const turned = along === undefined ? undefined : (Math.atan2(along.y, along.x) * 180) / Math.PI;
+  return {
+    ...commonOf("MTEXT", groups),
+    paragraphs: {
+      // Long texts come in pieces, the last of them under 1.
+      text: groups
+        .filter(({ code }) => code === 1 || code === 3)
+        .map(({ value }) => String(value))
+        .join(""),
+      style: textIn(groups, 7),
+      height: numberIn(groups, 40) ?? 1,
+      width: numberIn(groups, 41) ?? 0,
+      angleDeg: turned ?? numberIn(groups, 50) ?? 0,
+      at: pointIn(groups, 10) ?? { x: 0, y: 0 },
+      attachment: numberIn(groups, 71) ?? 1,
+      lineSpacing: numberIn(groups, 44) ?? 1,
+    },
+  };
+}

@@ -1,0 +1,182 @@
+/**
+ * The boundaries of a HATCH: polylines, or chains of lines, arcs and splines that may stand either way round
+ * (AutoCAD DXF reference, HATCH and its boundary path data). Each becomes a closed ring.
+ */
+import type { DxfEntity, DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC } from "../../drawing/drawing.js";
+import { IDENTITY } from "../../geometry/affine.js";
+import { drawDxfEntity } from "./dxf-shapes.js";
+import { ShapeBuffer } from "../shape-buffer.js";
+
+/** The edges of a ring, as entities; a polyline is one of them alone. */
+export type HatchLoop = readonly DxfEntity[];
+
+const LOOP = 92;
+const IS_POLYLINE = 2;
+const EDGE = 72;
+/** The paths stand between their count and the style of the hatch. */
+const PATH_COUNT = 91;
+const STYLE = 75;
+const TURN = 2 * Math.PI;
+const RAD_PER_DEG = Math.PI / 180;
+
+export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
+  const from = groups.findIndex(({ code }) => code === PATH_COUNT) + 1;
+  const style = groups.findIndex(({ code }, i) => i >= from && code === STYLE);
+  const paths = splitAt(groups.slice(from, style < 0 ? undefined : style), LOOP);
+  return ofStyle(paths, Number(groups[style]?.value ?? 0)).map(([flags, ...path]) =>
+    (Number(flags.value) & IS_POLYLINE) !== 0
+      ? [{ type: "LWPOLYLINE", shape: true, vertices: bulgedVertices(path) }]
+      : splitAt(path, EDGE)
+          .map(edgeOf)
+          .filter((edge) => edge !== null),
+  );
+}
+
+/** Style 1 leaves out what is inside of islands, 2 all islands: 1 marks an outer loop, 16 an outermost island. */
+function ofStyle(paths: readonly DxfGroup[][], style: number): readonly DxfGroup[][] {
+  const marks = style === 1 ? 1 | 16 : style === 2 ? 1 : 0;
+  const kept = paths.filter(([flags]) => marks === 0 || (Number(flags.value) & marks) !== 0);
+  // Not every program marks its loops.
+  return kept.length > 0 ? kept : paths;
+}
+
+/** Stretches that begin with a group of that code; what is before the first is dropped. */
+function splitAt(groups: readonly DxfGroup[], code: number): DxfGroup[][] {
+  const parts: DxfGroup[][] = [];
+  for (const group of groups) {
+    if (group.code === code) parts.push([group]);
+    else parts.at(-1)?.push(group);
+  }
+  return parts;
+}
+
+/** Vertices as 10, 20 and 42, whatever stands between them. */
+export const bulgedVertices = (groups: readonly DxfGroup[]): DxfPoint[] =>
+  splitAt(groups, 10).map((vertex) => ({
+    x: Number(vertex[0].value),
+    y: numbersOf(vertex, 20)[0] ?? 0,
+    bulge: numbersOf(vertex, 42)[0] ?? 0,
+  }));
+
+function edgeOf([kind, ...groups]: readonly DxfGroup[]): DxfEntity | null {
+  const [at] = pointsOf(groups, 10);
+  const [to] = pointsOf(groups, 11);
+  const [size = 0] = numbersOf(groups, 40);
+  if (at === undefined) return null;
+  switch (kind.value) {
+    case 1:
+      return { type: "LINE", vertices: [at, to ?? at] };
+    case 2:
+      return { type: "ARC", center: at, radius: size, ...anglesOf(groups, 1) };
+    case 3:
+      return {
+        type: "ELLIPSE",
+        center: at,
+        majorAxisEndPoint: to,
+        axisRatio: size,
+        ...anglesOf(groups, size),
+      };
+    case 4:
+      return {
+        type: "SPLINE",
+        degreeOfSplineCurve: numbersOf(groups, 94)[0] ?? 3,
+        knotValues: numbersOf(groups, 40),
+        controlPoints: pointsOf(groups, 10),
+      };
+    default:
+      return null;
+  }
+}
+
+/** In the ellipse's own parameter, anticlockwise; the file counts those of clockwise arcs the other way round. */
+function anglesOf(groups: readonly DxfGroup[], axisRatio: number): { startAngle: number; endAngle: number } {
+  const [start = 0] = numbersOf(groups, 50);
+  const [end = 360] = numbersOf(groups, 51);
+  if (Math.abs(end - start) > 360 - 1e-9) return { startAngle: 0, endAngle: TURN };
+  const parameter = (deg: number): number => {
+    const angle = deg * RAD_PER_DEG;
+    return axisRatio === 1 ? angle : Math.atan2(Math.sin(angle), axisRatio * Math.cos(angle));
+  };
+  const isClockwise = numbersOf(groups, 73)[0] === 0;
+  return isClockwise
+    ? { startAngle: parameter(-end), endAngle: parameter(-start) }
+    : { startAngle: parameter(start), endAngle: parameter(end) };
+}
+
+const numbersOf = (groups: readonly DxfGroup[], code: number): number[] =>
+  groups.filter((group) => group.code === code).map(({ value }) => Number(value));
+
+function pointsOf(groups: readonly DxfGroup[], code: number): DxfPoint[] {
+  const ys = numbersOf(groups, code + 10);
+  return numbersOf(groups, code).map((x, i) => ({ x, y: ys[i] ?? 0 }));
+}
+
+/** Draws each loop as a closed ring; units of the file, y up. */
+export function drawHatch(loops: readonly HatchLoop[], shape: ShapeBuffer, arcTolerance: number): void {
+  for (const loop of loops) {
+    const chain: Piece[] = [];
+    for (const edge of loop) {
+      const drawn = new ShapeBuffer();
+      drawDxfEntity(edge, drawn, arcTolerance);
+      drawn.finish();
+      // A polyline or whole circle is a ring of its own.
+      if (drawn.verbs.data[drawn.verbs.length - 1] === VERB_CLOSE) shape.append(drawn, IDENTITY);
+      else if (!drawn.isEmpty) chain.push(pieceOf(drawn));
+    }
+    drawRing(chain, shape);
+  }
+}
+
+/** A chain of lines and curves, which may be turned round. */
+interface Piece {
+  readonly verbs: readonly number[];
+  readonly points: readonly DxfPoint[];
+}
+
+function pieceOf({ verbs, coords }: ShapeBuffer): Piece {
+  const xy = coords.data;
+  return {
+    verbs: Array.from(verbs.data.subarray(1, verbs.length)),
+    points: Array.from({ length: coords.length / 2 }, (_, i) => ({ x: xy[2 * i], y: xy[2 * i + 1] })),
+  };
+}
+
+const turned = ({ verbs, points }: Piece): Piece => ({
+  verbs: [...verbs].reverse(),
+  points: [...points].reverse(),
+});
+
+const distance = (a: DxfPoint, b: DxfPoint): number => Math.hypot(a.x - b.x, a.y - b.y);
+const first = ({ points }: Piece): DxfPoint => points[0];
+const last = ({ points }: Piece): DxfPoint => points[points.length - 1];
+
+/** Each piece the way round in which it goes on from the one before. */
+function drawRing(chain: readonly Piece[], shape: ShapeBuffer): void {
+  if (chain.length === 0) return;
+  let [piece, next] = chain;
+  if (next !== undefined && gapTo(next, first(piece)) < gapTo(next, last(piece))) piece = turned(piece);
+  shape.moveTo(first(piece).x, first(piece).y);
+  addPiece(piece, shape);
+  for (next of chain.slice(1)) {
+    const end = last(piece);
+    piece = distance(end, last(next)) < distance(end, first(next)) ? turned(next) : next;
+    if (distance(end, first(piece)) > 0) shape.lineTo(first(piece).x, first(piece).y);
+    addPiece(piece, shape);
+  }
+  shape.close();
+}
+
+const gapTo = (piece: Piece, point: DxfPoint): number =>
+  Math.min(distance(first(piece), point), distance(last(piece), point));
+
+/** From its first point, where the pen is. */
+function addPiece({ verbs, points }: Piece, shape: ShapeBuffer): void {
+  let at = 1;
+  for (const verb of verbs) {
+    const [a, b, c] = points.slice(at, at + PAIRS_OF_VERB[verb]);
+    if (verb === VERB_CUBIC) shape.cubicTo(a.x, a.y, b.x, b.y, c.x, c.y);
+    else shape.lineTo(a.x, a.y);
+    at += PAIRS_OF_VERB[verb];
+  }
+}

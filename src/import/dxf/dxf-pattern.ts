@@ -1,0 +1,175 @@
+/**
+ * The pattern of a HATCH as the lines that it is made of: families of parallel lines, each dashed in its own way, cut
+ * to the boundary (AutoCAD DXF reference, hatch pattern data). The file has angles, offsets and dashes as they
+ * lie in the drawing, turned and scaled.
+ *
+ *        ╱     ╱         o     base point of the line that is number 0
+ *       ╱  ↗  ╱          ↗     offset to the next line: spacing across it, and the shift of its dashes along it
+ *      o     ╱           u, v  along the lines and across them; line k is v = v(base) + k · spacing
+ *
+ * Method: edges of the boundary, curves as chords, are cut by the lines that they cross; the cuts of each line sorted,
+ * inside and outside alternate (even-odd, as for islands). Dashes count from the line's own point.
+ */
+import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../../drawing/drawing.js";
+import { flattenCubic } from "../../geometry/cubic.js";
+import { PointBuffer } from "../../geometry/growable.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
+
+/** Parallel lines. */
+export interface PatternLine {
+  readonly angleDeg: number;
+  readonly base: DxfPoint;
+  readonly offset: DxfPoint;
+  /** Drawn, and negative left out; 0 is a dot. None: the line is whole. */
+  readonly dashes: readonly number[];
+}
+
+const LINE_COUNT = 78;
+const LINE = 53;
+const RAD_PER_DEG = Math.PI / 180;
+/** Lines and dashes of one hatch: beyond that it is a mistake in the scale, or as good as a filled area. */
+const MOST_PIECES = 200_000;
+
+export function readPattern(groups: readonly DxfGroup[]): PatternLine[] {
+  const from = groups.findIndex(({ code }) => code === LINE_COUNT);
+  const lines: { angleDeg: number; values: Map<number, number>; dashes: number[] }[] = [];
+  for (const { code, value } of from < 0 ? [] : groups.slice(from + 1)) {
+    // What follows the pattern: its seeds.
+    if (code === 98) break;
+    const number = Number(value);
+    if (code === LINE) lines.push({ angleDeg: number, values: new Map(), dashes: [] });
+    else if (code === 49) lines.at(-1)?.dashes.push(number);
+    else lines.at(-1)?.values.set(code, number);
+  }
+  return lines.map(({ angleDeg, values, dashes }) => ({
+    angleDeg,
+    base: { x: values.get(43) ?? 0, y: values.get(44) ?? 0 },
+    offset: { x: values.get(45) ?? 0, y: values.get(46) ?? 0 },
+    dashes,
+  }));
+}
+
+/** Draws the pattern within the rings; false, and nothing drawn, where it has no lines or too many of them. */
+export function drawPattern(
+  rings: ShapeBuffer,
+  pattern: readonly PatternLine[],
+  shape: ShapeBuffer,
+  tolerance: number,
+): boolean {
+  const polygons = polygonsOf(rings, tolerance);
+  const cuts = pattern.map((line) => cutsOf(polygons, line));
+  let pieces = 0;
+  for (const cut of cuts) pieces += cut === null ? Infinity : cut.pieces;
+  if (pattern.length === 0 || polygons.length === 0 || !(pieces <= MOST_PIECES)) return false;
+  for (const cut of cuts) if (cut !== null) drawCuts(cut, shape);
+  return true;
+}
+
+/** Corners x, y of each ring; tolerance in the file's units. */
+function polygonsOf({ verbs, coords }: ShapeBuffer, tolerance: number): Float64Array[] {
+  const polygons: Float64Array[] = [];
+  const out = new PointBuffer();
+  const end = (): void => {
+    if (out.length > 4) polygons.push(out.data.slice(0, out.length));
+    out.length = 0;
+  };
+  for (let i = 0, at = 0; i < verbs.length; i++) {
+    const verb = verbs.data[i];
+    if (verb === VERB_MOVE) end();
+    const [a, b, c, d, e, f] = coords.data.subarray(at, at + 6);
+    if (verb === VERB_CUBIC) {
+      const [x, y] = out.data.subarray(out.length - 2, out.length);
+      flattenCubic(out, x, y, a, b, c, d, e, f, tolerance);
+    } else if (verb !== VERB_CLOSE) out.push(a, b);
+    at += 2 * PAIRS_OF_VERB[verb];
+  }
+  end();
+  return polygons;
+}
+
+/** Where lines of one family cross the boundary: by number of the line, the u of its cuts. */
+interface Cuts {
+  readonly line: PatternLine;
+  readonly cos: number;
+  readonly sin: number;
+  readonly spacing: number;
+  /** Of a dash to the same dash of its next turn; 0 for whole lines. */
+  readonly period: number;
+  readonly byLine: ReadonlyMap<number, readonly number[]>;
+  /** Lines and dashes that it comes to, at most. */
+  readonly pieces: number;
+}
+
+/** Null where lines lie on each other, or would be too many to count. */
+function cutsOf(polygons: readonly Float64Array[], line: PatternLine): Cuts | null {
+  const { base, offset, angleDeg, dashes } = line;
+  const [cos, sin] = [Math.cos(angleDeg * RAD_PER_DEG), Math.sin(angleDeg * RAD_PER_DEG)];
+  const spacing = offset.y * cos - offset.x * sin;
+  const period = dashes.reduce((sum, dash) => sum + Math.abs(dash), 0);
+  const byLine = new Map<number, number[]>();
+  let count = 0;
+  for (const xy of polygons) {
+    for (let p = 0, q = xy.length - 2; p < xy.length; q = p, p += 2) {
+      const [u0, k0] = [xy[q] - base.x, xy[q + 1] - base.y];
+      const [u1, k1] = [xy[p] - base.x, xy[p + 1] - base.y];
+      const [n0, n1] = [(k0 * cos - u0 * sin) / spacing, (k1 * cos - u1 * sin) / spacing];
+      // A corner on a line counts for the edge on one side of it only.
+      const [first, end] = [Math.ceil(Math.min(n0, n1)), Math.ceil(Math.max(n0, n1))];
+      count += end - first;
+      if (!(count <= 2 * MOST_PIECES)) return null;
+      const [along0, along1] = [u0 * cos + k0 * sin, u1 * cos + k1 * sin];
+      for (let k = first; k < end; k++) {
+        const u = along0 + ((k - n0) / (n1 - n0)) * (along1 - along0);
+        const cuts = byLine.get(k);
+        if (cuts === undefined) byLine.set(k, [u]);
+        else cuts.push(u);
+      }
+    }
+  }
+  let pieces = 0;
+  for (const cuts of byLine.values()) {
+    cuts.sort((a, b) => a - b);
+    for (let i = 0; i + 1 < cuts.length; i += 2)
+      pieces += period > 0 ? dashes.length * ((cuts[i + 1] - cuts[i]) / period + 1) : 1;
+  }
+  return { line, cos, sin, spacing, period, byLine, pieces };
+}
+
+function drawCuts({ line, cos, sin, spacing, period, byLine }: Cuts, shape: ShapeBuffer): void {
+  const { base, offset, dashes } = line;
+  const shift = offset.x * cos + offset.y * sin;
+  for (const k of [...byLine.keys()].sort((a, b) => a - b)) {
+    const v = k * spacing;
+    const piece = (from: number, to: number): void => {
+      shape.moveTo(base.x + from * cos - v * sin, base.y + from * sin + v * cos);
+      shape.lineTo(base.x + to * cos - v * sin, base.y + to * sin + v * cos);
+    };
+    const cuts = byLine.get(k) as number[];
+    for (let i = 0; i + 1 < cuts.length; i += 2) {
+      if (!(cuts[i + 1] > cuts[i])) continue;
+      if (period > 0) drawDashes(dashes, period, k * shift, cuts[i], cuts[i + 1], piece);
+      else piece(cuts[i], cuts[i + 1]);
+    }
+  }
+}
+
+/** What of the dashes that begin at `origin` lies between two cuts. */
+function drawDashes(
+  dashes: readonly number[],
+  period: number,
+  origin: number,
+  from: number,
+  to: number,
+  piece: (from: number, to: number) => void,
+): void {
+  const turns = [Math.floor((from - origin) / period), Math.ceil((to - origin) / period)] as const;
+  for (let turn = turns[0]; turn < turns[1]; turn++) {
+    let at = origin + turn * period;
+    for (const dash of dashes) {
+      const [start, end] = [Math.max(at, from), Math.min(at + Math.abs(dash), to)];
+      if (dash >= 0 && (end > start || (dash === 0 && end === start && start < to))) piece(start, end);
+      at += Math.abs(dash);
+    }
+  }
+}

@@ -1,0 +1,125 @@
+/**
+ * The formats that drawings come in. A new one is an entry in FORMATS, a line in READERS and its reader; page, server,
+ * watched folder and command line go by these.
+ *
+ * FORMATS stands apart from READERS, so that the page knows the names of files without loading what reads them.
+ */
+import type { Drawing } from "../drawing/drawing.js";
+import { PlotwrightError } from "../errors.js";
+import { importDxf } from "./dxf/import-dxf.js";
+import { importHpgl } from "./hpgl/import-hpgl.js";
+import type { ImportOptions } from "./import-options.js";
+import { importPolylines } from "./json/import-polylines.js";
+import { importSvgSteps, type Pause } from "./svg/import-svg.js";
+
+export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
+
+interface Format {
+  /** What people call it. */
+  readonly name: string;
+  /** Of file names, without the dot; the usual one first. */
+  readonly extensions: readonly string[];
+  /** Whether a text is of this format, by its first few thousand characters without blanks before them. */
+  readonly isBegun: (head: string) => boolean;
+}
+
+/** Escape sequences that may set up the port before HPGL's first command. */
+const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/;
+const HPGL_START =
+  /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
+
+export const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
+  svg: { name: "SVG", extensions: ["svg"], isBegun: (head) => head.startsWith("<") },
+  dxf: {
+    name: "DXF",
+    extensions: ["dxf"],
+    isBegun: (head) => /^(AutoCAD Binary DXF|0\s*\r?\n\s*SECTION|999\s*\r?\n)/.test(head),
+  },
+  hpgl: {
+    name: "HPGL",
+    extensions: ["hpgl", "hpg", "hgl", "plt"],
+    isBegun: (head) => HPGL_START.test(head.replace(PORT_SET_UP, "")),
+  },
+  json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
+};
+
+/** Reads in steps of a few milliseconds; the generator's result is the drawing. Throws PlotwrightError("bad-file"). */
+type Reader = (text: string, options: ImportOptions) => Generator<void, Drawing>;
+
+const READERS: Readonly<Record<DrawingFormat, Reader>> = {
+  svg: importSvgSteps,
+  dxf: inOneStep(importDxf),
+  hpgl: inOneStep(importHpgl),
+  json: inOneStep(importPolylines),
+};
+
+function inOneStep(read: (text: string, options: ImportOptions) => Drawing): Reader {
+  return function* (text, options) {
+    return read(text, options);
+  };
+}
+
+export const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
+/** Of all formats, without the dot. */
+export const DRAWING_EXTENSIONS: readonly string[] = DRAWING_FORMATS.flatMap(
+  (format) => FORMATS[format].extensions,
+);
+
+const HEAD_CHARS = 4096;
+
+const extensionOf = (name: string): string => /\.([a-z\d]+)$/i.exec(name)?.[1].toLowerCase() ?? "";
+
+/** Whether a file's name says that it is a drawing. */
+export const isDrawingName = (name: string): boolean => DRAWING_EXTENSIONS.includes(extensionOf(name));
+
+/** What the text is, by what is in it; by the name only in doubt. Null where nothing fits. */
+export function formatOf(name: string, text: string): DrawingFormat | null {
+  const head = text.slice(0, HEAD_CHARS).replace(/^[\ufeff\s]+/, "");
+  const extension = extensionOf(name);
+  return (
+    DRAWING_FORMATS.find((format) => FORMATS[format].isBegun(head)) ??
+    DRAWING_FORMATS.find((format) => FORMATS[format].extensions.includes(extension)) ??
+    null
+  );
+}
+
+/**
+ * The drawing in the text of a file. Throws PlotwrightError("bad-file").
+ *
+ * @example
+ * const drawing = importDrawing("box.dxf", text);
+ */
+export function importDrawing(name: string, text: string, options: ImportOptions = {}): Drawing {
+  const steps = readerOf(name, text)(text, options);
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+  }
+}
+
+/** As `importDrawing`, pausing after every few milliseconds of an SVG's work; the others go in one step. */
+export async function importDrawingWithPauses(
+  name: string,
+  text: string,
+  pause: Pause,
+  options: ImportOptions = {},
+): Promise<Drawing> {
+  const steps = readerOf(name, text)(text, options);
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+    await pause();
+  }
+}
+
+function readerOf(name: string, text: string): Reader {
+  const format = formatOf(name, text);
+  if (format !== null) return READERS[format];
+  // The SVG reader knows the marks of PDF, PNG and others, and says which it is.
+  if (/^(%|\u0089|\ufffd|\u001f|GIF8|PK)/.test(text)) return READERS.svg;
+  const names = DRAWING_FORMATS.map((one) => FORMATS[one].name);
+  throw new PlotwrightError(
+    "bad-file",
+    `${name || "The file"} is no drawing that can be read: it is neither ${names.slice(0, -1).join(", ")} nor ${names.at(-1)}. Export it as SVG.`,
+  );
+}

@@ -1,0 +1,34 @@
+/**
+ * What an element inherits from where it stands in the file. Markers and clip paths inherit from there, and not from
+ * the shape that refers to them (SVG 2, §13.7).
+ */
+import type { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import type { LengthBasis } from "./length.js";
+import { computeStyle, INITIAL_STYLE, type Style } from "./style.js";
+import type { SvgTree } from "./svg-tree.js";
+
+export class AncestorStyles {
+  /** Of elements whose children were asked about. */
+  private readonly known = new Map<number, Style>();
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+  ) {}
+
+  /** `basis`: for lengths in %, since viewports in between are not looked at. */
+  outside(element: number, basis: LengthBasis): Style {
+    const path: number[] = [];
+    let at = this.tree.parents[element];
+    for (; at >= 0 && !this.known.has(at); at = this.tree.parents[at]) path.push(at);
+    let style = this.known.get(at) ?? INITIAL_STYLE;
+    for (const ancestor of path.reverse()) {
+      const declared = new Declared();
+      this.cascade.collect(ancestor, declared);
+      style = computeStyle(style, declared, { ...basis, fontSize: style.fontSize });
+      this.known.set(ancestor, style);
+    }
+    return style;
+  }
+}

@@ -1,0 +1,154 @@
+/** The basic shapes and paths of SVG as verbs and coordinates in user units (SVG 2, chapters 9 and 10). */
+import { drawCentreArc, drawEllipse } from "../arc.js";
+import type { Side } from "./length.js";
+import { drawPathData, NumberReader } from "../path-data.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
+
+export type LengthName = "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry";
+
+/** Where a shape's numbers come from: CSS first, then attributes. */
+export interface ShapeSource {
+  /** User units; null where the value is absent, auto or malformed. */
+  length(name: LengthName, side: Side): number | null;
+  /** An attribute that is a plain length. */
+  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null;
+  text(name: "d" | "points"): string | undefined;
+}
+
+export const SHAPE_TAGS: ReadonlySet<string> = new Set([
+  "path",
+  "rect",
+  "circle",
+  "ellipse",
+  "line",
+  "polyline",
+  "polygon",
+]);
+
+/** Draws the element; returns what is wrong with it, or null. `arcTolerance` in user units. */
+export function drawBasicShape(
+  tag: string,
+  source: ShapeSource,
+  shape: ShapeBuffer,
+  arcTolerance: number,
+): string | null {
+  switch (tag) {
+    case "path":
+      return drawPath(source, shape, arcTolerance);
+    case "rect":
+      return drawRect(source, shape, arcTolerance);
+    case "circle": {
+      const r = source.length("r", "both") ?? 0;
+      if (r < 0) return "negative radius";
+      if (r > 0) ellipse(source, shape, r, r, arcTolerance);
+      return null;
+    }
+    case "ellipse": {
+      const { rx, ry } = radiiOf(source);
+      if (rx > 0 && ry > 0) ellipse(source, shape, rx, ry, arcTolerance);
+      return null;
+    }
+    case "line":
+      shape.moveTo(source.attributeLength("x1", "width") ?? 0, source.attributeLength("y1", "height") ?? 0);
+      shape.lineTo(source.attributeLength("x2", "width") ?? 0, source.attributeLength("y2", "height") ?? 0);
+      return null;
+    default:
+      return drawPoints(source.text("points") ?? "", shape, tag === "polygon");
+  }
+}
+
+/** A negative radius is invalid, and so like none: the other one counts for both. */
+function radiiOf(source: ShapeSource): { readonly rx: number; readonly ry: number } {
+  const valid = (length: number | null): number | null => (length !== null && length >= 0 ? length : null);
+  const rx = valid(source.length("rx", "width"));
+  const ry = valid(source.length("ry", "height"));
+  return { rx: rx ?? ry ?? 0, ry: ry ?? rx ?? 0 };
+}
+
+function drawPath(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number): string | null {
+  const text = source.text("d");
+  if (text === undefined) return null;
+  const fault = drawPathData(shape, text, arcTolerance);
+  if (fault < 0) return null;
+  const near = text.slice(Math.max(0, fault - 12), fault + 8).replace(/\s+/g, " ");
+  return `character ${fault + 1}, near "${near}"`;
+}
+
+function ellipse(
+  source: ShapeSource,
+  shape: ShapeBuffer,
+  rx: number,
+  ry: number,
+  arcTolerance: number,
+): void {
+  drawEllipse(
+    shape,
+    source.length("cx", "width") ?? 0,
+    source.length("cy", "height") ?? 0,
+    rx,
+    ry,
+    arcTolerance,
+  );
+}
+
+function drawRect(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number): string | null {
+  const x = source.length("x", "width") ?? 0;
+  const y = source.length("y", "height") ?? 0;
+  const width = source.length("width", "width") ?? 0;
+  const height = source.length("height", "height") ?? 0;
+  if (width < 0 || height < 0) return "negative size";
+  if (width === 0 || height === 0) return null;
+  const radii = radiiOf(source);
+  const rx = Math.min(radii.rx, width / 2);
+  const ry = Math.min(radii.ry, height / 2);
+  const x1 = x + width;
+  const y1 = y + height;
+  if (rx === 0 || ry === 0) {
+    shape.moveTo(x, y);
+    shape.lineTo(x1, y);
+    shape.lineTo(x1, y1);
+    shape.lineTo(x, y1);
+    shape.close();
+    return null;
+  }
+  const corner = (cx: number, cy: number, start: number, endX: number, endY: number): void =>
+    drawCentreArc(shape, cx, cy, rx, ry, 0, start, Math.PI / 2, endX, endY, arcTolerance);
+  const side = (toX: number, toY: number): void => {
+    if (toX !== shape.x || toY !== shape.y) shape.lineTo(toX, toY);
+  };
+  shape.moveTo(x + rx, y);
+  side(x1 - rx, y);
+  corner(x1 - rx, y + ry, -Math.PI / 2, x1, y + ry);
+  side(x1, y1 - ry);
+  corner(x1 - rx, y1 - ry, 0, x1 - rx, y1);
+  side(x + rx, y1);
+  corner(x + rx, y1 - ry, Math.PI / 2, x, y1 - ry);
+  side(x, y + ry);
+  corner(x + rx, y + ry, Math.PI, x + rx, y);
+  shape.close();
+  return null;
+}
+
+function drawPoints(text: string, shape: ShapeBuffer, isClosed: boolean): string | null {
+  const reader = new NumberReader(text);
+  reader.skipBlanks();
+  let pointCount = 0;
+  let fault: string | null = null;
+  while (reader.at < text.length) {
+    if (!reader.read()) {
+      fault = `character ${reader.at + 1}`;
+      break;
+    }
+    const x = reader.value;
+    reader.skipSeparator();
+    if (!reader.read()) {
+      fault = "an odd number of coordinates";
+      break;
+    }
+    if (pointCount++ === 0) shape.moveTo(x, reader.value);
+    else shape.lineTo(x, reader.value);
+    reader.skipSeparator();
+  }
+  if (isClosed && pointCount > 1) shape.close();
+  return fault;
+}

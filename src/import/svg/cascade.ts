@@ -1,0 +1,231 @@
+/**
+ * Which declared value of each property wins on an element (CSS Cascade 4, §6):
+ * presentation attributes, then rules by specificity and order, then the style attribute,
+ * then !important rules, then the !important style attribute.
+ *
+ * Rules are filed under the id, class or type their rightmost part asks for, so an element meets
+ * only those that may match; css-select decides where a selector has more than that one part.
+ */
+import { compile } from "css-select";
+import type { Declared } from "./declared.js";
+import { IS_KEYWORD, IS_PROPERTY, PRESENTATION } from "./properties.js";
+import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
+import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
+
+const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
+const IS_PRESENTATION = new Set<string>(PRESENTATION);
+
+interface FiledRule extends Rule {
+  readonly order: number;
+  readonly matches: (element: ElementRef) => boolean;
+}
+
+/** What css-select walks over: made only for elements that a longer selector is tested on. */
+interface ElementRef {
+  readonly index: number;
+}
+
+export class Cascade {
+  readonly importCount: number;
+  readonly faults: readonly string[];
+  private readonly byId = new Map<string, FiledRule[]>();
+  private readonly byClass = new Map<string, FiledRule[]>();
+  private readonly byType = new Map<string, FiledRule[]>();
+  private readonly forAll: FiledRule[] = [];
+  private readonly hasRules: boolean;
+  /** By name number of the tree: whether the attribute is a presentation attribute. */
+  private readonly isPresentation: Uint8Array;
+  private readonly refs = new Map<number, ElementRef>();
+  private readonly positions = new Map<number, number>();
+  private readonly childLists = new Map<number, ElementRef[]>();
+  private readonly matched: FiledRule[] = [];
+
+  constructor(private readonly tree: SvgTree) {
+    this.isPresentation = Uint8Array.from(tree.names, (name) => (IS_PRESENTATION.has(name) ? 1 : 0));
+    const faults: string[] = [];
+    let importCount = 0;
+    let order = 0;
+    for (const text of styleTexts(tree)) {
+      const sheet = parseStyleSheet(text);
+      importCount += sheet.importCount;
+      faults.push(...sheet.faults);
+      for (const rule of sheet.rules) this.file(rule, order++, faults);
+    }
+    this.hasRules = order > 0;
+    this.importCount = importCount;
+    this.faults = faults;
+  }
+
+  /** Fills `into` (cleared first) with the winning values of `element`. */
+  collect(element: number, into: Declared): void {
+    into.clear();
+    const { tree } = this;
+    let style: string | undefined;
+    let id: string | undefined;
+    let classes: string | undefined;
+    const end = tree.attributeOffsets[element + 1];
+    for (let i = tree.attributeOffsets[element]; i < end; i++) {
+      const name = tree.attributeNames[i];
+      if (this.isPresentation[name] === 1) {
+        into.set(tree.names[name], valueFor(tree.names[name], attributeValue(tree, i)));
+      } else if (tree.names[name] === "style") style = attributeValue(tree, i);
+      else if (tree.names[name] === "id") id = attributeValue(tree, i);
+      else if (tree.names[name] === "class") classes = attributeValue(tree, i);
+    }
+    const rules = this.hasRules ? this.match(element, id, classes) : this.matched;
+    const inline = style === undefined ? [] : parseInlineStyle(style);
+    for (const rule of rules) apply(rule.declarations, false, into);
+    apply(inline, false, into);
+    for (const rule of rules) apply(rule.declarations, true, into);
+    apply(inline, true, into);
+  }
+
+  /** Matching rules, weakest first. The array is used again by the next call. */
+  private match(element: number, id: string | undefined, classes: string | undefined): FiledRule[] {
+    const found = this.matched;
+    found.length = 0;
+    this.test(this.forAll, element);
+    this.test(this.byType.get(tagOf(this.tree, element)), element);
+    if (id !== undefined) this.test(this.byId.get(id), element);
+    if (classes !== undefined && this.byClass.size > 0) {
+      for (const name of new Set(classes.split(/\s+/))) this.test(this.byClass.get(name), element);
+    }
+    if (found.length > 1) found.sort((a, b) => a.specificity - b.specificity || a.order - b.order);
+    return found;
+  }
+
+  private test(rules: readonly FiledRule[] | undefined, element: number): void {
+    if (rules === undefined) return;
+    for (const rule of rules) {
+      if (rule.isKeyAlone || rule.matches(this.ref(element))) this.matched.push(rule);
+    }
+  }
+
+  private file(rule: Rule, order: number, faults: string[]): void {
+    let matches = (_element: ElementRef): boolean => true;
+    if (!rule.isKeyAlone) {
+      try {
+        matches = compile<ElementRef, ElementRef>(rule.selector, {
+          adapter: this.adapter,
+          pseudos: this.pseudos,
+          xmlMode: true,
+          cacheResults: false,
+        });
+      } catch (error) {
+        faults.push(`the selector "${rule.selector.slice(0, 80)}" (${(error as Error).message})`);
+        return;
+      }
+    }
+    const filed = { ...rule, order, matches };
+    const { kind, name } = rule.key;
+    if (kind === "any") this.forAll.push(filed);
+    else {
+      const map = kind === "id" ? this.byId : kind === "class" ? this.byClass : this.byType;
+      const list = map.get(name);
+      if (list === undefined) map.set(name, [filed]);
+      else list.push(filed);
+    }
+  }
+
+  private ref(index: number): ElementRef {
+    let ref = this.refs.get(index);
+    if (ref === undefined) {
+      ref = { index };
+      this.refs.set(index, ref);
+    }
+    return ref;
+  }
+
+  private children(parent: number): ElementRef[] {
+    let list = this.childLists.get(parent);
+    if (list === undefined) {
+      list = [];
+      const { tree } = this;
+      for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
+        if (tagOf(tree, child) === TEXT_NODE) continue;
+        this.positions.set(child, list.length);
+        list.push(this.ref(child));
+      }
+      this.childLists.set(parent, list);
+    }
+    return list;
+  }
+
+  /** Index among the siblings, and how many come after. Looked up, not counted: siblings may be many thousands. */
+  private place(node: ElementRef): { readonly before: number; readonly after: number } {
+    const siblings = this.adapter.getSiblings(node);
+    const before = this.positions.get(node.index) ?? 0;
+    return { before, after: siblings.length - 1 - before };
+  }
+
+  private readonly pseudos = {
+    "first-child": (node: ElementRef): boolean => this.place(node).before === 0,
+    "last-child": (node: ElementRef): boolean => this.place(node).after === 0,
+    "nth-child": (node: ElementRef, formula?: string | null): boolean =>
+      isNth(formula ?? "", this.place(node).before + 1),
+    "nth-last-child": (node: ElementRef, formula?: string | null): boolean =>
+      isNth(formula ?? "", this.place(node).after + 1),
+  };
+
+  private readonly adapter = {
+    isTag: (node: ElementRef): node is ElementRef => node.index >= 0,
+    getAttributeValue: (node: ElementRef, name: string): string | undefined =>
+      attribute(this.tree, node.index, name),
+    hasAttrib: (node: ElementRef, name: string): boolean =>
+      attribute(this.tree, node.index, name) !== undefined,
+    getName: (node: ElementRef): string => tagOf(this.tree, node.index),
+    getText: (): string => "",
+    getParent: (node: ElementRef): ElementRef | null => {
+      const parent = this.tree.parents[node.index];
+      return parent < 0 ? null : this.ref(parent);
+    },
+    getChildren: (node: ElementRef): ElementRef[] => this.children(node.index),
+    getSiblings: (node: ElementRef): ElementRef[] => {
+      const parent = this.tree.parents[node.index];
+      return parent < 0 ? [node] : this.children(parent);
+    },
+    prevElementSibling: (node: ElementRef): ElementRef | null => {
+      const { before } = this.place(node);
+      return before === 0 ? null : this.adapter.getSiblings(node)[before - 1];
+    },
+    removeSubsets: (nodes: ElementRef[]): ElementRef[] => nodes,
+  };
+}
+
+/** Whether n ≥ 1 is among the numbers a k + b, k ≥ 0, of a formula like "2n+1", "odd" or "3" (Selectors 4, §6.6.5). */
+function isNth(formula: string, n: number): boolean {
+  const text = formula.replace(/\s+/g, "").toLowerCase();
+  const match = /^([+-]?\d*)n([+-]\d+)?$/.exec(text === "odd" ? "2n+1" : text === "even" ? "2n" : text);
+  if (match === null) return Number(text) === n;
+  const step = match[1] === "" || match[1] === "+" ? 1 : match[1] === "-" ? -1 : Number(match[1]);
+  const rest = n - Number(match[2] ?? 0);
+  return step === 0 ? rest === 0 : rest % step === 0 && rest / step >= 0;
+}
+
+function apply(declarations: readonly Declaration[], important: boolean, into: Declared): void {
+  for (const { property, value, important: isImportant } of declarations) {
+    if (isImportant !== important) continue;
+    if (property === "marker") for (const part of MARKERS) into.set(part, value);
+    else if (IS_PROPERTY.has(property) || property.startsWith("--"))
+      into.set(property, valueFor(property, value));
+  }
+}
+
+/** Keywords may be written in capitals. */
+const valueFor = (property: string, value: string): string =>
+  IS_KEYWORD.has(property) ? value.toLowerCase() : value;
+
+function* styleTexts(tree: SvgTree): Generator<string> {
+  const style = tree.names.indexOf("style");
+  if (style < 0) return;
+  for (let element = 0; element < tree.count; element++) {
+    if (tree.tags[element] !== style) continue;
+    const type = attribute(tree, element, "type") ?? "";
+    if (type !== "" && type.toLowerCase() !== "text/css") continue;
+    let text = "";
+    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+      text += textOf(tree, child);
+    }
+    yield text;
+  }
+}

@@ -1,0 +1,182 @@
+/**
+ * SVG text to a Drawing: the same code in browser, worker and Node, without a DOM.
+ *
+ *   text ─ svg-tree ─> tree ─ cascade + style ─> computed styles ─┐
+ *                        └─ svg-layers ─> layers ─────────────────┤
+ *                                                                 └─ svg-walk ─> shapes ─ drawing-builder ─> Drawing
+ *
+ * Bad files throw PlotwrightError("bad-file") with line and column; oddities become warnings.
+ * Time and memory are linear in the text and in what copies (`use`) add, and copies are bounded.
+ */
+import type { Drawing } from "../../drawing/drawing.js";
+import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
+import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { DrawingBuilder } from "../drawing-builder.js";
+import { finishAroundDrawing } from "../finish-around-drawing.js";
+import type { Context } from "./svg-context.js";
+import { SvgConditions } from "./svg-conditions.js";
+import { SvgClips } from "./svg-clips.js";
+import { fontOf, type ImportOptions } from "../import-options.js";
+import { SvgPaintServers } from "./svg-paint-servers.js";
+import { SvgGeometry } from "./svg-geometry.js";
+import { planLayers } from "./svg-layers.js";
+import { pageOf, type SvgPage } from "./svg-page.js";
+import { SvgPainter } from "./svg-painter.js";
+import { attribute, parseSvgTree, type SvgTree } from "./svg-tree.js";
+import { SvgWalk } from "./svg-walk.js";
+import type { LengthBasis } from "./length.js";
+import { aroundOrigin, parseTransform } from "./transform.js";
+import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./style.js";
+import { Warnings } from "../warnings.js";
+
+/** Lets others run between steps: resolves when it is this work's turn again. */
+export type Pause = () => Promise<void>;
+
+/** Part of the page's diagonal that an arc may be off: 0.3 µm once the page fills an A4 sheet, 1 µm on A1. */
+const ARC_TOLERANCE = 8e-7;
+
+/**
+ * The drawing in an SVG text, in mm on its own page. Throws PlotwrightError("bad-file").
+ *
+ * @example
+ * const drawing = importSvg('<svg width="10mm" height="10mm" viewBox="0 0 1 1"><path d="M0 0L1 1" stroke="red"/></svg>');
+ * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
+ */
+export function importSvg(text: string, options: ImportOptions = {}): Drawing {
+  const steps = importSvgSteps(text, options);
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+  }
+}
+
+/** As `importSvg`, pausing after every few milliseconds of work, so that a page stays responsive. */
+export async function importSvgWithPauses(
+  text: string,
+  pause: Pause,
+  options: ImportOptions = {},
+): Promise<Drawing> {
+  const steps = importSvgSteps(text, options);
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+    await pause();
+  }
+}
+
+/** The work in steps of a few milliseconds; the generator's result is the drawing. */
+export function* importSvgSteps(text: string, options: ImportOptions = {}): Generator<void, Drawing> {
+  const warnings = new Warnings();
+  // The tree is out of scope when the columns are put together: that halves the peak of memory.
+  const { builder, page } = yield* draw(text, options, warnings);
+  return finish(builder, page, warnings);
+}
+
+function* draw(
+  text: string,
+  options: ImportOptions,
+  warnings: Warnings,
+): Generator<void, { readonly builder: DrawingBuilder; readonly page: SvgPage }> {
+  const tree = yield* parseSvgTree(text);
+  const cascade = new Cascade(tree);
+  reportParsing(tree, cascade, warnings);
+
+  const root = new Declared();
+  cascade.collect(0, root);
+  const page = findPage(tree, root, options.pxPerInch ?? PX_PER_INCH);
+  const context = rootContext(page, root, options.pxPerInch ?? PX_PER_INCH);
+  const builder = new DrawingBuilder(warnings);
+  const layers = planLayers(tree);
+  if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
+  const arcToleranceMm = ARC_TOLERANCE * Math.hypot(page.widthMm, page.heightMm);
+  const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
+  const clips = new SvgClips(tree, cascade, geometry, warnings);
+  const servers = new SvgPaintServers(tree, cascade);
+  const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
+  const conditions = new SvgConditions(tree, languages);
+  const painter = new SvgPainter(
+    tree,
+    geometry,
+    servers,
+    builder,
+    warnings,
+    cascade,
+    fontOf(options),
+    conditions,
+  );
+  clips.textBox = (element, at) => painter.textBox(element, at);
+  const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
+  if (isShown(root)) yield* walk.run(context);
+  return { builder, page };
+}
+
+function reportParsing(tree: SvgTree, cascade: Cascade, warnings: Warnings): void {
+  for (const repair of tree.repairs) warnings.add("xml-repaired", undefined, repair);
+  if (tree.foreignObjects > 0) warnings.add("foreign-object", undefined, undefined, tree.foreignObjects);
+  if (tree.hasStylesheetLink) warnings.add("style-external");
+  if (cascade.importCount > 0) warnings.add("style-external", undefined, undefined, cascade.importCount);
+  for (const fault of cascade.faults) warnings.add("style-fault", undefined, fault);
+}
+
+function findPage(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
+  if (!(pxPerInch > 0 && Number.isFinite(pxPerInch))) {
+    throw new RangeError(`importSvg: pxPerInch must be > 0, got ${pxPerInch}`);
+  }
+  return pageOf(
+    {
+      width: [root.get("width"), attribute(tree, 0, "width")],
+      height: [root.get("height"), attribute(tree, 0, "height")],
+      viewBox: attribute(tree, 0, "viewBox"),
+      preserveAspectRatio: attribute(tree, 0, "preserveAspectRatio"),
+    },
+    pxPerInch,
+  );
+}
+
+function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context {
+  const { viewportWidth, viewportHeight } = page;
+  const size = INITIAL_STYLE.fontSize;
+  const basis = { fontSize: size, rootFontSize: size, viewportWidth, viewportHeight };
+  const style = computeStyle(INITIAL_STYLE, root, basis);
+  const { fontSize } = style;
+  return {
+    map: compose(rootTransform(page, root, style, basis, MM_PER_INCH / pxPerInch), page.map),
+    style,
+    basis: { ...basis, fontSize, rootFontSize: fontSize },
+    group: -1,
+    clip: null,
+    uses: null,
+    contextFill: { kind: "none" },
+    contextStroke: { kind: "none" },
+  };
+}
+
+/** The outermost element's own transform, in mm on the page. It turns about the page's middle, as a box in CSS does. */
+function rootTransform(
+  page: SvgPage,
+  root: Declared,
+  style: Style,
+  basis: LengthBasis,
+  mmPerPx: number,
+): Affine {
+  const map = parseTransform(declaredValue(style, root, "transform") ?? "") ?? IDENTITY;
+  if (map === IDENTITY) return IDENTITY;
+  const box = { viewportWidth: page.widthMm / mmPerPx, viewportHeight: page.heightMm / mmPerPx };
+  const origin = declaredValue(style, root, "transform-origin") ?? "center";
+  const turned = aroundOrigin(map, origin, { ...basis, ...box });
+  return compose(compose(scaling(mmPerPx), turned), scaling(1 / mmPerPx));
+}
+
+/** Browsers draw the outermost element whatever its display is. */
+const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
+
+function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
+  if (page.sizeFrom !== "none") return builder.finish(page.widthMm, page.heightMm);
+  if (builder.shapeCount === 0) return builder.finish(page.widthMm, page.heightMm);
+  const { x0, y0, x1, y1 } = builder.extent();
+  const size = `taken from the drawing: ${(x1 - x0).toFixed(1)} × ${(y1 - y0).toFixed(1)} mm`;
+  warnings.add("page-size", undefined, size);
+  return finishAroundDrawing(builder, warnings);
+}

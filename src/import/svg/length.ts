@@ -1,0 +1,99 @@
+/** CSS and SVG lengths to user units (CSS px). */
+import { evaluateCalc } from "./calc.js";
+import { MM_PER_INCH, MM_PER_PX } from "../../units.js";
+
+/** What relative units are relative to. */
+export interface LengthBasis {
+  /** px */
+  readonly fontSize: number;
+  /** Size of the nearest viewport in user units: what % means. */
+  readonly viewportWidth: number;
+  readonly viewportHeight: number;
+  /** px; what `rem` means. */
+  readonly rootFontSize: number;
+}
+
+/** Which side of the viewport a percentage is of; "both" is the diagonal / √2, for radii and widths. */
+export type Side = "width" | "height" | "both";
+
+const NUMBER_AND_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;
+
+const PX_PER_MM = 1 / MM_PER_PX;
+const ABSOLUTE: ReadonlyMap<string, number> = new Map([
+  ["", 1],
+  ["px", 1],
+  ["mm", PX_PER_MM],
+  ["cm", 10 * PX_PER_MM],
+  ["q", PX_PER_MM / 4],
+  ["in", MM_PER_INCH * PX_PER_MM],
+  ["pt", (MM_PER_INCH * PX_PER_MM) / 72],
+  ["pc", (MM_PER_INCH * PX_PER_MM) / 6],
+]);
+
+/** Number and lower-case unit ("" for none), or null where the text is no length. */
+export function splitLength(text: string): { value: number; unit: string } | null {
+  const match = NUMBER_AND_UNIT.exec(text);
+  if (match === null) return null;
+  const value = Number(match[1]);
+  return Number.isFinite(value) ? { value, unit: match[2].toLowerCase() } : null;
+}
+
+/** px of an absolute length; null for relative, unknown and malformed ones. */
+export function absolutePx(text: string): number | null {
+  const parts = splitLength(text);
+  if (parts === null) return null;
+  const factor = ABSOLUTE.get(parts.unit);
+  return factor === undefined ? null : parts.value * factor;
+}
+
+/** User units of any length; null where it is malformed or its unit unknown. */
+export function lengthPx(text: string, basis: LengthBasis, side: Side): number | null {
+  // Plain numbers are by far the most common.
+  const plain = Number(text);
+  if (plain === plain && isDecimal(text)) return Number.isFinite(plain) ? plain : null;
+  const parts = splitLength(text);
+  if (parts === null) {
+    return text.includes("calc(") ? evaluateCalc(text, (term) => lengthPx(term, basis, side)) : null;
+  }
+  const { value, unit } = parts;
+  const absolute = ABSOLUTE.get(unit);
+  if (absolute !== undefined) return value * absolute;
+  switch (unit) {
+    case "%":
+      return (value / 100) * percentBasis(basis, side);
+    case "em":
+      return value * basis.fontSize;
+    case "ex":
+    case "ch":
+      return (value * basis.fontSize) / 2;
+    case "rem":
+      return value * basis.rootFontSize;
+    case "vw":
+      return (value / 100) * basis.viewportWidth;
+    case "vh":
+      return (value / 100) * basis.viewportHeight;
+    case "vmin":
+      return (value / 100) * Math.min(basis.viewportWidth, basis.viewportHeight);
+    case "vmax":
+      return (value / 100) * Math.max(basis.viewportWidth, basis.viewportHeight);
+    default:
+      return null;
+  }
+}
+
+/** Number() also takes "", " ", "0x1f", "0b1" and "0o7", which are no lengths. */
+function isDecimal(text: string): boolean {
+  const trimmed = text.charCodeAt(0) > 32 ? text : text.trim();
+  const second = trimmed.charCodeAt(1) | 32;
+  return trimmed !== "" && second !== LETTER_X && second !== LETTER_B && second !== LETTER_O;
+}
+
+const LETTER_B = 98;
+const LETTER_O = 111;
+const LETTER_X = 120;
+
+function percentBasis(basis: LengthBasis, side: Side): number {
+  if (side === "width") return basis.viewportWidth;
+  if (side === "height") return basis.viewportHeight;
+  return Math.hypot(basis.viewportWidth, basis.viewportHeight) / Math.SQRT2;
+}

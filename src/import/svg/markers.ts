@@ -1,0 +1,114 @@
+/**
+ * Where markers stand on a shape and which way they point (SVG 2, §11.6).
+ *
+ *        in ↗   bisector of the way in and the way out; at the ends of an open path the one way there is
+ *     ──────•
+ *            ↘ out
+ */
+import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
+
+export interface MarkerPlace {
+  readonly kind: "start" | "mid" | "end";
+  readonly x: number;
+  readonly y: number;
+  /** rad */
+  readonly angle: number;
+}
+
+interface Vertex {
+  readonly x: number;
+  readonly y: number;
+  /** Direction of the segment that ends here; null at the start of a subpath. */
+  readonly arrive: readonly [number, number] | null;
+  /** Direction of the segment that begins here. */
+  leave: readonly [number, number] | null;
+}
+
+export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
+  const vertices = verticesOf(shape);
+  return vertices.map((vertex, i) => ({
+    kind: i === 0 ? "start" : i === vertices.length - 1 ? "end" : "mid",
+    x: vertex.x,
+    y: vertex.y,
+    angle: angleAt(vertex),
+  }));
+}
+
+function angleAt({ arrive, leave }: Vertex): number {
+  const inward = arrive ?? leave ?? [1, 0];
+  const outward = leave ?? arrive ?? [1, 0];
+  const x = inward[0] + outward[0];
+  const y = inward[1] + outward[1];
+  // Straight back: the bisector is a quarter turn from the way in.
+  if (Math.hypot(x, y) < 1e-9) return Math.atan2(inward[0], -inward[1]);
+  return Math.atan2(y, x);
+}
+
+function verticesOf(shape: ShapeBuffer): Vertex[] {
+  const { data: c } = shape.coords;
+  const inner = new Set(shape.innerVerbs);
+  const vertices: Vertex[] = [];
+  let x = 0;
+  let y = 0;
+  let first = 0;
+  const leave = (direction: Vertex["leave"]): void => {
+    const last = vertices[vertices.length - 1];
+    if (last !== undefined && last.leave === null) last.leave = direction;
+  };
+  // Inside an arc the way out of its first piece is the way out of the vertex; the rest is passed over.
+  let passing = false;
+  for (let i = 0, at = 0; i < shape.verbs.length; i++) {
+    const verb = shape.verbs.data[i];
+    if (verb === VERB_MOVE) {
+      x = c[at];
+      y = c[at + 1];
+      at += 2;
+      first = vertices.length;
+      vertices.push({ x, y, arrive: null, leave: null });
+    } else if (verb === VERB_CLOSE) {
+      const start = vertices[first];
+      const direction = unit(start.x - x, start.y - y);
+      if (direction !== null) leave(direction);
+      const arrive = direction ?? vertices[vertices.length - 1].arrive;
+      // The closing vertex lies on the start: both turn from the last segment into the first.
+      vertices[first] = { ...start, arrive };
+      vertices.push({ x: start.x, y: start.y, arrive, leave: start.leave });
+      x = start.x;
+      y = start.y;
+    } else {
+      const pairs = verb === VERB_LINE ? 1 : 3;
+      const points = [x, y, ...c.subarray(at, at + 2 * pairs)];
+      at += 2 * pairs;
+      if (!passing) leave(startDirection(points));
+      passing = verb === VERB_CUBIC && inner.has(i);
+      x = c[at - 2];
+      y = c[at - 1];
+      if (!passing) vertices.push({ x, y, arrive: endDirection(points), leave: null });
+    }
+  }
+  return vertices;
+}
+
+function unit(x: number, y: number): readonly [number, number] | null {
+  const length = Math.hypot(x, y);
+  return length > 0 ? [x / length, y / length] : null;
+}
+
+/** Towards the first point that is elsewhere. */
+function startDirection(points: readonly number[]): readonly [number, number] | null {
+  for (let i = 2; i < points.length; i += 2) {
+    const direction = unit(points[i] - points[0], points[i + 1] - points[1]);
+    if (direction !== null) return direction;
+  }
+  return null;
+}
+
+function endDirection(points: readonly number[]): readonly [number, number] | null {
+  const n = points.length;
+  for (let i = n - 4; i >= 0; i -= 2) {
+    const direction = unit(points[n - 2] - points[i], points[n - 1] - points[i + 1]);
+    if (direction !== null) return direction;
+  }
+  return null;
+}

@@ -1,0 +1,134 @@
+/**
+ * A shape's outline by arc length: how long it is, and where one is after so much of it.
+ *
+ *        start ↗─ chord ─→ end        s runs over all chords of all subpaths; a move between
+ *             from       s            subpaths has no length
+ *
+ * A curve is STEPS chords: its length is right to about one part in ten thousand. Between the ends of a chord the
+ * direction turns evenly from the curve's tangent at the one to that at the other.
+ */
+import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
+import { cubicAt } from "../curve-box.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
+
+const STEPS = 64;
+
+export interface PathPlace {
+  readonly x: number;
+  readonly y: number;
+  /** Of the way on, rad; +x towards +y. */
+  readonly angle: number;
+}
+
+interface Chord {
+  /** Arc length at its end. */
+  readonly end: number;
+  readonly length: number;
+  readonly x: number;
+  readonly y: number;
+  readonly dx: number;
+  readonly dy: number;
+  readonly startAngle: number;
+  /** How far the direction turns along it, −π … π. */
+  readonly turn: number;
+}
+
+export class MeasuredPath {
+  readonly length: number;
+  /** One single subpath that ends where it begins. */
+  readonly isClosed: boolean;
+  private readonly chords: readonly Chord[];
+
+  constructor(shape: ShapeBuffer) {
+    const chords: Chord[] = [];
+    this.length = measure(shape, chords);
+    this.chords = chords;
+    const verbs = shape.verbs.data.subarray(0, shape.verbs.length);
+    this.isClosed = verbs.lastIndexOf(VERB_MOVE) === 0 && verbs[verbs.length - 1] === VERB_CLOSE;
+  }
+
+  /** The place `along` the path, held to its ends; null where the path has no length. */
+  placeAt(along: number): PathPlace | null {
+    const { chords } = this;
+    let low = 0;
+    let high = chords.length - 1;
+    if (high < 0) return null;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (chords[middle].end < along) low = middle + 1;
+      else high = middle;
+    }
+    const { end, length, x, y, dx, dy, startAngle, turn } = chords[low];
+    const t = Math.min(1, Math.max(0, 1 - (end - along) / length));
+    return { x: x + t * dx, y: y + t * dy, angle: startAngle + t * turn };
+  }
+}
+
+/** Adds the chords of all verbs; answers the length of all. */
+function measure(shape: ShapeBuffer, chords: Chord[]): number {
+  const c = shape.coords.data;
+  let total = 0;
+  let startX = 0;
+  let startY = 0;
+  let x = 0;
+  let y = 0;
+  const to = (nx: number, ny: number, startAngle?: number, endAngle?: number): void => {
+    const dx = nx - x;
+    const dy = ny - y;
+    const length = Math.hypot(dx, dy);
+    if (length > 0) {
+      total += length;
+      const from = startAngle ?? Math.atan2(dy, dx);
+      const turn =
+        endAngle === undefined ? 0 : Math.atan2(Math.sin(endAngle - from), Math.cos(endAngle - from));
+      chords.push({ end: total, length, x, y, dx, dy, startAngle: from, turn });
+    }
+    x = nx;
+    y = ny;
+  };
+  for (let i = 0, at = 0; i < shape.verbs.length; i++) {
+    const verb = shape.verbs.data[i];
+    if (verb === VERB_MOVE) {
+      x = startX = c[at];
+      y = startY = c[at + 1];
+      at += 2;
+    } else if (verb === VERB_LINE) {
+      to(c[at], c[at + 1]);
+      at += 2;
+    } else if (verb === VERB_CUBIC) {
+      measureCubic([x, c[at], c[at + 2], c[at + 4]], [y, c[at + 1], c[at + 3], c[at + 5]], to);
+      at += 6;
+    } else {
+      to(startX, startY);
+    }
+  }
+  return total;
+}
+
+type Four = readonly [number, number, number, number];
+
+function measureCubic(
+  px: Four,
+  py: Four,
+  to: (x: number, y: number, startAngle?: number, endAngle?: number) => void,
+): void {
+  let before = tangent(px, py, 0);
+  for (let k = 1; k <= STEPS; k++) {
+    const t = k / STEPS;
+    const after = tangent(px, py, t);
+    to(cubicAt(...px, t), cubicAt(...py, t), before, after);
+    before = after;
+  }
+}
+
+/** undefined where the curve stands still, as at an end whose control point lies on it. */
+function tangent(px: Four, py: Four, t: number): number | undefined {
+  const dx = slope(px, t);
+  const dy = slope(py, t);
+  return dx === 0 && dy === 0 ? undefined : Math.atan2(dy, dx);
+}
+
+function slope([p0, p1, p2, p3]: Four, t: number): number {
+  const s = 1 - t;
+  return s * s * (p1 - p0) + 2 * s * t * (p2 - p1) + t * t * (p3 - p2);
+}

@@ -1,0 +1,337 @@
+/** Computed style: what an element inherits and what it declares, as values ready to draw with. */
+import type { Property } from "./properties.js";
+import type { Declared } from "./declared.js";
+import { parseColor, type Color } from "../color.js";
+import { computeTextStyle, declaresTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
+import { lengthPx, splitLength, type LengthBasis } from "./length.js";
+
+export type Paint =
+  | { readonly kind: "none" }
+  | { readonly kind: "color"; readonly color: Color }
+  | { readonly kind: "currentColor" }
+  | { readonly kind: "context"; readonly of: "fill" | "stroke" }
+  /** A gradient or pattern, by id, and what to use where there is none. */
+  | { readonly kind: "server"; readonly id: string; readonly fallback: Paint };
+
+/** The inherited properties. */
+export interface Style {
+  readonly fill: Paint;
+  readonly fillOpacity: number;
+  readonly fillRule: "nonzero" | "evenodd";
+  readonly stroke: Paint;
+  readonly strokeOpacity: number;
+  /** User units, as are the dashes. */
+  readonly strokeWidth: number;
+  readonly dashes: readonly number[] | null;
+  readonly dashOffset: number;
+  readonly clipRule: "nonzero" | "evenodd";
+  readonly color: Color;
+  readonly isVisible: boolean;
+  readonly fontFamily: string;
+  /** px */
+  readonly fontSize: number;
+  readonly isItalic: boolean;
+  readonly isBold: boolean;
+  readonly textAnchor: "start" | "middle" | "end";
+  readonly letterSpacing: number;
+  readonly text: TextStyle;
+  readonly markerStart: string | null;
+  readonly markerMid: string | null;
+  readonly markerEnd: string | null;
+  /** Custom properties (`--x`); null where none is set. */
+  readonly variables: ReadonlyMap<string, string> | null;
+}
+
+const NONE: Paint = { kind: "none" };
+const BLACK: Color = { hex: "#000000", alpha: 1 };
+
+/** CSS's initial values. */
+export const INITIAL_STYLE: Style = {
+  fill: { kind: "color", color: BLACK },
+  fillOpacity: 1,
+  fillRule: "nonzero",
+  stroke: NONE,
+  strokeOpacity: 1,
+  strokeWidth: 1,
+  dashes: null,
+  dashOffset: 0,
+  clipRule: "nonzero",
+  color: BLACK,
+  isVisible: true,
+  fontFamily: "sans-serif",
+  fontSize: 16,
+  isItalic: false,
+  isBold: false,
+  textAnchor: "start",
+  letterSpacing: 0,
+  text: INITIAL_TEXT_STYLE,
+  markerStart: null,
+  markerMid: null,
+  markerEnd: null,
+  variables: null,
+};
+
+type Mutable<T> = { -readonly [K in keyof T]: T[K] };
+type Setter = (style: Mutable<Style>, value: string, basis: LengthBasis) => void;
+
+/** Which field `inherit`, `initial` and `unset` are about. */
+const FIELDS: Partial<Record<Property, keyof Style>> = {
+  fill: "fill",
+  "fill-opacity": "fillOpacity",
+  "fill-rule": "fillRule",
+  stroke: "stroke",
+  "stroke-opacity": "strokeOpacity",
+  "stroke-width": "strokeWidth",
+  "stroke-dasharray": "dashes",
+  "stroke-dashoffset": "dashOffset",
+  "clip-rule": "clipRule",
+  color: "color",
+  visibility: "isVisible",
+  "font-family": "fontFamily",
+  "font-size": "fontSize",
+  "font-style": "isItalic",
+  "font-weight": "isBold",
+  "text-anchor": "textAnchor",
+  "letter-spacing": "letterSpacing",
+  "marker-start": "markerStart",
+  "marker-mid": "markerMid",
+  "marker-end": "markerEnd",
+};
+
+/** Values that are no value leave what was inherited, as an invalid declaration does. */
+const SETTERS: Partial<Record<Property, Setter>> = {
+  fill: (style, value) => setPaint(style, "fill", value),
+  stroke: (style, value) => setPaint(style, "stroke", value),
+  "fill-opacity": (style, value) => {
+    style.fillOpacity = parseOpacity(value) ?? style.fillOpacity;
+  },
+  "stroke-opacity": (style, value) => {
+    style.strokeOpacity = parseOpacity(value) ?? style.strokeOpacity;
+  },
+  "fill-rule": (style, value) => {
+    if (value === "nonzero" || value === "evenodd") style.fillRule = value;
+  },
+  "clip-rule": (style, value) => {
+    if (value === "nonzero" || value === "evenodd") style.clipRule = value;
+  },
+  "stroke-width": (style, value, basis) => {
+    const width = lengthPx(value, basis, "both");
+    if (width !== null && width >= 0) style.strokeWidth = width;
+  },
+  "stroke-dasharray": (style, value, basis) => {
+    const dashes = parseDashes(value, basis);
+    if (dashes !== undefined) style.dashes = dashes;
+  },
+  "stroke-dashoffset": (style, value, basis) => {
+    style.dashOffset = lengthPx(value, basis, "both") ?? style.dashOffset;
+  },
+  color: (style, value) => {
+    style.color = parseColor(value) ?? style.color;
+  },
+  visibility: (style, value) => {
+    if (value === "visible") style.isVisible = true;
+    else if (value === "hidden" || value === "collapse") style.isVisible = false;
+  },
+  "font-family": (style, value) => {
+    style.fontFamily = value;
+  },
+  "font-style": (style, value) => {
+    style.isItalic = value === "italic" || value.startsWith("oblique");
+  },
+  "font-weight": (style, value) => {
+    style.isBold = value === "bold" || value === "bolder" || Number(value) >= 600;
+  },
+  "text-anchor": (style, value) => {
+    if (value === "start" || value === "middle" || value === "end") style.textAnchor = value;
+  },
+  "letter-spacing": (style, value, basis) => {
+    const spacing = value === "normal" ? 0 : lengthPx(value, basis, "width");
+    // Percentages are none, as in browsers.
+    if (spacing !== null && !value.endsWith("%")) style.letterSpacing = spacing;
+  },
+  "marker-start": (style, value) => {
+    style.markerStart = parseUrl(value);
+  },
+  "marker-mid": (style, value) => {
+    style.markerMid = parseUrl(value);
+  },
+  "marker-end": (style, value) => {
+    style.markerEnd = parseUrl(value);
+  },
+};
+
+/** The style of an element that declares `declared` below `parent`; `parent` itself where nothing changes. */
+export function computeStyle(parent: Style, declared: Declared, basis: LengthBasis): Style {
+  if (declared.size === 0) return parent;
+  const style: Mutable<Style> = { ...parent };
+  setVariables(style, declared);
+  // Font size first, since em in the others means it; its own em means the parent's.
+  const font = declared.get("font");
+  if (font !== undefined) setFont(style, resolve(style, font) ?? "", basis);
+  const size = declared.get("font-size");
+  if (size !== undefined) style.fontSize = parseFontSize(resolve(style, size) ?? "", parent, basis);
+  const own = style.fontSize === basis.fontSize ? basis : { ...basis, fontSize: style.fontSize };
+  for (let i = 0; i < declared.size; i++) {
+    const property = declared.nameAt(i) as Property;
+    const set = SETTERS[property];
+    if (set === undefined) continue;
+    const value = resolve(style, declared.valueAt(i));
+    if (value === null) continue;
+    if (!setKeyword(style, parent, property, value)) set(style, value, own);
+  }
+  if (declaresTextStyle(declared)) {
+    style.text = computeTextStyle(
+      parent.text,
+      (property) => declaredValue(style, declared, property),
+      style,
+      (length) => lengthPx(length, own, "width"),
+    );
+  }
+  return style;
+}
+
+/** The value of a property that is not inherited, its variables filled in; undefined where not declared. */
+export function declaredValue(style: Style, declared: Declared, property: Property): string | undefined {
+  const raw = declared.get(property);
+  if (raw === undefined) return undefined;
+  const value = resolve(style, raw);
+  return value === null || /^(inherit|initial|unset|revert)$/.test(value) ? undefined : value;
+}
+
+function setVariables(style: Mutable<Style>, declared: Declared): void {
+  let own: Map<string, string> | null = null;
+  for (let i = 0; i < declared.size; i++) {
+    const property = declared.nameAt(i);
+    if (!property.startsWith("--")) continue;
+    own ??= new Map(style.variables ?? []);
+    own.set(property, declared.valueAt(i));
+  }
+  if (own !== null) style.variables = own;
+}
+
+const MAX_VARIABLE_STEPS = 32;
+const MAX_VALUE_CHARS = 100_000;
+
+/** Fills in var(--x, fallback); null where a variable is missing, circular or grows without end. */
+function resolve(style: Style, raw: string): string | null {
+  let value = raw.trim();
+  for (let step = 0; value.includes("var("); step++) {
+    if (step === MAX_VARIABLE_STEPS || value.length > MAX_VALUE_CHARS) return null;
+    const match = /var\(\s*(--[^\s,()]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)/.exec(value);
+    if (match === null) return null;
+    const filled = style.variables?.get(match[1]) ?? match[2];
+    if (filled === undefined) return null;
+    value = (value.slice(0, match.index) + filled.trim() + value.slice(match.index + match[0].length)).trim();
+  }
+  return value;
+}
+
+/** Whether the value was one of CSS's general keywords. All these properties inherit, so unset = inherit. */
+function setKeyword(style: Mutable<Style>, parent: Style, property: Property, value: string): boolean {
+  const field = FIELDS[property];
+  if (field === undefined) return false;
+  const source =
+    value === "inherit" || value === "unset" || value === "revert"
+      ? parent
+      : value === "initial"
+        ? INITIAL_STYLE
+        : null;
+  if (source === null) return false;
+  Object.assign(style, { [field]: source[field] });
+  return true;
+}
+
+function setPaint(style: Mutable<Style>, which: "fill" | "stroke", value: string): void {
+  style[which] = parsePaint(value) ?? style[which];
+}
+
+const paintCache = new Map<string, Paint | null>();
+
+function parsePaint(text: string): Paint | null {
+  let paint = paintCache.get(text);
+  if (paint === undefined) {
+    paint = readPaint(text);
+    if (paintCache.size > 4096) paintCache.clear();
+    paintCache.set(text, paint);
+  }
+  return paint;
+}
+
+function readPaint(text: string): Paint | null {
+  const value = text.trim();
+  if (value.toLowerCase() === "none") return NONE;
+  if (value.toLowerCase() === "currentcolor") return { kind: "currentColor" };
+  if (value === "context-fill") return { kind: "context", of: "fill" };
+  if (value === "context-stroke") return { kind: "context", of: "stroke" };
+  const server = /^url\(([^)]*)\)\s*(.*)$/s.exec(value);
+  if (server !== null) {
+    const fallback = server[2] === "" ? NONE : (readPaint(server[2]) ?? NONE);
+    return { kind: "server", id: parseUrl(value) ?? "", fallback };
+  }
+  const color = parseColor(value);
+  return color === null ? null : { kind: "color", color };
+}
+
+/** The id in url(#id), with or without quotes; null for none and for other documents. */
+export function parseUrl(text: string): string | null {
+  const match = /^\s*url\(\s*["']?#([^"')]*)["']?\s*\)/.exec(text);
+  return match === null ? null : match[1].trim();
+}
+
+/** 0 … 1; null where malformed. */
+export function parseOpacity(text: string): number | null {
+  const parts = splitLength(text);
+  if (parts === null || (parts.unit !== "" && parts.unit !== "%")) return null;
+  const value = parts.unit === "%" ? parts.value / 100 : parts.value;
+  return Math.min(1, Math.max(0, value));
+}
+
+/** An even number of lengths; null for a solid line; undefined where malformed. */
+function parseDashes(text: string, basis: LengthBasis): readonly number[] | null | undefined {
+  if (text === "none") return null;
+  if (/,\s*,/.test(text)) return undefined;
+  const lengths = text
+    .split(/[\s,]+/)
+    .filter((part) => part !== "")
+    .map((part) => lengthPx(part, basis, "both"));
+  if (lengths.some((length) => length === null || length < 0)) return undefined;
+  const known = lengths as number[];
+  const sum = known.reduce((total, length) => total + length, 0);
+  if (!(sum > 0) || !Number.isFinite(sum)) return null;
+  return known.length % 2 === 0 ? known : [...known, ...known];
+}
+
+/** CSS Fonts 4, §2.5: the keywords' usual sizes in px. */
+const FONT_SIZES: Readonly<Record<string, number>> = {
+  "xx-small": 9,
+  "x-small": 10,
+  small: 13,
+  medium: 16,
+  large: 18,
+  "x-large": 24,
+  "xx-large": 32,
+};
+
+function parseFontSize(text: string, parent: Style, basis: LengthBasis): number {
+  if (Object.hasOwn(FONT_SIZES, text)) return FONT_SIZES[text];
+  if (text === "smaller") return parent.fontSize / 1.2;
+  if (text === "larger") return parent.fontSize * 1.2;
+  if (text === "initial") return INITIAL_STYLE.fontSize;
+  const percent = splitLength(text);
+  if (percent?.unit === "%") return (percent.value / 100) * parent.fontSize;
+  const size = lengthPx(text, { ...basis, fontSize: parent.fontSize }, "height");
+  return size !== null && size >= 0 ? size : parent.fontSize;
+}
+
+/** The shorthand: [style weight …] size[/line-height] family. */
+function setFont(style: Mutable<Style>, text: string, basis: LengthBasis): void {
+  const match =
+    /^(.*?)\s*(?<![\w-])([\d.]+(?:px|pt|pc|mm|cm|in|em|rem|%|q)|[a-z]+-?(?:small|large)|medium)(?:\/\S+)?\s+(.+)$/i.exec(
+      text,
+    );
+  if (match === null) return;
+  style.isItalic = /italic|oblique/.test(match[1]);
+  style.isBold = /bold|[6-9]00/.test(match[1]);
+  style.fontSize = parseFontSize(match[2], style, basis);
+  style.fontFamily = match[3];
+}

@@ -1,0 +1,27 @@
+/** Conditional processing: `requiredExtensions` and `systemLanguage`, as `switch` and all elements heed them. */
+import { attribute, type SvgTree } from "./svg-tree.js";
+
+const CONDITIONS = ["requiredExtensions", "systemLanguage"];
+
+export class SvgConditions {
+  private readonly areThere: boolean;
+
+  /** `languages`: what the reader understands, in lower case. */
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly languages: readonly string[],
+  ) {
+    this.areThere = CONDITIONS.some((name) => tree.names.includes(name));
+  }
+
+  areMet(element: number): boolean {
+    if (!this.areThere) return true;
+    const extensions = attribute(this.tree, element, "requiredExtensions");
+    // None is known; an empty list is not met either (SVG 2, §5.8.4).
+    if (extensions !== undefined) return false;
+    const language = attribute(this.tree, element, "systemLanguage");
+    if (language === undefined) return true;
+    const wanted = language.split(",").map((part) => part.trim().toLowerCase());
+    return this.languages.some((own) => wanted.some((tag) => tag === own || tag.startsWith(`${own}-`)));
+  }
+}

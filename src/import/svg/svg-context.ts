@@ -1,0 +1,70 @@
+/** What an element inherits from where it stands: passed down the tree, never changed. */
+import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
+import type { ClipNode } from "../clip-node.js";
+import type { LengthBasis } from "./length.js";
+import type { Paint, Style } from "./style.js";
+
+export interface Context {
+  /** User units to page mm. */
+  readonly map: Affine;
+  readonly style: Style;
+  readonly basis: LengthBasis;
+  /** Index into the drawing's groups. */
+  readonly group: number;
+  readonly clip: ClipNode | null;
+  /** The `use` elements that we are inside of. */
+  readonly uses: UseChain | null;
+  /** What context-fill and context-stroke mean inside a marker. */
+  readonly contextFill: Paint;
+  readonly contextStroke: Paint;
+}
+
+export interface UseChain {
+  readonly element: number;
+  readonly target: number;
+  /** Width and height on the `use`, for a target that is a symbol or svg. */
+  readonly size: { readonly width: number | null; readonly height: number | null };
+  readonly outer: UseChain | null;
+  /** How many we are inside of, this one included. */
+  readonly depth: number;
+}
+
+/** What context-fill and context-stroke mean inside of what is drawn for an element with this context. */
+export function contextPaints({
+  style,
+  contextFill,
+  contextStroke,
+}: Context): Pick<Context, "contextFill" | "contextStroke"> {
+  const resolved = (paint: Paint): Paint => {
+    if (paint.kind === "currentColor") return { kind: "color", color: style.color };
+    if (paint.kind === "context") return paint.of === "fill" ? contextFill : contextStroke;
+    return paint;
+  };
+  return { contextFill: resolved(style.fill), contextStroke: resolved(style.stroke) };
+}
+
+/** Copies of copies deeper than this are a circle, or an attack. */
+export const MAX_COPY_DEPTH = 200;
+
+export const isInsideUseOf = (chain: UseChain | null, target: number): boolean => {
+  for (let at = chain; at !== null; at = at.outer) if (at.target === target) return true;
+  return false;
+};
+
+/** The context for what is inside an element with this style and transform. */
+export function withStyle(context: Context, style: Style, transform: Affine): Context {
+  if (style === context.style && transform === IDENTITY) return context;
+  const basis =
+    style.fontSize === context.basis.fontSize
+      ? context.basis
+      : { ...context.basis, fontSize: style.fontSize };
+  const map = transform === IDENTITY ? context.map : compose(context.map, transform);
+  return { ...context, map, style, basis };
+}
+
+/** The context inside a new viewport; `map` is from its user units into those outside. */
+export const withViewport = (context: Context, map: Affine, width: number, height: number): Context => ({
+  ...context,
+  map: compose(context.map, map),
+  basis: { ...context.basis, viewportWidth: width, viewportHeight: height },
+});

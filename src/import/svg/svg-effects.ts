@@ -1,0 +1,42 @@
+/** What a browser does with an element and a pen does not: named in a warning for each. */
+import type { Box } from "../../geometry/box.js";
+import type { Declared } from "./declared.js";
+import type { Property } from "./properties.js";
+import { declaredValue, parseUrl, type Style } from "./style.js";
+import { tagOf, type SvgTree } from "./svg-tree.js";
+import type { WarningCode, Warnings } from "../warnings.js";
+
+/** Effects of one element: codes, and what names them. */
+export type Effects = readonly (readonly [code: WarningCode, detail?: string])[];
+
+const NONE: Effects = [];
+
+/** Of the element that `declared` is of. */
+export function effectsOf(style: Style, declared: Declared): Effects {
+  if (declared.size === 0) return NONE;
+  const valueOf = (property: Property): string | null => {
+    const value = declaredValue(style, declared, property);
+    return value === undefined || value === "none" || value === "normal" ? null : value.slice(0, 40);
+  };
+  const effects: [WarningCode, string?][] = [];
+  if (valueOf("mask") !== null) effects.push(["mask-ignored"]);
+  if (valueOf("filter") !== null) effects.push(["filter-ignored"]);
+  const blend = valueOf("mix-blend-mode");
+  if (blend !== null) effects.push(["blend-ignored", blend]);
+  const order = valueOf("paint-order");
+  if (order !== null && /^(stroke|markers)/.test(order)) effects.push(["paint-order-ignored", order]);
+  return effects;
+}
+
+/** Whether a mask or filter without content leaves nothing of the element, as in browsers. */
+export function isErased(tree: SvgTree, style: Style, declared: Declared): boolean {
+  return (["mask", "filter"] as const).some((name) => {
+    const id = parseUrl(declaredValue(style, declared, name) ?? "");
+    const target = id === null ? undefined : tree.elementById.get(id);
+    return target !== undefined && tagOf(tree, target) === name && tree.firstChildren[target] < 0;
+  });
+}
+
+export function warnOf(effects: Effects, box: Box, warnings: Warnings): void {
+  for (const [code, detail] of effects) warnings.add(code, box, detail);
+}

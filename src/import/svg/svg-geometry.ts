@@ -1,0 +1,119 @@
+/** Elements to outlines in user units, and where they are on the page. */
+import { applyX, applyY, IDENTITY, largestScale } from "../../geometry/affine.js";
+import type { Box } from "../../geometry/box.js";
+import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
+import type { Property } from "./properties.js";
+import type { Declared } from "./declared.js";
+import { lengthPx, type Side } from "./length.js";
+import { mapBox } from "../map-box.js";
+import { ShapeBuffer } from "../shape-buffer.js";
+import type { Context } from "./svg-context.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
+import { declaredValue } from "./style.js";
+import type { Warnings } from "../warnings.js";
+
+export class SvgGeometry {
+  /** The outline made last. */
+  readonly shape = new ShapeBuffer();
+  private readonly source: ElementSource;
+  /** The map asked about last, and by how much it enlarges: one for many shapes. */
+  private map = IDENTITY;
+  private scale = 1;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly warnings: Warnings,
+    /** mm on the page: how far an arc may be from its cubics. */
+    private readonly arcToleranceMm: number,
+  ) {
+    this.source = new ElementSource(tree);
+  }
+
+  /** The element's outline in user units, in `shape`, which the next call uses again. */
+  geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
+    const { shape } = this;
+    shape.clear();
+    if (context.map !== this.map) {
+      this.map = context.map;
+      this.scale = largestScale(context.map);
+    }
+    const tolerance = this.arcToleranceMm / this.scale;
+    const fault = drawBasicShape(tag, this.source.of(element, declared, context), shape, tolerance);
+    shape.finish();
+    if (fault !== null) {
+      const where = this.whereOf(element);
+      if (tag === "path") this.warnings.add("path-data", this.firstPoint(context), `${where}: ${fault}`);
+      else this.warnings.add("attribute-fault", this.firstPoint(context), `${tag} at ${where}: ${fault}`);
+    }
+    return shape;
+  }
+
+  /** A length that CSS or an attribute gives; null where neither does. */
+  lengthOf(
+    element: number,
+    declared: Declared,
+    context: Context,
+    name: LengthName,
+    side: Side,
+  ): number | null {
+    return this.source.of(element, declared, context).length(name, side);
+  }
+
+  /** The box on the page of a rectangle in user units. */
+  placeOf(context: Context, x: number, y: number, width: number, height: number): Box {
+    return mapBox(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });
+  }
+
+  firstPoint(context: Context): Box {
+    const { coords } = this.shape;
+    const [x, y] = coords.length >= 2 ? coords.data : [this.shape.x, this.shape.y];
+    const px = applyX(context.map, x, y);
+    const py = applyY(context.map, x, y);
+    return { x0: px, y0: py, x1: px, y1: py };
+  }
+
+  whereOf(element: number): string {
+    const id = attribute(this.tree, element, "id");
+    const line = `line ${this.tree.lines[element]}`;
+    return id === undefined ? line : `${line}, id ${id.slice(0, 40)}`;
+  }
+}
+
+/** The numbers of one element after the other: one object, since there may be a million of them. */
+class ElementSource implements ShapeSource {
+  private element = 0;
+  private declared: Declared | null = null;
+  private context: Context | null = null;
+
+  constructor(private readonly tree: SvgTree) {}
+
+  of(element: number, declared: Declared, context: Context): this {
+    this.element = element;
+    this.declared = declared.size === 0 ? null : declared;
+    this.context = context;
+    return this;
+  }
+
+  length(name: LengthName, side: Side): number | null {
+    return this.px(this.css(name) ?? attribute(this.tree, this.element, name), side);
+  }
+
+  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null {
+    return this.px(attribute(this.tree, this.element, name), side);
+  }
+
+  text(name: "d" | "points"): string | undefined {
+    const path = name === "d" ? this.css("d") : undefined;
+    if (path === "none") return "";
+    const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
+    return quoted?.[1] ?? attribute(this.tree, this.element, name);
+  }
+
+  private px(text: string | undefined, side: Side): number | null {
+    return text === undefined || text === "auto" ? null : lengthPx(text, this.context!.basis, side);
+  }
+
+  private css(name: Property): string | undefined {
+    return this.declared === null ? undefined : declaredValue(this.context!.style, this.declared, name);
+  }
+}

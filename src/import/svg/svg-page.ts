@@ -1,0 +1,92 @@
+/** How large the page is, and the map from the outermost user units to page mm. */
+import { PlotwrightError } from "../../errors.js";
+import { scaling, type Affine } from "../../geometry/affine.js";
+import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import { absolutePx, splitLength } from "./length.js";
+import { parseViewBox, viewBoxMap } from "./view-box.js";
+
+export interface SvgPage {
+  readonly widthMm: number;
+  readonly heightMm: number;
+  readonly map: Affine;
+  /** Size of the viewport in user units: what % means. */
+  readonly viewportWidth: number;
+  readonly viewportHeight: number;
+  /** "none" where neither size nor viewBox says: then the drawing's own extent is the page. */
+  readonly sizeFrom: "size" | "viewBox" | "none";
+}
+
+/** Ten times the largest roll of paper; more is a mistake. */
+const MAX_PAGE_MM = 100_000;
+/** CSS's size for a picture that says nothing. */
+const DEFAULT_WIDTH_PX = 300;
+const DEFAULT_HEIGHT_PX = 150;
+
+export interface PageAttributes {
+  /** Candidates in order: CSS, then attribute. */
+  readonly width: readonly (string | undefined)[];
+  readonly height: readonly (string | undefined)[];
+  readonly viewBox: string | undefined;
+  readonly preserveAspectRatio: string | undefined;
+}
+
+/** `pxPerInch` is what a px and a unit without a name are worth: 96 by CSS, 72 or 90 in some programs. */
+export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
+  const mmPerPx = MM_PER_INCH / pxPerInch;
+  const box = parseViewBox(attributes.viewBox);
+  const width = firstMm(attributes.width, mmPerPx);
+  const height = firstMm(attributes.height, mmPerPx);
+  if (box === null) {
+    const isKnown = width !== null && height !== null;
+    const widthMm = checked(width ?? DEFAULT_WIDTH_PX * mmPerPx, "wide");
+    const heightMm = checked(height ?? DEFAULT_HEIGHT_PX * mmPerPx, "high");
+    return {
+      widthMm,
+      heightMm,
+      map: scaling(mmPerPx),
+      viewportWidth: widthMm / mmPerPx,
+      viewportHeight: heightMm / mmPerPx,
+      sizeFrom: isKnown ? "size" : "none",
+    };
+  }
+  const ratio = box.width / box.height;
+  const widthMm = checked(width ?? (height === null ? box.width * mmPerPx : height * ratio), "wide");
+  const heightMm = checked(height ?? (width === null ? box.height * mmPerPx : width / ratio), "high");
+  return {
+    widthMm,
+    heightMm,
+    map: viewBoxMap(box, widthMm, heightMm, attributes.preserveAspectRatio),
+    viewportWidth: box.width,
+    viewportHeight: box.height,
+    sizeFrom: width === null && height === null ? "viewBox" : "size",
+  };
+}
+
+const PIXEL_UNITS = new Set(["", "px"]);
+
+/** mm of the first absolute length > 0; percentages and `auto` are left to the viewBox. */
+function firstMm(candidates: readonly (string | undefined)[], mmPerPx: number): number | null {
+  for (const text of candidates) {
+    if (text === undefined) continue;
+    const parts = splitLength(text);
+    const px = absolutePx(text);
+    if (parts === null || px === null || !(px > 0)) continue;
+    const mm = PIXEL_UNITS.has(parts.unit) ? px * mmPerPx : px * (MM_PER_INCH / PX_PER_INCH);
+    return tidy(mm);
+  }
+  return null;
+}
+
+/** Takes away what unit conversion adds in the sixteenth digit: 210mm is 210. */
+const tidy = (mm: number): number => {
+  const rounded = Math.round(mm * 1e6) / 1e6;
+  return Math.abs(rounded - mm) < 1e-12 * mm ? rounded : mm;
+};
+
+function checked(mm: number, what: string): number {
+  if (mm > 0 && mm <= MAX_PAGE_MM) return mm;
+  throw new PlotwrightError(
+    "bad-file",
+    `The page of this SVG is ${mm.toPrecision(3)} mm ${what}. Set the page size in your drawing program (at most ${MAX_PAGE_MM} mm) and export it again.`,
+  );
+}

@@ -1,0 +1,84 @@
+/** The colour that stands for a gradient or pattern. */
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { parseColor } from "../color.js";
+import type { Context } from "./svg-context.js";
+import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import { declaredValue, INITIAL_STYLE } from "./style.js";
+
+const SERVERS = new Set(["linearGradient", "radialGradient", "pattern", "meshgradient", "hatch"]);
+const MAX_HREF_STEPS = 32;
+
+export class SvgPaintServers {
+  private readonly serverColors = new Map<string, string | null | undefined>();
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+  ) {}
+
+  /** The colour that stands for a paint server; null for an invisible one, undefined where there is none. */
+  serverColor(id: string, context: Context): string | null | undefined {
+    if (!this.serverColors.has(id)) this.serverColors.set(id, this.findServerColor(id, context));
+    return this.serverColors.get(id);
+  }
+
+  isPattern(id: string): boolean {
+    const element = this.tree.elementById.get(id);
+    return element !== undefined && tagOf(this.tree, element) === "pattern";
+  }
+
+  /** The first stop's colour, found through the chain of hrefs that gradients may share stops by. */
+  private findServerColor(id: string, context: Context): string | null | undefined {
+    const { tree } = this;
+    let element = tree.elementById.get(id);
+    if (element === undefined || !SERVERS.has(tagOf(tree, element))) return undefined;
+    if (tagOf(tree, element) === "pattern") return this.patternColor(element);
+    for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
+      for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+        if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
+      }
+      const href = attribute(tree, element, HREF) ?? "";
+      element = tree.elementById.get(href.slice(1));
+    }
+    // Without stops nothing is painted.
+    return null;
+  }
+
+  /** Whether its units are parts of the shape's box: then it paints nothing on a shape without width or height. */
+  isOfBox(id: string): boolean {
+    const { tree } = this;
+    const element = tree.elementById.get(id);
+    if (element === undefined) return false;
+    const name = tagOf(tree, element) === "pattern" ? "patternUnits" : "gradientUnits";
+    return attribute(tree, element, name) !== "userSpaceOnUse";
+  }
+
+  /** What a pattern paints is not drawn: black stands for it, unless it is empty. */
+  private patternColor(pattern: number): string | undefined {
+    const { tree } = this;
+    const inherited = (has: (element: number) => boolean): boolean => {
+      let element: number | undefined = pattern;
+      for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
+        if (has(element)) return true;
+        element = tree.elementById.get((attribute(tree, element, HREF) ?? "").slice(1));
+      }
+      return false;
+    };
+    const isSized = ["width", "height"].every((side) =>
+      inherited((element) => parseFloat(attribute(tree, element, side) ?? "") > 0),
+    );
+    return isSized && inherited((element) => tree.firstChildren[element] >= 0)
+      ? INITIAL_STYLE.color.hex
+      : undefined;
+  }
+
+  private stopColor(stop: number, context: Context): string {
+    const declared = new Declared();
+    this.cascade.collect(stop, declared);
+    const text = declaredValue(context.style, declared, "stop-color");
+    if (text === undefined) return INITIAL_STYLE.color.hex;
+    if (text.toLowerCase() === "currentcolor") return context.style.color.hex;
+    return (parseColor(text) ?? INITIAL_STYLE.color).hex;
+  }
+}

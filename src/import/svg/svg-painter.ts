@@ -1,0 +1,237 @@
+/** One leaf element to one shape of the drawing: geometry, paints, dashes. */
+import { compose, meanScale, rotation, scaling, translation, unstretched } from "../../geometry/affine.js";
+import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
+import type { DashPattern } from "../../drawing/drawing.js";
+import { MM_PER_PX } from "../../units.js";
+import type { Cascade } from "./cascade.js";
+import type { Declared } from "./declared.js";
+import type { DrawingBuilder, Look } from "../drawing-builder.js";
+import { lengthPx } from "./length.js";
+import { drawPathData } from "../path-data.js";
+import { curveBox } from "../curve-box.js";
+import { mapBox } from "../map-box.js";
+import { MeasuredPath } from "./measured-path.js";
+import type { Context } from "./svg-context.js";
+import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgPaintServers } from "./svg-paint-servers.js";
+import type { SvgGeometry } from "./svg-geometry.js";
+import { placeText } from "./svg-text.js";
+import type { PlacedLetter } from "./svg-text-layout.js";
+import { SvgTextPaths } from "./svg-text-path.js";
+import { ASCENT_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
+import { declaredValue, type Paint } from "./style.js";
+import type { Warnings } from "../warnings.js";
+
+export class SvgPainter {
+  /** What is being drawn, and its name in warnings. */
+  private element = 0;
+  private readonly where = (): string => this.geometry.whereOf(this.element);
+  private readonly textPaths: SvgTextPaths;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly geometry: SvgGeometry,
+    private readonly servers: SvgPaintServers,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+    private readonly cascade: Cascade,
+    /** What text is drawn with; null where it is only to be reported. */
+    private readonly font: TextFont | null,
+    private readonly conditions: SvgConditions,
+  ) {
+    this.textPaths = new SvgTextPaths(tree, cascade, geometry);
+  }
+
+  /** The box of a text in its user units: from line to line, and from the first letter to the last. */
+  textBox(element: number, context: Context): Box {
+    if (this.font === null) return EMPTY_BOX;
+    const { letters } = placeText(
+      this.tree,
+      this.cascade,
+      this.textPaths,
+      element,
+      context,
+      this.font,
+      this.conditions,
+    );
+    return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
+      const turned = compose(translation(x, y), rotation(angle));
+      const cell = { x0: 0, y0: -ASCENT_EM * fontSize, x1: advance, y1: DESCENT_EM * fontSize };
+      return uniteBoxes(box, mapBox(turned, cell));
+    }, EMPTY_BOX);
+  }
+
+  drawShape(element: number, tag: string, declared: Declared, context: Context): void {
+    const { style } = context;
+    if (!style.isVisible) return;
+    this.element = element;
+    const shape = this.geometry.geometryOf(element, tag, declared, context);
+    if (shape.isEmpty) {
+      if (shape.lonePoints > 0)
+        this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
+      return;
+    }
+    const look = this.lookOf(element, tag, declared, context);
+    if (look !== null) {
+      this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
+    }
+  }
+
+  /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */
+  drawText(element: number, context: Context): void {
+    const { builder, warnings } = this;
+    if (this.font === null) {
+      if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
+      return;
+    }
+    const text = placeText(
+      this.tree,
+      this.cascade,
+      this.textPaths,
+      element,
+      context,
+      this.font,
+      this.conditions,
+    );
+    const firstShape = builder.shapeCount;
+    for (const letter of text.letters) this.drawLetter(letter, element, context);
+    const isDrawn = builder.shapeCount > firstShape;
+    const box = isDrawn
+      ? builder.boxOfShapes(firstShape, builder.shapeCount)
+      : this.geometry.placeOf(context, text.x, text.y, 0, 0);
+    if (isDrawn && this.font.kind === "single-stroke") warnings.add("text-substituted", box);
+    for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
+    if (text.unsupported.length > 0) {
+      warnings.add("text-not-drawn", box, undefined, text.unsupported.length);
+    }
+  }
+
+  private drawLetter(letter: PlacedLetter, element: number, context: Context): void {
+    const { style } = letter;
+    if (!style.isVisible) return;
+    const { shape } = this.geometry;
+    shape.clear();
+    drawPathData(shape, letter.path, 1);
+    shape.finish();
+    if (shape.isEmpty) return;
+    this.element = element;
+    const own = { ...context, style };
+    const turned = compose(translation(letter.x, letter.y), rotation(letter.angle));
+    const map = compose(
+      context.map,
+      compose(turned, scaling(style.fontSize * letter.stretch, style.fontSize)),
+    );
+    const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "gradient-stroke");
+    const fill = this.colorOf(style.fill, style.fillOpacity, own, "gradient-fill");
+    if (stroke === null && fill === null) return;
+    const isOutline = this.font?.kind === "outline";
+    const look: Look = {
+      // A single stroke has no inside: what would fill the letter colours its line.
+      stroke: isOutline ? stroke : (stroke ?? fill),
+      fill: isOutline ? fill : null,
+      evenOdd: false,
+      strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
+      dash: null,
+    };
+    this.builder.addShape(shape, map, look, context.group, context.clip, this.where);
+  }
+
+  private roughPlaceOf(element: number, context: Context): Box {
+    const { fontSize } = context.style;
+    const first = (name: "x" | "y"): number => {
+      const text = (attribute(this.tree, element, name) ?? "0").trim().split(/[\s,]+/)[0];
+      return lengthPx(text, context.basis, name === "x" ? "width" : "height") ?? 0;
+    };
+    return this.geometry.placeOf(context, first("x"), first("y") - fontSize, fontSize, fontSize);
+  }
+
+  /** How the shape is painted; null where it is not painted at all. */
+  private lookOf(element: number, tag: string, declared: Declared, context: Context): Look | null {
+    const { style } = context;
+    let stroke = this.colorOf(style.stroke, style.strokeOpacity, context, "gradient-stroke");
+    const fill =
+      tag === "line" ? null : this.colorOf(style.fill, style.fillOpacity, context, "gradient-fill");
+    if (stroke !== null && style.strokeWidth === 0) {
+      stroke = null;
+      if (fill === null) this.warnings.add("zero-width-stroke", this.geometry.firstPoint(context));
+    }
+    if (stroke === null && fill === null) return null;
+    const effect = declaredValue(style, declared, "vector-effect");
+    const isNonScaling = effect === "non-scaling-stroke";
+    const scale = isNonScaling ? MM_PER_PX : meanScale(context.map);
+    return {
+      stroke,
+      fill,
+      evenOdd: style.fillRule === "evenodd",
+      strokeWidth: stroke === null ? 0 : style.strokeWidth * scale,
+      dash:
+        stroke === null || style.dashes === null ? null : this.dashOf(element, context, scale, isNonScaling),
+    };
+  }
+
+  private dashOf(element: number, context: Context, scale: number, isNonScaling: boolean): DashPattern {
+    const { dashes, dashOffset } = context.style;
+    const own = Number(attribute(this.tree, element, "pathLength") ?? NaN);
+    const unit = own > 0 ? (scale * new MeasuredPath(this.geometry.shape).length) / own : scale;
+    const measure = isNonScaling ? null : unstretched(context.map);
+    return {
+      lengths: (dashes ?? []).map((length) => length * unit),
+      offset: dashOffset * unit,
+      ...(measure === null ? {} : { measure }),
+    };
+  }
+
+  private warnOfServer(
+    id: string,
+    gradient: "gradient-stroke" | "gradient-fill",
+    color: string | null,
+    context: Context,
+  ): void {
+    if (color === null) return;
+    const place = this.geometry.firstPoint(context);
+    if (!this.servers.isPattern(id)) this.warnings.add(gradient, place);
+    else
+      this.warnings.add(gradient === "gradient-fill" ? "pattern-fill" : "pattern-stroke", place, `"${id}"`);
+  }
+
+  /** "#rrggbb", or null where nothing is painted. */
+  private colorOf(
+    paint: Paint,
+    opacity: number,
+    context: Context,
+    serverWarning: "gradient-stroke" | "gradient-fill",
+  ): string | null {
+    if (opacity === 0) return null;
+    switch (paint.kind) {
+      case "none":
+        return null;
+      case "color":
+        return paint.color.alpha === 0 ? null : paint.color.hex;
+      case "currentColor":
+        return context.style.color.alpha === 0 ? null : context.style.color.hex;
+      case "context":
+        return this.colorOf(
+          paint.of === "fill" ? context.contextFill : context.contextStroke,
+          opacity,
+          { ...context, contextFill: NO_PAINT, contextStroke: NO_PAINT },
+          serverWarning,
+        );
+      case "server": {
+        const isFlat = this.servers.isOfBox(paint.id) && isFlatBox(curveBox(this.geometry.shape));
+        const color = isFlat ? undefined : this.servers.serverColor(paint.id, context);
+        if (color !== undefined) {
+          this.warnOfServer(paint.id, serverWarning, color, context);
+          return color;
+        }
+        if (paint.fallback.kind === "none" && !isFlat)
+          this.warnings.add("paint-missing", undefined, `#${paint.id}`);
+        return this.colorOf(paint.fallback, opacity, context, serverWarning);
+      }
+    }
+  }
+}
+
+const isFlatBox = ({ x0, y0, x1, y1 }: Box): boolean => x0 === x1 || y0 === y1;
+
+const NO_PAINT: Paint = { kind: "none" };

@@ -1,0 +1,255 @@
+/**
+ * Characters with their styles and shifts to places of letters (SVG 2, §11.5): chunk by chunk, each laid out
+ * along its line or path and then anchored.
+ */
+import type { Style } from "./style.js";
+import type { TextPath } from "./svg-text-path.js";
+import { baselineOffset, DECORATION_EM } from "./text-style.js";
+import type { TextFont } from "../text/text-font.js";
+import { layOutLine } from "../text/text-line.js";
+
+/** A character of the text and what falls on it. */
+export interface Char {
+  text: string;
+  readonly style: Style;
+  /** What it stands on; null for a straight line. */
+  readonly path: TextPath | null;
+  x: number | null;
+  y: number | null;
+  dx: number;
+  dy: number;
+  angle: number | null;
+  /** Whether it stays where it is a blank among blanks. */
+  readonly keepsBlanks: boolean;
+  readonly stretch: Stretch | null;
+}
+
+/** A length that characters are brought to: by the gaps between them, or together with the letters themselves. */
+export interface Stretch {
+  readonly length: number;
+  readonly ofGlyphs: boolean;
+}
+
+/** One letter: its path in em, put at x, y in user units and turned. */
+export interface PlacedLetter {
+  readonly path: string;
+  readonly x: number;
+  readonly y: number;
+  /** rad */
+  readonly angle: number;
+  readonly style: Style;
+  /** How much wider than usual it is. */
+  readonly stretch: number;
+  /** In user units, to the next letter. */
+  readonly advance: number;
+}
+
+export interface LaidOutText {
+  readonly letters: readonly PlacedLetter[];
+  /** Characters that the font has not. */
+  readonly missing: readonly string[];
+}
+
+/** A letter on a line that is straight so far: x along it, y across. */
+interface LetterOnLine extends PlacedLetter {
+  readonly pen: number;
+  /** Across the line: where its baseline is. */
+  readonly lineY: number;
+}
+
+interface Pen {
+  x: number;
+  y: number;
+}
+
+/** Thickness of decorations, in em. */
+const BAR_EM = 0.06;
+const ANCHORS: Readonly<Record<Style["textAnchor"], number>> = { start: 0, middle: 0.5, end: 1 };
+
+export function layOutText(chars: readonly Char[], font: TextFont): LaidOutText {
+  const letters: PlacedLetter[] = [];
+  const missing: string[] = [];
+  const pen: Pen = { x: 0, y: 0 };
+  for (let at = 0; at < chars.length;) {
+    let end = at + 1;
+    while (end < chars.length && !beginsChunk(chars[end], chars[end - 1])) end++;
+    const chunk = chars.slice(at, end);
+    letters.push(...(chunk[0].path === null ? straight : along)(chunk, font, pen, missing));
+    at = end;
+  }
+  return { letters, missing };
+}
+
+/** On a path only x is a place, the one along it. */
+const beginsChunk = (char: Char, before: Char): boolean =>
+  char.path !== before.path || char.x !== null || (char.y !== null && char.path === null);
+
+function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
+  pen.x = chunk[0].x ?? pen.x;
+  pen.y = chunk[0].y ?? pen.y;
+  const { isVertical } = chunk[0].style.text;
+  const along: Pen = isVertical ? { x: pen.y, y: -pen.x } : { ...pen };
+  const startX = along.x;
+  const laid = layOutRuns(chunk, font, along, missing);
+  const shift = -(along.x - startX) * anchorOf(chunk[0].style);
+  const letters = laid.map((letter) => ({ ...letter, x: letter.x + shift }));
+  along.x += shift;
+  pen.x = isVertical ? -along.y : along.x;
+  pen.y = isVertical ? along.x : along.y;
+  if (!isVertical) return letters;
+  // A vertical line is a horizontal one, turned by a quarter.
+  return letters.map((letter) => ({
+    ...letter,
+    x: -letter.y,
+    y: letter.x,
+    angle: letter.angle + Math.PI / 2,
+  }));
+}
+
+/** The part of a text's length that lies before its place. */
+function anchorOf({ textAnchor, text }: Style): number {
+  return text.isRightToLeft ? 1 - ANCHORS[textAnchor] : ANCHORS[textAnchor];
+}
+
+/**
+ * The middle of each letter stands on the path, and the letter is turned as the path is there. Letters whose
+ * middle is off the path are left out, as the specification says.
+ */
+function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
+  const path = chunk[0].path!;
+  const anchor = chunk[0].style.textAnchor;
+  const line: Pen = { x: chunk[0].x ?? 0, y: 0 };
+  const startX = line.x;
+  const laid = layOutRuns(chunk, font, line, missing);
+  const shift = path.startOffset - (line.x - startX) * anchorOf(chunk[0].style);
+  const letters: PlacedLetter[] = [];
+  for (const letter of laid) {
+    const middle = letter.pen + letter.advance / 2;
+    const place = path.placeOf(middle + shift, anchor);
+    if (place === null) continue;
+    const cos = Math.cos(place.angle);
+    const sin = Math.sin(place.angle);
+    const x = place.x + (letter.x - middle) * cos - letter.y * sin;
+    const y = place.y + (letter.x - middle) * sin + letter.y * cos;
+    letters.push({ ...letter, x, y, angle: place.angle + letter.angle });
+  }
+  const end = path.end();
+  if (end !== null) {
+    pen.x = end.x;
+    pen.y = end.y;
+  }
+  return letters;
+}
+
+/** The letters one after the other from `pen` on, which ends behind the last. */
+function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
+  const letters: LetterOnLine[] = [];
+  const runs = runsOf(chars);
+  for (let at = 0; at < runs.length;) {
+    const { stretch } = runs[at][0];
+    const startX = pen.x;
+    const part: LetterOnLine[] = [];
+    for (; at < runs.length && runs[at][0].stretch === stretch; at++) {
+      part.push(...layOutRun(runs[at], font, pen, missing));
+    }
+    if (stretch === null) letters.push(...part);
+    else letters.push(...stretched(part, startX, pen, stretch, at < runs.length));
+  }
+  return letters
+    .flatMap((letter) => [...decorationsOf(letter, font), letter])
+    .filter(({ path }) => path !== "");
+}
+
+/** With blanks as letters without a path. */
+function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
+  const { style, angle, dx, dy } = run[0];
+  const size = style.fontSize;
+  pen.x += style.text.isVertical ? dy : dx;
+  pen.y += style.text.isVertical ? -dx : dy;
+  const y = pen.y + baselineOffset(style.text, size);
+  const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily);
+  for (const char of line.missing) missing.push(char);
+  const startX = pen.x;
+  let spacing = 0;
+  return line.letters.map((letter) => {
+    const spaced = startX + spacing;
+    spacing += style.letterSpacing + (letter.path === "" ? style.text.wordSpacing : 0);
+    pen.x = startX + spacing + (letter.pen + letter.advance) * size;
+    return {
+      path: letter.path,
+      x: spaced + letter.x * size,
+      y: y + letter.y * size,
+      lineY: y,
+      pen: spaced + letter.pen * size,
+      advance: letter.advance * size,
+      angle: angle ?? 0,
+      stretch: 1,
+      style,
+    };
+  });
+}
+
+/** Brings letters that begin at `startX` and end at the pen to the length that `textLength` asks for. */
+function stretched(
+  letters: readonly LetterOnLine[],
+  startX: number,
+  pen: Pen,
+  { length, ofGlyphs }: Stretch,
+  isFollowed: boolean,
+): LetterOnLine[] {
+  const natural = pen.x - startX;
+  if (!(natural > 0) || letters.length === 0) return [...letters];
+  pen.x = startX + length;
+  if (ofGlyphs) {
+    const scale = length / natural;
+    const place = (x: number): number => startX + (x - startX) * scale;
+    return letters.map((letter) => ({
+      ...letter,
+      x: place(letter.x),
+      pen: place(letter.pen),
+      advance: letter.advance * scale,
+      stretch: scale,
+    }));
+  }
+  const gap = letters.length < 2 ? 0 : (length - natural) / (letters.length - 1);
+  // As in browsers, the gap also stands before what follows.
+  if (isFollowed) pen.x += gap;
+  return letters.map((letter, i) => ({ ...letter, x: letter.x + i * gap, pen: letter.pen + i * gap }));
+}
+
+/** Lines along a letter, as letters of their own: bars of an outline font, single strokes of the others. */
+function decorationsOf(letter: LetterOnLine, font: TextFont): LetterOnLine[] {
+  const { style, advance, pen, lineY } = letter;
+  const width = advance / style.fontSize;
+  return style.text.decorations.map(({ kind, fill, stroke }) => {
+    const y = DECORATION_EM[kind];
+    const bar = font.kind === "outline" ? `v${BAR_EM}H0z` : "";
+    return {
+      ...letter,
+      path: `M0 ${y}H${width}${bar}`,
+      x: pen,
+      y: lineY,
+      stretch: 1,
+      style: { ...style, fill, stroke },
+    };
+  });
+}
+
+/** Stretches of one style without shifts inside, so that a font may join and kern within them. */
+function runsOf(chars: readonly Char[]): Char[][] {
+  const runs: Char[][] = [];
+  for (const char of chars) {
+    const run = runs[runs.length - 1];
+    const goesOn =
+      run !== undefined &&
+      run[0].style === char.style &&
+      run[0].angle === char.angle &&
+      run[0].stretch === char.stretch &&
+      char.dx === 0 &&
+      char.dy === 0 &&
+      (char.angle === null || char.angle === 0);
+    if (goesOn) run.push(char);
+    else runs.push([char]);
+  }
+  return runs;
+}

@@ -1,0 +1,83 @@
+/** The path that the letters of a `textPath` stand on (SVG 2, §11.8). */
+import type { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { SHAPE_TAGS } from "./basic-shapes.js";
+import { splitLength, lengthPx } from "./length.js";
+import { MeasuredPath, type PathPlace } from "./measured-path.js";
+import { ShapeBuffer } from "../shape-buffer.js";
+import type { Context } from "./svg-context.js";
+import type { SvgGeometry } from "./svg-geometry.js";
+import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import { declaredValue } from "./style.js";
+import { parseTransform } from "./transform.js";
+import { IDENTITY } from "../../geometry/affine.js";
+
+/** What of a closed path letters may stand on runs from `startOffset` once around: on, about or back from it. */
+type Anchor = Context["style"]["textAnchor"];
+const FIRST_OF_LOOP: Readonly<Record<Anchor, number>> = { start: 0, middle: -0.5, end: -1 };
+
+export class TextPath {
+  constructor(
+    private readonly path: MeasuredPath,
+    /** Along the path, in user units. */
+    readonly startOffset: number,
+    /** Letters stand on the other side, and run the other way. */
+    private readonly isReversed: boolean,
+  ) {}
+
+  /** The place of a letter whose middle is so far along; null where it falls off the path and is not drawn. */
+  placeOf(middle: number, anchor: Anchor): PathPlace | null {
+    const { length, isClosed } = this.path;
+    if (!isClosed) return middle < 0 || middle > length ? null : this.placeAt(middle);
+    const first = this.startOffset + FIRST_OF_LOOP[anchor] * length;
+    if (middle < first || middle > first + length) return null;
+    return this.placeAt(((middle % length) + length) % length);
+  }
+
+  /** Where text after the path goes on. */
+  end(): PathPlace | null {
+    return this.placeAt(this.path.length);
+  }
+
+  private placeAt(along: number): PathPlace | null {
+    if (!this.isReversed) return this.path.placeAt(along);
+    const place = this.path.placeAt(this.path.length - along);
+    return place === null ? null : { ...place, angle: place.angle + Math.PI };
+  }
+}
+
+export class SvgTextPaths {
+  private readonly declared = new Declared();
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+    private readonly geometry: SvgGeometry,
+  ) {}
+
+  /** Of a `textPath` element in a text drawn in `context`; null where it refers to no shape. */
+  of(element: number, context: Context): TextPath | null {
+    const { tree, declared } = this;
+    const href = attribute(tree, element, HREF)?.trim() ?? "";
+    const target = href.startsWith("#") ? tree.elementById.get(href.slice(1)) : undefined;
+    if (target === undefined || !SHAPE_TAGS.has(tagOf(tree, target))) return null;
+    this.cascade.collect(target, declared);
+    const outline = this.geometry.geometryOf(target, tagOf(tree, target), declared, context);
+    // The shape's own transform counts, not that of what it stands in.
+    const map = parseTransform(declaredValue(context.style, declared, "transform") ?? "") ?? IDENTITY;
+    const shape = new ShapeBuffer();
+    shape.append(outline, map);
+    const path = new MeasuredPath(shape);
+    const isReversed = attribute(tree, element, "side")?.trim() === "right";
+    return new TextPath(path, this.startOffset(element, target, path, context), isReversed);
+  }
+
+  private startOffset(element: number, target: number, path: MeasuredPath, context: Context): number {
+    const text = attribute(this.tree, element, "startOffset") ?? "0";
+    const parts = splitLength(text);
+    if (parts?.unit === "%") return (parts.value / 100) * path.length;
+    const offset = lengthPx(text, context.basis, "width") ?? 0;
+    const own = Number(attribute(this.tree, target, "pathLength") ?? NaN);
+    return own > 0 ? (offset * path.length) / own : offset;
+  }
+}

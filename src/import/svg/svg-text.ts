@@ -1,0 +1,208 @@
+/**
+ * SVG text to places of letters (SVG 2, chapter 11, for horizontal text): the characters are gathered with the
+ * style, the path and the x, y, dx, dy, rotate that fall on each, and then laid out.
+ */
+import type { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { lengthPx, type LengthBasis, type Side } from "./length.js";
+import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { computeStyle, declaredValue, type Style } from "./style.js";
+import type { Context } from "./svg-context.js";
+import type { SvgConditions } from "./svg-conditions.js";
+import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
+import type { SvgTextPaths, TextPath } from "./svg-text-path.js";
+import type { TextFont } from "../text/text-font.js";
+
+export interface PlacedText extends LaidOutText {
+  /** What is not laid out: a textPath without a path, and other kinds. */
+  readonly unsupported: readonly string[];
+  /** Where the text begins, in user units. */
+  readonly x: number;
+  readonly y: number;
+}
+
+type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
+
+const MAX_CHARS = 100_000;
+const RAD_PER_DEG = Math.PI / 180;
+/** Of the font size: how high small capitals are that are made of large ones. */
+const SMALL_CAPS = 0.7;
+
+export function placeText(
+  tree: SvgTree,
+  cascade: Cascade,
+  paths: SvgTextPaths,
+  element: number,
+  context: Context,
+  font: TextFont,
+  conditions: SvgConditions,
+): PlacedText {
+  const gatherer = new Gatherer(tree, cascade, paths, context, conditions);
+  gatherer.gather(element);
+  const chars = collapseBlanks(gatherer.chars);
+  gatherer.assignPositions(chars);
+  const { x, y } = chars[0] ?? {};
+  return { ...layOutText(chars, font), unsupported: gatherer.unsupported, x: x ?? 0, y: y ?? 0 };
+}
+
+class Gatherer {
+  readonly chars: Char[] = [];
+  readonly unsupported: string[] = [];
+  /** Elements with positions, and which characters lie in them: [first, last). */
+  private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
+  private readonly declared = new Declared();
+  private readonly smallCaps = new Map<Style, Style>();
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+    private readonly paths: SvgTextPaths,
+    private readonly context: Context,
+    private readonly conditions: SvgConditions,
+  ) {}
+
+  gather(root: number): void {
+    const { tree } = this;
+    const stack: {
+      node: number;
+      style: Style;
+      open: number[];
+      path: TextPath | null;
+      keepsBlanks: boolean;
+      stretch: Stretch | null;
+    }[] = [];
+    const pushChildren = (
+      element: number,
+      style: Style,
+      open: number[],
+      path: TextPath | null,
+      keptOutside: boolean,
+      outerStretch: Stretch | null,
+    ): void => {
+      this.spans.push({ element, style, from: null, chars: [] });
+      const space = attribute(tree, element, "xml:space");
+      const keepsBlanks =
+        style.text.keepsBlanks ?? (space === undefined ? keptOutside : space === "preserve");
+      const stretch = this.stretchOf(element, style) ?? outerStretch;
+      const within = [...open, this.spans.length - 1];
+      const children: number[] = [];
+      for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child])
+        children.push(child);
+      for (const node of children.reverse())
+        stack.push({ node, style, open: within, path, keepsBlanks, stretch });
+    };
+    pushChildren(root, this.context.style, [], null, this.keepsBlanksAround(root), null);
+    while (stack.length > 0) {
+      const { node, style, open, path, keepsBlanks, stretch } = stack.pop()!;
+      const tag = tagOf(tree, node);
+      if (tag === TEXT_NODE) {
+        this.addText(textOf(tree, node), { style, path, keepsBlanks, stretch }, open);
+        continue;
+      }
+      const onPath = tag === "textPath" ? this.paths.of(node, this.context) : path;
+      // A textPath stands in a text or a link only.
+      const isMisplaced = tag === "textPath" && !["text", "a"].includes(tagOf(tree, tree.parents[node]));
+      if (tag === "tref" || isMisplaced || (tag === "textPath" && onPath === null))
+        this.unsupported.push(tag);
+      else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
+        this.cascade.collect(node, this.declared);
+        const own = computeStyle(notAligned(style), this.declared, this.basisOf(style));
+        // Deep nesting of spans has no use; what is that deep is not laid out.
+        if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64)
+          pushChildren(node, own, open, onPath, keepsBlanks, stretch);
+      }
+    }
+  }
+
+  private basisOf({ fontSize }: Style): LengthBasis {
+    return { ...this.context.basis, fontSize };
+  }
+
+  private keepsBlanksAround(root: number): boolean {
+    for (let at = this.tree.parents[root]; at >= 0; at = this.tree.parents[at]) {
+      const space = attribute(this.tree, at, "xml:space");
+      if (space !== undefined) return space === "preserve";
+    }
+    return false;
+  }
+
+  /** What `textLength` asks of the characters in an element. */
+  private stretchOf(element: number, style: Style): Stretch | null {
+    const text = attribute(this.tree, element, "textLength");
+    const length = text === undefined ? null : lengthPx(text, this.basisOf(style), "width");
+    if (length === null || length <= 0) return null;
+    return { length, ofGlyphs: attribute(this.tree, element, "lengthAdjust") === "spacingAndGlyphs" };
+  }
+
+  private addText(text: string, common: CommonOfText, open: readonly number[]): void {
+    for (const written of transformed(text, common.style.text.transform)) {
+      if (this.chars.length >= MAX_CHARS) return;
+      const isSmall = common.style.text.isSmallCaps && written !== written.toUpperCase();
+      const style = isSmall ? this.smallCapsOf(common.style) : common.style;
+      const char = isSmall ? written.toUpperCase() : written;
+      const entry: Char = { ...common, text: char, style, x: null, y: null, dx: 0, dy: 0, angle: null };
+      this.chars.push(entry);
+      for (const span of open) this.spans[span].chars.push(entry);
+    }
+  }
+
+  private smallCapsOf(style: Style): Style {
+    let small = this.smallCaps.get(style);
+    if (small === undefined) {
+      small = { ...style, fontSize: SMALL_CAPS * style.fontSize };
+      this.smallCaps.set(style, small);
+    }
+    return small;
+  }
+
+  /** Gives the n-th number of each list to the n-th character left in its element; inner elements win. */
+  assignPositions(kept: readonly Char[]): void {
+    const isKept = new Set(kept);
+    for (const { element, style, chars } of this.spans) {
+      const left = chars.filter((char) => isKept.has(char));
+      const basis = this.basisOf(style);
+      const list = (name: string, side: Side): (number | null)[] =>
+        (attribute(this.tree, element, name) ?? "")
+          .split(/[\s,]+/)
+          .filter((part) => part !== "")
+          .map((part) => lengthPx(part, basis, side));
+      list("x", "width").forEach((x, i) => i < left.length && x !== null && (left[i].x = x));
+      list("y", "height").forEach((y, i) => i < left.length && y !== null && (left[i].y = y));
+      list("dx", "width").forEach((dx, i) => i < left.length && (left[i].dx = dx ?? 0));
+      list("dy", "height").forEach((dy, i) => i < left.length && (left[i].dy = dy ?? 0));
+      const angles = list("rotate", "both");
+      // The last angle holds for all that follow.
+      if (angles.length > 0) {
+        left.forEach((char, i) => (char.angle = (angles[Math.min(i, angles.length - 1)] ?? 0) * RAD_PER_DEG));
+      }
+    }
+  }
+}
+
+/** An element's own alignment does not go on to those inside. */
+const notAligned = (style: Style): Style =>
+  style.text.alignmentBaseline === "auto"
+    ? style
+    : { ...style, text: { ...style.text, alignmentBaseline: "auto" } };
+
+function transformed(text: string, how: string): string {
+  if (how === "uppercase") return text.toUpperCase();
+  if (how === "lowercase") return text.toLowerCase();
+  return how === "capitalize"
+    ? text.replace(/(?<![\p{L}\p{N}])\p{L}/gu, (letter) => letter.toUpperCase())
+    : text;
+}
+
+/** Line breaks and tabs are blanks. Where blanks are not kept, runs of them are one, and there are none at the ends. */
+function collapseBlanks(chars: readonly Char[]): Char[] {
+  const kept: Char[] = [];
+  for (const char of chars) {
+    const isBlank = /[ \t\r\n]/.test(char.text);
+    if (isBlank) char.text = " ";
+    if (isBlank && !char.keepsBlanks && (kept.length === 0 || kept[kept.length - 1].text === " ")) continue;
+    kept.push(char);
+  }
+  const last = kept.at(-1);
+  if (last?.text === " " && !last.keepsBlanks) kept.pop();
+  return kept;
+}

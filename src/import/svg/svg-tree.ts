@@ -1,0 +1,303 @@
+/**
+ * XML text to a tree of SVG elements.
+ *
+ * The tree is kept in columns, one number or string per element and attribute, because an object per element would
+ * not fit into memory for files of many megabytes. Element i has the attributes
+ * [attributeOffsets[i], attributeOffsets[i + 1]); names are numbers into `names`. Elements stand in document order, so
+ * a child's index is above its parent's. Text is kept, as elements named "#text", only where it means something.
+ * Values are kept as places in the file's text, which is in memory anyway; those that read otherwise there (entities,
+ * line ends) as strings of their own.
+ */
+import { SaxesParser } from "saxes";
+import { PlotwrightError } from "../../errors.js";
+import { ColumnBuffer } from "../../geometry/growable.js";
+import { expandEntities } from "./xml-entities.js";
+import { XmlNames } from "./xml-names.js";
+import { notAnSvg, rejectOtherFormats } from "./not-an-svg.js";
+
+export const TEXT_NODE = "#text";
+/** Attributes written `xlink:href` or `href` are both kept under this name. */
+export const HREF = "href";
+
+/** Characters between two yields: under 20 ms of parsing. */
+const SLICE_CHARS = 1 << 18;
+const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
+const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
+const MAX_REPAIRS = 1000;
+/** Added to a value's place: it is not in the text but a string of its own, with that number. */
+const OWN_STRING = 0x80000000;
+
+/** Faults of the XML that leave no doubt about what was meant; browsers accept them in pages. */
+const HARMLESS = ["undefined entity", "unquoted attribute value", "attribute without value", "]]>"];
+
+export interface SvgTree {
+  readonly count: number;
+  readonly names: readonly string[];
+  readonly tags: Uint32Array;
+  readonly parents: Int32Array;
+  readonly firstChildren: Int32Array;
+  readonly nextSiblings: Int32Array;
+  readonly attributeOffsets: Uint32Array;
+  readonly attributeNames: Uint32Array;
+  /** Read by `attributeValue`. */
+  readonly values: AttributeValues;
+  readonly lines: Uint32Array;
+  readonly elementById: ReadonlyMap<string, number>;
+  /** What the parser forgave: its words, with line and column. */
+  readonly repairs: readonly string[];
+  readonly foreignObjects: number;
+  readonly hasStylesheetLink: boolean;
+}
+
+/** Where in `text` each value stands, up to a quote like the one before it; or `OWN_STRING` + where in `own`. */
+interface AttributeValues {
+  readonly text: string;
+  readonly places: Uint32Array;
+  readonly own: readonly string[];
+}
+
+/** The value of attribute `index` of all. */
+export function attributeValue({ values }: SvgTree, index: number): string {
+  const { text, own } = values;
+  const place = values.places[index];
+  if (place >= OWN_STRING) return own[place - OWN_STRING];
+  return text.slice(place, text.indexOf(text[place - 1], place));
+}
+
+/** The value of an attribute, or undefined. Linear in the element's own attributes. */
+export function attribute(tree: SvgTree, element: number, name: string): string | undefined {
+  const end = tree.attributeOffsets[element + 1];
+  for (let i = tree.attributeOffsets[element]; i < end; i++) {
+    if (tree.names[tree.attributeNames[i]] === name) return attributeValue(tree, i);
+  }
+  return undefined;
+}
+
+export const tagOf = (tree: SvgTree, element: number): string => tree.names[tree.tags[element]];
+
+/** The characters of a "#text" element. */
+export const textOf = (tree: SvgTree, element: number): string =>
+  attributeValue(tree, tree.attributeOffsets[element]);
+
+/** Parses in steps; run the generator to its end for the tree. Throws PlotwrightError("bad-file"). */
+export function* parseSvgTree(source: string): Generator<void, SvgTree> {
+  const start = skipBlank(source);
+  rejectOtherFormats(source, start);
+  const text = expandEntities(source);
+  const builder = new TreeBuilder(text, start);
+  for (let at = start; at < text.length; at += SLICE_CHARS) {
+    builder.write(text.slice(at, at + SLICE_CHARS));
+    yield;
+  }
+  return builder.finish();
+}
+
+function skipBlank(text: string): number {
+  let start = 0;
+  while (start < text.length && (text.charCodeAt(start) <= 32 || text.charCodeAt(start) === 0xfeff)) start++;
+  return start;
+}
+
+function countLines(text: string, end: number): number {
+  let lines = 0;
+  for (let i = 0; i < end; i++) if (text.charCodeAt(i) === 10) lines++;
+  return lines;
+}
+
+interface Written {
+  readonly name: string;
+  readonly value: string;
+  /** Where in the text the value ends. */
+  readonly end: number;
+}
+
+class TreeBuilder {
+  private readonly parser = new SaxesParser({ xmlns: false, position: true });
+  private readonly xmlNames = new XmlNames();
+  private readonly nameIds = new Map<string, number>();
+  private readonly names: string[] = [];
+  private readonly tags = new ColumnBuffer(Uint32Array);
+  private readonly parents = new ColumnBuffer(Int32Array);
+  private readonly firstChildren = new ColumnBuffer(Int32Array);
+  private readonly nextSiblings = new ColumnBuffer(Int32Array);
+  private readonly attributeOffsets = new ColumnBuffer(Uint32Array);
+  private readonly lines = new ColumnBuffer(Uint32Array);
+  private readonly attributeNames = new ColumnBuffer(Uint32Array);
+  private readonly places = new ColumnBuffer(Uint32Array);
+  private readonly ownStrings: string[] = [];
+  private readonly elementById = new Map<string, number>();
+  private readonly repairs: string[] = [];
+  private foreignObjects = 0;
+  private hasStylesheetLink = false;
+  /** The attributes of the tag that is being read, as written. */
+  private written: Written[] = [];
+  private startLine = 0;
+  /** Element now open, −1 for none, and for each open one its last child so far. */
+  private open = -1;
+  private readonly lastChildren: number[] = [];
+  private depth = 0;
+  /** Depth of the element whose content is not kept; 0 for none. */
+  private skipDepth = 0;
+  private keepsText = false;
+
+  /** Lines before the text that the parser is given. */
+  private readonly lineOffset: number;
+
+  constructor(
+    private readonly text: string,
+    start: number,
+  ) {
+    const { parser } = this;
+    this.lineOffset = countLines(text, start);
+    parser.on("error", (error) => this.onError(error));
+    parser.on("processinginstruction", ({ target }) => {
+      if (target === "xml-stylesheet") this.hasStylesheetLink = true;
+    });
+    parser.on("opentagstart", () => {
+      this.startLine = parser.line;
+      this.written = [];
+    });
+    parser.on("attribute", ({ name, value }) => {
+      this.written.push({ name, value, end: start + parser.position - 1 });
+    });
+    parser.on("opentag", ({ name }) => this.onOpen(name));
+    parser.on("closetag", () => this.onClose());
+    parser.on("text", (text) => this.onText(text));
+    parser.on("cdata", (text) => this.onText(text));
+  }
+
+  write(text: string): void {
+    this.parser.write(text);
+  }
+
+  finish(): SvgTree {
+    this.parser.close();
+    const count = this.tags.length;
+    if (count === 0) throw notAnSvg("it has no <svg> element");
+    this.attributeOffsets.push(this.places.length);
+    return {
+      count,
+      names: this.names,
+      tags: this.tags.view(),
+      parents: this.parents.view(),
+      firstChildren: this.firstChildren.view(),
+      nextSiblings: this.nextSiblings.view(),
+      attributeOffsets: this.attributeOffsets.view(),
+      attributeNames: this.attributeNames.view(),
+      values: { text: this.text, places: this.places.view(), own: this.ownStrings },
+      lines: this.lines.view(),
+      elementById: this.elementById,
+      repairs: this.repairs,
+      foreignObjects: this.foreignObjects,
+      hasStylesheetLink: this.hasStylesheetLink,
+    };
+  }
+
+  private onError(error: Error): void {
+    const line = this.parser.line + this.lineOffset;
+    const column = this.parser.column + 1;
+    const what = error.message.replace(/^[^ ]*\d+:\d+: /, "").replace(/\.$/, "");
+    const where = `line ${line}, column ${column}`;
+    if (HARMLESS.some((known) => what.includes(known))) {
+      if (this.repairs.length < MAX_REPAIRS) this.repairs.push(`${what} at ${where}`);
+      return;
+    }
+    if (this.tags.length === 0) throw notAnSvg(`${what} at ${where}`);
+    const truncated = what.startsWith("unclosed tag") || what.startsWith("unexpected end");
+    const advice = truncated
+      ? "The file is cut off: save or download it again."
+      : "Open it in the program that made it and export it again.";
+    throw new PlotwrightError("bad-file", `The SVG is damaged at ${where}: ${what}. ${advice}`, {
+      cause: error,
+    });
+  }
+
+  private onOpen(name: string): void {
+    this.depth++;
+    if (this.skipDepth > 0) return;
+    const tag = this.xmlNames.enter(name, this.written);
+    if (this.tags.length === 0 && tag !== "svg") {
+      throw notAnSvg(`its outermost element is <${name.slice(0, 60)}>, not <svg>`);
+    }
+    if (tag === null || SKIPPED.has(tag)) {
+      if (tag === "foreignObject") this.foreignObjects++;
+      this.skipDepth = this.depth;
+      return;
+    }
+    const element = this.addElement(tag);
+    for (const { name, value, end } of this.written) {
+      const kept = this.xmlNames.keptName(name);
+      // A plain href wins over one with a prefix (SVG 2, §16.1.5).
+      if (kept === null || (kept === HREF && name !== HREF && this.isWritten(HREF))) continue;
+      this.addAttribute(kept, value, end - value.length);
+      if (kept === "id" && !this.elementById.has(value)) this.elementById.set(value, element);
+    }
+    this.open = element;
+    this.lastChildren.push(-1);
+    this.keepsText = TEXT_PARENTS.has(tag);
+  }
+
+  private onClose(): void {
+    if (this.skipDepth === 0) {
+      this.open = this.parents.data[this.open];
+      this.lastChildren.pop();
+      this.keepsText = this.open >= 0 && TEXT_PARENTS.has(this.names[this.tags.data[this.open]]);
+    }
+    if (this.skipDepth === 0 || this.skipDepth === this.depth) {
+      this.skipDepth = 0;
+      this.xmlNames.leave();
+    }
+    this.depth--;
+  }
+
+  private onText(text: string): void {
+    if (!this.keepsText || this.skipDepth > 0 || text === "") return;
+    this.addElement(TEXT_NODE);
+    this.addAttribute(TEXT_NODE, text, 0);
+  }
+
+  private addElement(tag: string): number {
+    const { lastChildren } = this;
+    const element = this.tags.length;
+    this.tags.push(this.nameId(tag));
+    this.parents.push(this.open);
+    this.firstChildren.push(-1);
+    this.nextSiblings.push(-1);
+    this.attributeOffsets.push(this.places.length);
+    this.lines.push(this.startLine + this.lineOffset);
+    const before = lastChildren[lastChildren.length - 1] ?? -1;
+    if (before >= 0) this.nextSiblings.data[before] = element;
+    else if (this.open >= 0) this.firstChildren.data[this.open] = element;
+    if (lastChildren.length > 0) lastChildren[lastChildren.length - 1] = element;
+    return element;
+  }
+
+  private isWritten(name: string): boolean {
+    return this.written.some((one) => one.name === name);
+  }
+
+  /** `at`: where the value may stand in the text. */
+  private addAttribute(name: string, value: string, at: number): void {
+    this.attributeNames.push(this.nameId(name));
+    if (this.isQuoted(value, at)) this.places.push(at);
+    else this.places.push(OWN_STRING + this.ownStrings.push(value) - 1);
+  }
+
+  private isQuoted(value: string, at: number): boolean {
+    const { text } = this;
+    const quote = text[at - 1];
+    return (
+      (quote === '"' || quote === "'") && text.startsWith(value, at) && text[at + value.length] === quote
+    );
+  }
+
+  private nameId(name: string): number {
+    let id = this.nameIds.get(name);
+    if (id === undefined) {
+      id = this.names.length;
+      this.names.push(name);
+      this.nameIds.set(name, id);
+    }
+    return id;
+  }
+}

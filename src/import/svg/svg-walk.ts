@@ -1,0 +1,445 @@
+/**
+ * The walk over the tree: every rendered element in paint order, each with what it inherits.
+ *
+ * Frames are kept on a stack of our own, so that depth costs memory and never the call stack.
+ * `use` is followed as a frame with one child; the chain of targets we are inside of stops circles,
+ * and a budget of visits stops copies of copies from growing without end.
+ */
+import { PlotwrightError } from "../../errors.js";
+import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
+import type { Box } from "../../geometry/box.js";
+import { SHAPE_TAGS } from "./basic-shapes.js";
+import { Cascade } from "./cascade.js";
+import { Declared } from "./declared.js";
+import { elementTransform } from "./element-transform.js";
+import { lengthPx, type Side } from "./length.js";
+import {
+  contextPaints,
+  isInsideUseOf,
+  MAX_COPY_DEPTH,
+  withStyle,
+  withViewport,
+  type Context,
+} from "./svg-context.js";
+import { effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
+import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgClips } from "./svg-clips.js";
+import type { SvgGeometry } from "./svg-geometry.js";
+import { markerPlaces } from "./markers.js";
+import { isMarked, SvgMarkers } from "./svg-markers.js";
+import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
+import type { SvgPainter } from "./svg-painter.js";
+import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
+import type { WarningCode, Warnings } from "../warnings.js";
+import type { DrawingBuilder } from "../drawing-builder.js";
+
+/** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
+const MAX_COPIED_ELEMENTS = 500_000;
+const MAX_COPIED_COORDS = 50_000_000;
+const ELEMENTS_PER_YIELD = 1000;
+const COORDS_PER_YIELD = 100_000;
+
+const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
+const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
+  image: "image-not-drawn",
+  video: "not-supported",
+  audio: "not-supported",
+  canvas: "not-supported",
+  iframe: "not-supported",
+  mesh: "not-supported",
+  flowRoot: "not-supported",
+};
+const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
+
+interface Frame {
+  readonly context: Context;
+  next: number;
+  /** Only `next` itself, not its siblings. */
+  readonly isSingle: boolean;
+  /** What is missing from everything drawn inside: warned of when the frame ends. */
+  readonly effects: Effects;
+  readonly firstShape: number;
+}
+
+export class SvgWalk {
+  private readonly declared = new Declared();
+  /** The context computed last, and from what. */
+  private readonly last = {
+    outer: null as Context | null,
+    declared: new Declared(),
+    inner: null as Context | null,
+  };
+  private readonly stack: Frame[] = [];
+  private copiedElements = 0;
+  private copiedCoords = 0;
+  /** The group of what is drawn outside of every layer; −1 until needed. */
+  private looseGroup = -1;
+  private readonly markers: SvgMarkers;
+  private subtreeEnds: Uint32Array | null = null;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly cascade: Cascade,
+    private readonly layers: LayerPlan,
+    private readonly svgGeometry: SvgGeometry,
+    private readonly clips: SvgClips,
+    private readonly painter: SvgPainter,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+    private readonly conditions: SvgConditions,
+  ) {
+    this.markers = new SvgMarkers(tree, cascade, clips);
+  }
+
+  /** Draws everything below the root. Yields often enough for a page to stay responsive. */
+  *run(rootContext: Context): Generator<void, void> {
+    const { tree, stack } = this;
+    this.enterRoot(rootContext);
+    let visited = 0;
+    let coordsAtYield = 0;
+    while (stack.length > 0) {
+      const frame = stack[stack.length - 1];
+      const element = frame.next;
+      if (element < 0) {
+        stack.pop();
+        this.leave(frame);
+        continue;
+      }
+      frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
+      this.visit(element, frame.context);
+      if (++visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
+        visited = 0;
+        coordsAtYield = this.builder.coordCount;
+        this.builder.progress = element / tree.count;
+        yield;
+      }
+    }
+  }
+
+  /** The outermost element has a clip and effects of its own, too. */
+  private enterRoot(context: Context): void {
+    const { declared } = this;
+    this.cascade.collect(0, declared);
+    const value = declaredValue(context.style, declared, "clip-path");
+    const effects = effectsOf(context.style, declared);
+    const clip = this.clips.clipOf(0, value, context);
+    if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, effects);
+  }
+
+  private push(context: Context, next: number, isSingle: boolean, effects: Effects): void {
+    this.stack.push({ context, next, isSingle, effects, firstShape: this.builder.shapeCount });
+  }
+
+  private leave(frame: Frame): void {
+    const { builder } = this;
+    if (frame.effects.length === 0 || builder.shapeCount === frame.firstShape) return;
+    warnOf(frame.effects, builder.boxOfShapes(frame.firstShape, builder.shapeCount), this.warnings);
+  }
+
+  private visit(element: number, outer: Context): void {
+    const tag = tagOf(this.tree, element);
+    if (tag === TEXT_NODE) return;
+    const isContainer = CONTAINERS.has(tag);
+    if (!isContainer && !SHAPE_TAGS.has(tag) && tag !== "text") {
+      this.visitOther(element, tag, outer);
+      return;
+    }
+    if (tag === "symbol" && outer.uses?.target !== element) return;
+    if (!this.conditions.areMet(element)) return;
+    this.spendCopy(outer);
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const styled = this.styled(outer);
+    const { style } = styled;
+    const group = this.groupOf(element, tag, outer);
+    if (declaredValue(style, declared, "display") === "none") {
+      if (group !== outer.group) this.hideGroup(group);
+      return;
+    }
+    if (this.isTransparent(style)) {
+      if (group !== outer.group) this.hideGroup(group);
+      return;
+    }
+    if (group !== outer.group && tag === "g" && !style.isVisible) this.warnOfHidden(group);
+    const transform = this.transformOf(element, style, outer);
+    if (determinant(transform) === 0) return;
+    let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
+    const effects = effectsOf(style, this.declared);
+    if (isErased(this.tree, style, this.declared)) return;
+    const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
+    if (clip === "empty") return;
+    if (clip !== context.clip) context = { ...context, clip };
+    if (!isContainer) this.visitLeaf(element, tag, context, effects);
+    else this.enter(element, tag, context, effects);
+  }
+
+  /** The context with the style that `declared` makes: most elements declare what the one before did. */
+  private styled(outer: Context): Context {
+    const { last, declared } = this;
+    if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
+      last.inner = withStyle(outer, computeStyle(outer.style, declared, outer.basis), IDENTITY);
+      last.outer = outer;
+      last.declared.copyFrom(declared);
+    }
+    return last.inner;
+  }
+
+  private visitLeaf(element: number, tag: string, context: Context, effects: Effects): void {
+    const before = this.builder.shapeCount;
+    const coordsBefore = this.builder.coordCount;
+    if (tag === "text") this.painter.drawText(element, context);
+    else {
+      this.painter.drawShape(element, tag, this.declared, context);
+      if (isMarked(tag, context)) this.pushMarkers(context);
+    }
+    if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
+    if (effects.length > 0 && this.builder.shapeCount > before) {
+      warnOf(effects, this.builder.boxOfShapes(before, this.builder.shapeCount), this.warnings);
+    }
+  }
+
+  private enter(element: number, tag: string, context: Context, effects: Effects): void {
+    const { tree } = this;
+    switch (tag) {
+      case "use":
+        this.enterUse(element, context, effects);
+        return;
+      case "svg":
+      case "symbol": {
+        const inner = this.viewportInside(element, tag, context, outerSizeOf(context, element));
+        if (inner !== null) this.push(inner, tree.firstChildren[element], false, effects);
+        return;
+      }
+      case "switch": {
+        const child = this.chosenChild(element);
+        if (child >= 0) this.push(context, child, true, effects);
+        return;
+      }
+      default:
+        this.push(context, tree.firstChildren[element], false, effects);
+    }
+  }
+
+  private enterUse(element: number, context: Context, effects: Effects): void {
+    const { tree, warnings } = this;
+    const href = attribute(tree, element, HREF)?.trim() ?? "";
+    const line = `line ${tree.lines[element]}`;
+    if (!href.startsWith("#")) {
+      if (href === "") warnings.add("reference-missing", undefined, line);
+      else warnings.add("reference-external", undefined, href.slice(0, 60));
+      return;
+    }
+    const target = tree.elementById.get(decodeFragment(href.slice(1)));
+    if (target === undefined) {
+      warnings.add("reference-missing", undefined, href.slice(0, 60));
+      return;
+    }
+    const depth = (context.uses?.depth ?? 0) + 1;
+    if (depth > MAX_COPY_DEPTH || isInsideUseOf(context.uses, target) || this.isAncestor(target, element)) {
+      warnings.add("circular-use", undefined, href.slice(0, 60));
+      return;
+    }
+    const x = this.geometry(context, element, "x", "width") ?? 0;
+    const y = this.geometry(context, element, "y", "height") ?? 0;
+    // Of a copy browsers heed these two as attributes only.
+    const side = (name: "width" | "height"): number | null =>
+      lengthPx(attribute(tree, element, name) ?? "", context.basis, name);
+    const size = { width: side("width"), height: side("height") };
+    const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
+    this.push(
+      {
+        ...context,
+        ...contextPaints(context),
+        map,
+        uses: { element, target, size, outer: context.uses, depth },
+      },
+      target,
+      true,
+      effects,
+    );
+  }
+
+  /** Markers on the shape just drawn, as frames: their content is elements like any other. */
+  private pushMarkers(context: Context): void {
+    const { tree } = this;
+    const { style } = context;
+    if (!style.isVisible) return;
+    const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
+    const places = markerPlaces(this.svgGeometry.shape);
+    // Last first, since the last frame pushed is drawn first.
+    for (const place of places.reverse()) {
+      const id = ids[place.kind];
+      const marker = id === null ? undefined : tree.elementById.get(id);
+      if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
+      if (isInsideUseOf(context.uses, marker)) continue;
+      this.spendCopy(context);
+      const inner = this.markers.insideOf(marker, place, context);
+      if (inner !== null) this.push(inner, tree.firstChildren[marker], false, []);
+    }
+  }
+
+  private isAncestor(candidate: number, element: number): boolean {
+    this.subtreeEnds ??= subtreeEndsOf(this.tree);
+    return candidate <= element && element < this.subtreeEnds[candidate];
+  }
+
+  /** The context inside a nested svg or a symbol; null where it has no size. */
+  private viewportInside(
+    element: number,
+    tag: string,
+    context: Context,
+    useSize: { readonly width: number | null; readonly height: number | null } | null,
+  ): Context | null {
+    const { tree, declared } = this;
+    const { viewportWidth, viewportHeight } = context.basis;
+    const isSvg = tag === "svg";
+    // As in browsers, the attributes count and not CSS.
+    const length = (name: "x" | "y" | "width" | "height", side: Side): number | null =>
+      lengthPx(attribute(tree, element, name) ?? "", context.basis, side);
+    const x = isSvg ? (length("x", "width") ?? 0) : 0;
+    const y = isSvg ? (length("y", "height") ?? 0) : 0;
+    const ownWidth = notNegative(length("width", "width"));
+    const ownHeight = notNegative(length("height", "height"));
+    const width = useSize?.width ?? ownWidth ?? viewportWidth;
+    const height = useSize?.height ?? ownHeight ?? viewportHeight;
+    if (!(width > 0 && height > 0) || isEmptyViewBox(attribute(tree, element, "viewBox"))) return null;
+    const box = parseViewBox(attribute(tree, element, "viewBox"));
+    const inner =
+      box === null
+        ? IDENTITY
+        : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
+    const overflow = declaredValue(context.style, declared, "overflow");
+    const isCut = overflow !== "visible" && overflow !== "auto";
+    const clip = isCut ? this.clips.rectangleClip(context, x, y, width, height) : context.clip;
+    const map = compose(translation(x, y), inner);
+    return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
+  }
+
+  private visitOther(element: number, tag: string, outer: Context): void {
+    if (ANIMATIONS.has(tag)) {
+      this.warnings.add("animation-ignored");
+      return;
+    }
+    const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
+    if (code === undefined || !this.conditions.areMet(element)) return;
+    const { declared } = this;
+    this.cascade.collect(element, declared);
+    const style = computeStyle(outer.style, declared, outer.basis);
+    if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
+    if (this.isTransparent(style)) return;
+    const context = withStyle(outer, style, this.transformOf(element, style, outer));
+    const box = this.svgGeometry.placeOf(
+      context,
+      this.geometry(context, element, "x", "width") ?? 0,
+      this.geometry(context, element, "y", "height") ?? 0,
+      this.geometry(context, element, "width", "width") ?? 0,
+      this.geometry(context, element, "height", "height") ?? 0,
+    );
+    this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
+  }
+
+  /** A length that CSS or an attribute may give. Valid while `declared` is of this element. */
+  private geometry(
+    context: Context,
+    element: number,
+    name: "x" | "y" | "width" | "height",
+    side: Side,
+  ): number | null {
+    return this.svgGeometry.lengthOf(element, this.declared, context, name, side);
+  }
+
+  /** By its own opacity. Valid while `declared` is of this element, as are the next two. */
+  private isTransparent(style: Context["style"]): boolean {
+    const opacity = declaredValue(style, this.declared, "opacity");
+    return opacity !== undefined && parseOpacity(opacity) === 0;
+  }
+
+  private transformOf(element: number, style: Context["style"], outer: Context): Affine {
+    const boxOf = (): Box | null => this.clips.boxOf(element, { ...outer, style });
+    const map = elementTransform(style, this.declared, outer.basis, boxOf);
+    if (map === null) {
+      this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
+    }
+    return map ?? IDENTITY;
+  }
+
+  private chosenChild(element: number): number {
+    const { tree } = this;
+    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+      const tag = tagOf(tree, child);
+      const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
+      if (isDrawn && this.conditions.areMet(child)) return child;
+    }
+    return -1;
+  }
+
+  private groupOf(element: number, tag: string, outer: Context): number {
+    const { tree, layers, builder } = this;
+    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
+    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
+    if (isLayer) {
+      const number = builder.groups.length + 1;
+      const name = layerName(tree, element) ?? `Layer ${number}`;
+      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
+    }
+    if (this.looseGroup < 0) {
+      const number = builder.groups.length + 1;
+      this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    }
+    return this.looseGroup;
+  }
+
+  private hideGroup(group: number): void {
+    const { groups } = this.builder;
+    groups[group] = { ...groups[group], hidden: true };
+    this.warnOfHidden(group);
+  }
+
+  private warnOfHidden(group: number): void {
+    this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
+  }
+
+  private spendCopy(context: Context): void {
+    if (context.uses === null) return;
+    this.copiedElements++;
+    if (this.copiedElements <= MAX_COPIED_ELEMENTS && this.copiedCoords <= MAX_COPIED_COORDS) return;
+    throw new PlotwrightError(
+      "bad-file",
+      `The copies (<use>) in this SVG come to more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
+        this.tree.lines[context.uses.element]
+      }). Remove copies of copies, or export with copies resolved.`,
+    );
+  }
+}
+
+/** A negative size is invalid, and so like none. */
+const notNegative = (length: number | null): number | null => (length !== null && length < 0 ? null : length);
+
+/** The size that a `use` gives to the svg or symbol it refers to. */
+function outerSizeOf(
+  context: Context,
+  element: number,
+): { readonly width: number | null; readonly height: number | null } | null {
+  return context.uses?.target === element ? context.uses.size : null;
+}
+
+/** One past the last element inside each element; elements stand in document order. */
+function subtreeEndsOf(tree: SvgTree): Uint32Array {
+  const ends = new Uint32Array(tree.count);
+  for (let element = tree.count - 1; element >= 0; element--) {
+    ends[element] = Math.max(ends[element], element + 1);
+    const parent = tree.parents[element];
+    if (parent >= 0) ends[parent] = Math.max(ends[parent], ends[element]);
+  }
+  return ends;
+}
+
+function decodeFragment(fragment: string): string {
+  try {
+    return decodeURIComponent(fragment);
+  } catch {
+    return fragment;
+  }
+}

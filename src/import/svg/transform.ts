@@ -1,0 +1,148 @@
+/** The `transform` attribute and CSS property to one affine map, in user units. */
+import { compose, IDENTITY, isFiniteAffine, rotation, scaling, translation } from "../../geometry/affine.js";
+import type { Affine } from "../../geometry/affine.js";
+import { absolutePx, lengthPx, splitLength, type LengthBasis } from "./length.js";
+
+const FUNCTION = /\s*,?\s*([a-zA-Z]+)\s*\(([^()]*)\)\s*/y;
+const RAD_PER_DEG = Math.PI / 180;
+const ANGLES: Readonly<Record<string, number>> = {
+  "": RAD_PER_DEG,
+  deg: RAD_PER_DEG,
+  rad: 1,
+  grad: Math.PI / 200,
+  turn: 2 * Math.PI,
+};
+
+/** Percentages of a translation as px, where `basis` says of what. */
+function inPx(name: string, args: readonly string[], basis: LengthBasis | null): readonly string[] {
+  return args.map((arg, i) => {
+    if (basis === null || !arg.endsWith("%")) return arg;
+    const side = i === 0 && name !== "translatey" ? "width" : "height";
+    return String(lengthPx(arg, basis, side) ?? arg);
+  });
+}
+
+/** Identity for "none" or blank text; null where any part of it is malformed (then nothing applies). */
+export function parseTransform(text: string, basis: LengthBasis | null = null): Affine | null {
+  if (text === "none" || text.trim() === "") return IDENTITY;
+  let map = IDENTITY;
+  FUNCTION.lastIndex = 0;
+  while (FUNCTION.lastIndex < text.length) {
+    const match = FUNCTION.exec(text);
+    if (match === null) return null;
+    if (/,\s*,|^\s*,|,\s*$/.test(match[2])) return null;
+    const name = match[1].toLowerCase();
+    const args = splitArguments(match[2]);
+    const step = parseFunction(name, name.startsWith("translate") ? inPx(name, args, basis) : args);
+    if (step === null) return null;
+    map = compose(map, step);
+  }
+  return isFiniteAffine(map) ? map : null;
+}
+
+const ORIGINS: Readonly<Record<string, string>> = {
+  left: "0%",
+  top: "0%",
+  center: "50%",
+  right: "100%",
+  bottom: "100%",
+};
+/** Keywords that tell which side they are of, wherever they stand. */
+const ACROSS = new Set(["left", "right"]);
+const DOWN = new Set(["top", "bottom"]);
+
+/**
+ * The map turned about a CSS `transform-origin`; as it is where that is malformed. Percentages are of `basis`, and
+ * `corner` is where its box begins.
+ */
+export function aroundOrigin(
+  map: Affine,
+  origin: string,
+  basis: LengthBasis,
+  corner = { x: 0, y: 0 },
+): Affine {
+  const [first, second = "center"] = origin.trim().split(/\s+/);
+  const isSwapped = DOWN.has(first) || ACROSS.has(second);
+  const [across, down] = isSwapped ? [second, first] : [first, second];
+  const dx = lengthPx(ORIGINS[across] ?? across, basis, "width");
+  const dy = lengthPx(ORIGINS[down] ?? down, basis, "height");
+  if (dx === null || dy === null || DOWN.has(across) || ACROSS.has(down)) return map;
+  const x = corner.x + dx;
+  const y = corner.y + dy;
+  const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
+  return isFiniteAffine(moved) ? moved : map;
+}
+
+/** Numbers may stand without separators, as in path data: "1-2.5.5". */
+function splitArguments(text: string): string[] {
+  return text.match(/[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?:[a-zA-Z]+|%)?|[^\s,]+/g) ?? [];
+}
+
+function parseFunction(name: string, args: readonly string[]): Affine | null {
+  const n = args.length;
+  switch (name) {
+    case "matrix":
+      return n === 6 ? matrix(args) : null;
+    case "translate":
+      return n === 1 || n === 2 ? lengths(args, (x, y = 0) => translation(x, y)) : null;
+    case "translatex":
+      return n === 1 ? lengths(args, (x) => translation(x, 0)) : null;
+    case "translatey":
+      return n === 1 ? lengths(args, (y) => translation(0, y)) : null;
+    case "scale":
+      return n === 1 || n === 2 ? factors(args, (x, y = x) => scaling(x, y)) : null;
+    case "scalex":
+      return n === 1 ? factors(args, (x) => scaling(x, 1)) : null;
+    case "scaley":
+      return n === 1 ? factors(args, (y) => scaling(1, y)) : null;
+    case "rotate":
+      return n === 1 || n === 3 ? rotate(args) : null;
+    case "skewx":
+      return n === 1 ? skew(args[0], 0) : null;
+    case "skewy":
+      return n === 1 ? skew(0, args[0]) : null;
+    case "skew":
+      return n === 1 || n === 2 ? skew(args[0], args[1] ?? 0) : null;
+    default:
+      return null;
+  }
+}
+
+function matrix(args: readonly string[]): Affine | null {
+  const [a, b, c, d, e, f] = args.map(Number);
+  const map = { a, b, c, d, e, f };
+  return isFiniteAffine(map) ? map : null;
+}
+
+function lengths(args: readonly string[], make: (x: number, y?: number) => Affine): Affine | null {
+  const px = args.map(absolutePx);
+  return px.includes(null) ? null : make(...(px as [number, number?]));
+}
+
+function factors(args: readonly string[], make: (x: number, y?: number) => Affine): Affine | null {
+  const values = args.map((arg) => (arg.endsWith("%") ? Number(arg.slice(0, -1)) / 100 : Number(arg)));
+  return values.every(Number.isFinite) ? make(...(values as [number, number?])) : null;
+}
+
+function angleRad(text: string): number | null {
+  const parts = splitLength(text);
+  if (parts === null) return null;
+  const factor = ANGLES[parts.unit];
+  return factor === undefined ? null : parts.value * factor;
+}
+
+function rotate(args: readonly string[]): Affine | null {
+  const angle = angleRad(args[0]);
+  if (angle === null) return null;
+  if (args.length === 1) return rotation(angle);
+  return lengths(args.slice(1), (x, y = 0) =>
+    compose(translation(x, y), compose(rotation(angle), translation(-x, -y))),
+  );
+}
+
+function skew(x: string | number, y: string | number): Affine | null {
+  const ax = typeof x === "number" ? x : angleRad(x);
+  const ay = typeof y === "number" ? y : angleRad(y);
+  if (ax === null || ay === null) return null;
+  return { a: 1, b: Math.tan(ay), c: Math.tan(ax), d: 1, e: 0, f: 0 };
+}

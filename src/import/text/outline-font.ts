@@ -1,0 +1,63 @@
+// Ambient declarations are only seen where a program names them, and ours has several programs.
+// eslint-disable-next-line @typescript-eslint/triple-slash-reference
+/// <reference path="./fontkit.d.ts" />
+/** Letters as the outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first of a collection. */
+import type { Font } from "fontkit";
+import { PlotwrightError } from "../../errors.js";
+import type { LaidOutGlyph, TextFont } from "./text-font.js";
+
+const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
+  moveTo: "M",
+  lineTo: "L",
+  quadraticCurveTo: "Q",
+  bezierCurveTo: "C",
+  closePath: "Z",
+};
+const NOT_DEFINED = 0;
+
+/**
+ * Rejects with PlotwrightError("bad-file") where the bytes are no font.
+ *
+ * The font library is loaded here and not before: it takes as long as a drawing of thousands of lines.
+ */
+export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
+  const { create } = await import("fontkit");
+  let font: Font;
+  try {
+    const opened = create(bytes);
+    font = "fonts" in opened ? opened.fonts[0] : opened;
+    // Broken tables show only when used.
+    font.layout("A");
+  } catch (cause) {
+    const why = cause instanceof Error ? cause.message : String(cause);
+    throw new PlotwrightError(
+      "bad-file",
+      `This is no font that can be read (${why}). Give a ttf, otf or woff file.`,
+      {
+        cause,
+      },
+    );
+  }
+  return { kind: "outline", layout: (text) => layOut(font, text) };
+}
+
+function layOut(font: Font, text: string): ReturnType<TextFont["layout"]> {
+  const run = font.layout(text);
+  const em = 1 / font.unitsPerEm;
+  const missing: string[] = [];
+  const glyphs = run.glyphs.map((glyph, i): LaidOutGlyph => {
+    const { xAdvance, xOffset, yOffset } = run.positions[i];
+    if (glyph.id === NOT_DEFINED) {
+      missing.push(String.fromCodePoint(...glyph.codePoints));
+      return { path: "", x: 0, y: 0, advance: xAdvance * em };
+    }
+    const path = glyph.path.commands
+      .map(
+        ({ command, args }) =>
+          LETTER_OF_COMMAND[command] + args.map((v, k) => (k % 2 === 0 ? v : -v) * em).join(" "),
+      )
+      .join("");
+    return { path, x: xOffset * em, y: -yOffset * em, advance: xAdvance * em };
+  });
+  return { glyphs, missing };
+}

@@ -1,0 +1,172 @@
+/**
+ * A filter over time: the output is a weighted mean of the planned motion q at earlier instants.
+ *
+ *   impulses   u(t) = Σ Aᵢ q(t − tᵢ)              Σ Aᵢ = 1
+ *   box        u(t) = 1/w ∫ q over [t − w, t]     = (Q(t) − Q(t − w)) / w        Q: the integral of q
+ *
+ * Both are a sum of taps: copies of the motion (or of its integral), each delayed and weighted. For an input of constant
+ * acceleration a block, u has one constant jerk between any two instants at which a tap passes a block's end. So the
+ * output is blocks again, exactly. It takes as much longer as the last tap is delayed.
+ *
+ * With weights Aᵢ ≥ 0, as in a box, the output keeps every convex limit of the input: |v| ≤ V, |a| ≤ A. The velocity of a
+ * box's output is a difference of positions, its acceleration (v(t) − v(t − w))/w, its jerk (a(t) − a(t − w))/w: at most
+ * 2A/w.
+ *
+ * How far a box leaves the line: the mean of A u²/2 over |u| ≤ w/2, which is A w²/24; not at all on a straight.
+ *
+ * Source: finite-impulse-response filtering of feed rates, common in machine-tool controls.
+ */
+import type { BlockColumns } from "./block-columns.js";
+import type { RunEnd } from "./run-path.js";
+
+export interface Tap {
+  readonly delayS: number;
+  readonly weight: number;
+}
+
+export interface Kernel {
+  /** In order of their delays, the first one 0. */
+  readonly taps: readonly Tap[];
+  /** What the taps are copies of: the motion itself, or its integral over time. */
+  readonly of: "motion" | "integral";
+  /** By how much the output is late in the mean, s. */
+  readonly meanDelayS: number;
+}
+
+export function boxKernel(widthS: number): Kernel {
+  const weight = 1 / widthS;
+  const taps = [
+    { delayS: 0, weight },
+    { delayS: widthS, weight: -weight },
+  ];
+  return { taps, of: "integral", meanDelayS: widthS / 2 };
+}
+
+export function impulseKernel(taps: readonly Tap[]): Kernel {
+  const meanDelayS = taps.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
+  return { taps, of: "motion", meanDelayS };
+}
+
+/** Ends of blocks nearer in time than this fall together, s. */
+const SAME_S = 1e-12;
+
+/**
+ * Appends the filtered run to `out`, which has jerk columns. `from` holds the run's blocks only, and the run ends at rest
+ * at `end`. `from` gets two rows more: rest at the end, and rest before the start.
+ */
+export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, out: BlockColumns): void {
+  const { taps, meanDelayS } = kernel;
+  const { count } = from;
+  addRests(from, end);
+  const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
+  const { alongMm } = from;
+  const { rate, change } = alongRates(from, count);
+  // Where in the input each tap is: the block, for how long already, and for how long still.
+  const n = taps.length;
+  const weights = Float64Array.from(taps, ({ weight }) => weight);
+  const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
+  const since = new Float64Array(n);
+  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]!));
+  const isIntegral = kernel.of === "integral";
+  let x = px[0]!;
+  let y = py[0]!;
+  let along = from.alongMm[0]!;
+  for (;;) {
+    let dt = Infinity;
+    let isOneBlock = true;
+    for (let i = 0; i < n; i++) {
+      if (left[i]! < dt) dt = left[i]!;
+      if (block[i] !== block[0]) isOneBlock = false;
+    }
+    if (dt === Infinity) break;
+    let vx = 0;
+    let vy = 0;
+    let ax = 0;
+    let ay = 0;
+    let jx = 0;
+    let jy = 0;
+    let alongV = 0;
+    let alongA = 0;
+    let alongJ = 0;
+    for (let i = 0; i < n; i++) {
+      const k = block[i]!;
+      const t = since[i]!;
+      const weight = weights[i]!;
+      const ax1 = pax[k]!;
+      const ay1 = pay[k]!;
+      const vx1 = pvx[k]! + t * ax1;
+      const vy1 = pvy[k]! + t * ay1;
+      const alongV1 = rate[k]! + t * change[k]!;
+      if (isIntegral) {
+        // Weights sum to zero here: places are taken from the output's own, so that far ones lose no digits.
+        vx += weight * (px[k]! - x + (t * (pvx[k]! + vx1)) / 2);
+        vy += weight * (py[k]! - y + (t * (pvy[k]! + vy1)) / 2);
+        ax += weight * vx1;
+        ay += weight * vy1;
+        jx += weight * ax1;
+        jy += weight * ay1;
+        alongV += weight * (alongMm[k]! - along + (t * (rate[k]! + alongV1)) / 2);
+        alongA += weight * alongV1;
+        alongJ += weight * change[k]!;
+      } else {
+        vx += weight * vx1;
+        vy += weight * vy1;
+        ax += weight * ax1;
+        ay += weight * ay1;
+        alongV += weight * alongV1;
+        alongA += weight * change[k]!;
+      }
+    }
+    if (isOneBlock) {
+      // The mean within one block is known exactly; small errors of differences would add up over a long one.
+      const k = block[0]!;
+      const t = since[0]! - meanDelayS;
+      ax = pax[k]!;
+      ay = pay[k]!;
+      vx = pvx[k]! + t * ax;
+      vy = pvy[k]! + t * ay;
+      jx = jy = 0;
+    }
+    if (dt > 2 * SAME_S) {
+      out.push(dt, x, y, vx, vy, ax, ay, along);
+      out.setJerk(jx, jy);
+    }
+    x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
+    y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
+    along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));
+    for (let i = 0; i < n; i++) {
+      since[i]! += dt;
+      left[i]! -= dt;
+      if (left[i]! > SAME_S) continue;
+      // After the rest before the start comes block 0.
+      block[i] = block[i]! > count ? 0 : block[i]! + 1;
+      since[i] = 0;
+      left[i] = durationS[block[i]!]!;
+    }
+  }
+}
+
+/** Two rows behind the last block: at rest where the run ends, and at rest where it begins. */
+function addRests(from: BlockColumns, end: RunEnd): void {
+  const [x0, y0, along0] = [from.x[0]!, from.y[0]!, from.alongMm[0]!];
+  from.push(Infinity, end.x, end.y, 0, 0, 0, 0, end.alongMm);
+  from.push(Infinity, x0, y0, 0, 0, 0, 0, along0);
+}
+
+/** How fast each block passes the drawing's own line at its start, mm/s, and how that changes, mm/s². */
+function alongRates(
+  { durationS, vx, vy, alongMm }: BlockColumns,
+  count: number,
+): { readonly rate: Float64Array; readonly change: Float64Array } {
+  const rate = new Float64Array(count + 2);
+  const change = new Float64Array(count + 2);
+  let v1 = 0;
+  for (let k = count - 1; k >= 0; k--) {
+    const v0 = Math.sqrt(vx[k]! * vx[k]! + vy[k]! * vy[k]!);
+    const perMm = v0 + v1 > 0 ? (2 * (alongMm[k + 1]! - alongMm[k]!)) / ((v0 + v1) * durationS[k]!) : 0;
+    rate[k] = perMm * v0;
+    change[k] = (perMm * (v1 - v0)) / durationS[k]!;
+    v1 = v0;
+  }
+  return { rate, change };
+}

@@ -1,0 +1,231 @@
+/**
+ * Fewer, longer blocks: neighbouring blocks of a run are replaced by two blocks of constant acceleration (a pair).
+ *
+ *   blocks  |--|-|--|-|--|-|--|-|--|        from state (p₀, v₀) to state (p₁, v₁) in T seconds
+ *   pair    |-----T/2-----|-----T/2-----|
+ *
+ *   velocity in the middle   w = 2 Δp/T − (v₀ + v₁)/2
+ *   accelerations            a₁ = 2 (w − v₀)/T        a₂ = 2 (v₁ − w)/T
+ *
+ * A pair ends exactly in the state in which the replaced blocks end, so no error is carried forward. It is allowed where
+ *
+ *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so its ends are the extremes)
+ *   it leaves the planned line by at most ε
+ *
+ * From each block on, a group about as long as the last one is tried; it grows until it fails, or shrinks until it holds
+ * (greedy, no backtracking). Linear in the number of blocks.
+ *
+ * A pair may take a little longer than its blocks (STRETCH). An arc drawn at V or under A leaves no room for a motion that
+ * swings a little around its mean: with no extra time there would be few pairs on curves.
+ */
+import type { BlockColumns } from "./block-columns.js";
+import { canStep, SLACK, type RunLimits } from "./limits.js";
+import type { RunEnd } from "./run-path.js";
+
+/** A pair may take longer than its blocks by this share. */
+const STRETCH = 0.012;
+
+/** Longest pair, s: inside a block the place along the drawing is interpolated. */
+const LONGEST_S = 0.6;
+
+/** Factor from one trial length to the next. */
+const GROWTH = 1.25;
+
+/** Blocks in the first group that is tried. */
+const FIRST_GROUP = 8;
+
+export interface MergeRules {
+  /** ε, mm. */
+  readonly toleranceMm: number;
+  /** s. */
+  readonly floorS: number;
+  /** False where velocity jumps at vertices (`junction`): a pair must then be near the plan at equal times. */
+  readonly isSmooth: boolean;
+}
+
+/** Two blocks of `halfS` seconds each, with velocity (wx, wy) between them, in the place of the blocks before `end`. */
+interface Pair {
+  readonly end: number;
+  readonly halfS: number;
+  readonly wx: number;
+  readonly wy: number;
+}
+
+/** Merges the blocks of one run, from `first` to the last one, in place. The run ends at rest at `at`. */
+export function mergeBlocks(
+  blocks: BlockColumns,
+  first: number,
+  at: RunEnd,
+  limits: RunLimits,
+  rules: MergeRules,
+): void {
+  const last = blocks.count;
+  // A row for the state in which the last block ends, so that every block has one behind it.
+  blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
+  blocks.count = first;
+  blocks.clockS = blocks.startS[first]!;
+  let size = FIRST_GROUP;
+  let i = first;
+  while (i < last) {
+    const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
+    if (pair === null) {
+      blocks.moveToEnd(i);
+      size = Math.max(FEWEST, size >> 1);
+      i += 1;
+    } else {
+      writePair(blocks, i, pair);
+      size = pair.end - i;
+      i = pair.end;
+    }
+  }
+}
+
+/** A group of this many blocks is always worth a pair. */
+const FEWEST = 3;
+
+/** The longest pair from block i on that is found by trying from `guess` on; null where there is none. */
+function longestPair(
+  blocks: BlockColumns,
+  i: number,
+  guess: number,
+  last: number,
+  limits: RunLimits,
+  rules: MergeRules,
+): Pair | null {
+  let end = guess;
+  let longest = pairOver(blocks, i, end, limits, rules);
+  while (longest === null && end > i + 2) {
+    end = i + Math.floor((end - i) / GROWTH);
+    longest = pairOver(blocks, i, end, limits, rules);
+  }
+  if (end < guess) return longest;
+  while (longest !== null && longest.end < last) {
+    end = Math.min(i + Math.ceil(GROWTH * (longest.end - i)), last);
+    const longer = pairOver(blocks, i, end, limits, rules);
+    if (longer === null) break;
+    longest = longer;
+  }
+  return longest;
+}
+
+/** The pair in the place of blocks [i, m); null where it is not worth it or breaks a limit. */
+function pairOver(
+  blocks: BlockColumns,
+  i: number,
+  m: number,
+  limits: RunLimits,
+  rules: MergeRules,
+): Pair | null {
+  if (!isWorth(blocks, i, m, rules.floorS)) return null;
+  const plannedS = blocks.startS[m]! - blocks.startS[i]!;
+  const pair =
+    pairIn(plannedS, blocks, i, m, limits) ?? pairIn(plannedS * (1 + STRETCH), blocks, i, m, limits);
+  return pair !== null && isNear(blocks, i, pair, limits, rules) ? pair : null;
+}
+
+/**
+ * The pair that takes `wholeS` seconds; null where V, A or a motor's limit is broken, or a half turns back (the place along
+ * the drawing is interpolated by speed).
+ */
+function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limits: RunLimits): Pair | null {
+  const { x, y, vx, vy } = blocks;
+  const vx0 = vx[i]!;
+  const vy0 = vy[i]!;
+  const vx1 = vx[m]!;
+  const vy1 = vy[m]!;
+  const wx = (2 * (x[m]! - x[i]!)) / wholeS - (vx0 + vx1) / 2;
+  const wy = (2 * (y[m]! - y[i]!)) / wholeS - (vy0 + vy1) / 2;
+  const halfS = wholeS / 2;
+  const mostChange = limits.accel * SLACK * halfS;
+  const isWithin =
+    isShorter(wx - vx0, wy - vy0, mostChange) &&
+    isShorter(vx1 - wx, vy1 - wy, mostChange) &&
+    isShorter(wx, wy, limits.speed * SLACK) &&
+    vx0 * wx + vy0 * wy >= 0 &&
+    wx * vx1 + wy * vy1 >= 0 &&
+    canStep(limits, wx, wy);
+  return isWithin ? { end: m, halfS, wx, wy } : null;
+}
+
+const isShorter = (x: number, y: number, most: number): boolean => x * x + y * y <= most * most;
+
+/** A pair must be fewer blocks; or as many, where one of them is shorter than the floor and the pair's are not. */
+function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
+  const wholeS = startS[m]! - startS[i]!;
+  if (wholeS > LONGEST_S) return false;
+  if (m - i >= FEWEST) return true;
+  return m - i === 2 && wholeS >= 2 * floorS && Math.min(durationS[i]!, durationS[i + 1]!) < floorS;
+}
+
+/**
+ * Whether the pair stays within ε of the planned line, checked once a block. At the block's start the difference e of the
+ * two motions is known. Within the block it is a parabola, so it leaves the straight line between its values at the ends
+ * by at most |e″| d²/8.
+ *
+ * Early or late on the line will do: paper does not show when a place was drawn. Being off by s mm along the line then
+ * counts A s²/v², twice what a line may bend that is drawn at v under A (the line may be drawn slower nearby).
+ */
+function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, rules: MergeRules): boolean {
+  const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
+  const { end: m, halfS, wx, wy } = pair;
+  const { accel } = limits;
+  const most = rules.toleranceMm;
+  const x0 = x[i]!;
+  const y0 = y[i]!;
+  const vx0 = vx[i]!;
+  const vy0 = vy[i]!;
+  const a1x = (wx - vx0) / halfS;
+  const a1y = (wy - vy0) / halfS;
+  const x1 = x[m]!;
+  const y1 = y[m]!;
+  const vx1 = vx[m]!;
+  const vy1 = vy[m]!;
+  const a2x = (vx1 - wx) / halfS;
+  const a2y = (vy1 - wy) / halfS;
+  const wholeS = 2 * halfS;
+  const start = startS[i]!;
+  const stretch = wholeS / (startS[m]! - start);
+  const slow2 = rules.isSmooth ? 16 * most * accel : Infinity;
+  for (let k = i; k < m; k++) {
+    const d = durationS[k]!;
+    const t = (startS[k]! - start) * stretch;
+    const isFirst = t < halfS;
+    const u = isFirst ? t : t - wholeS;
+    const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k]! : x1 + u * (vx1 + (u * a2x) / 2) - x[k]!;
+    const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k]! : y1 + u * (vy1 + (u * a2y) / 2) - y[k]!;
+    // Of the block with the knot in it, the half whose acceleration differs more counts.
+    const hasKnot = isFirst && t + d > halfS;
+    const isMoreLater =
+      hasKnot && lengthOf(a2x - ax[k]!, a2y - ay[k]!) > lengthOf(a1x - ax[k]!, a1y - ay[k]!);
+    const countsFirst = isFirst && !isMoreLater;
+    const ex = (((countsFirst ? a1x : a2x) - ax[k]!) * d * d) / 8;
+    const ey = (((countsFirst ? a1y : a2y) - ay[k]!) * d * d) / 8;
+    const rest = most - Math.abs(ex) - Math.abs(ey);
+    if (rest > 0 && dx * dx + dy * dy <= rest * rest) continue;
+    const ux = vx[k]!;
+    const uy = vy[k]!;
+    const v2 = ux * ux + uy * uy;
+    if (v2 < slow2) return false;
+    const across = Math.abs(dx * uy - dy * ux) + Math.abs(ex * uy - ey * ux);
+    const along = Math.abs(dx * ux + dy * uy) + Math.abs(ex * ux + ey * uy);
+    if (across / Math.sqrt(v2) + (accel * along * along) / (v2 * v2) > most) return false;
+  }
+  return true;
+}
+
+function writePair(blocks: BlockColumns, i: number, { end: m, halfS, wx, wy }: Pair): void {
+  const { x, y, vx, vy, alongMm } = blocks;
+  const [x0, y0, vx0, vy0, along] = [x[i]!, y[i]!, vx[i]!, vy[i]!, alongMm[i]!];
+  const [vx1, vy1] = [vx[m]!, vy[m]!];
+  const middle = lengthOf(wx, wy);
+  const first = lengthOf(vx0, vy0) + middle;
+  const second = middle + lengthOf(vx1, vy1);
+  const share = first > 0 ? first / (first + second) : 0;
+  const halfway = along + share * (alongMm[m]! - along);
+  blocks.push(halfS, x0, y0, vx0, vy0, (wx - vx0) / halfS, (wy - vy0) / halfS, along);
+  const kx = x0 + (halfS * (vx0 + wx)) / 2;
+  const ky = y0 + (halfS * (vy0 + wy)) / 2;
+  blocks.push(halfS, kx, ky, wx, wy, (vx1 - wx) / halfS, (vy1 - wy) / halfS, halfway);
+}
+
+const lengthOf = (x: number, y: number): number => Math.sqrt(x * x + y * y);

@@ -1,0 +1,63 @@
+/** A plan's pen moves, written in columns and read as objects where there are few. */
+import type { PenMove, PenMoveColumns } from "./trajectory.js";
+
+export class PenMoveWriter implements PenMoveColumns {
+  count = 0;
+  readonly beforeRun: Uint32Array;
+  readonly up: Uint8Array;
+  readonly startS: Float64Array;
+  readonly waitS: Float64Array;
+  readonly heightPct: Float64Array;
+
+  /** @param max moves that will be pushed at most */
+  constructor(max: number) {
+    this.beforeRun = new Uint32Array(max);
+    this.up = new Uint8Array(max);
+    this.startS = new Float64Array(max);
+    this.waitS = new Float64Array(max);
+    this.heightPct = new Float64Array(max);
+  }
+
+  push(move: PenMove): void {
+    const i = this.count++;
+    this.beforeRun[i] = move.beforeRun;
+    this.up[i] = move.up ? 1 : 0;
+    this.startS[i] = move.startS;
+    this.waitS[i] = move.waitS;
+    this.heightPct[i] = move.heightPct;
+  }
+
+  /** Plain columns, which can cross threads. */
+  finish(): PenMoveColumns {
+    const { count, beforeRun, up, startS, waitS, heightPct } = this;
+    return { count, beforeRun, up, startS, waitS, heightPct };
+  }
+}
+
+export const penMoveAt = (moves: PenMoveColumns, i: number): PenMove => ({
+  beforeRun: moves.beforeRun[i]!,
+  up: moves.up[i] === 1,
+  startS: moves.startS[i]!,
+  waitS: moves.waitS[i]!,
+  heightPct: moves.heightPct[i]!,
+});
+
+export const penMovesOf = ({ penMoves }: { readonly penMoves: PenMoveColumns }): PenMove[] =>
+  Array.from({ length: penMoves.count }, (_, i) => penMoveAt(penMoves, i));
+
+export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
+  const writer = new PenMoveWriter(moves.length);
+  for (const move of moves) writer.push(move);
+  return writer.finish();
+}
+
+/** Rounding between a command's plan time and the trajectory's. */
+const SAME_TIME_S = 1e-7;
+
+/** True when every pen move started before `tS` leaves the pen up. */
+export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
+  let up = true;
+  for (let i = 0; i < penMoves.count && penMoves.startS[i]! < tS - SAME_TIME_S; i++)
+    up = penMoves.up[i] === 1;
+  return up;
+}

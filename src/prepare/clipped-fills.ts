@@ -1,0 +1,64 @@
+/** What clip paths leave of the lines. A fill without a line of its own has the clip's edge as part of its outline. */
+import type { Drawing } from "../drawing/drawing.js";
+import { LineBuilder, lineCount, totalLength, type Lines } from "../geometry/polyline.js";
+import { SCALE, cutLine, type Region } from "../geometry/region.js";
+import { ANYWHERE } from "./shapes.js";
+import { filledAreas } from "./areas.js";
+import type { Work } from "./work.js";
+
+/** mm that may go without the shape counting as cut: rounding. */
+const UNCUT = 0.001;
+
+/** `lines` are the shapes' outlines, tag = shape; `clipOf` is the region that clips a shape, null for none. */
+export function clipLines(
+  lines: Lines,
+  drawing: Drawing,
+  clipOf: (shape: number) => Region | null,
+  work: Work,
+): Lines {
+  const builder = new LineBuilder();
+  for (let i = 0, next = 0; i < lineCount(lines); i = next) {
+    const shape = lines.tag[i];
+    for (next = i; next < lineCount(lines) && lines.tag[next] === shape;) next++;
+    const clip = clipOf(shape);
+    if (clip === null) copyAll(lines, i, next, builder);
+    else if (drawing.paths.stroke[shape] >= 0) cutAll(lines, i, next, clip, builder);
+    else clipFill(lines, i, next, drawing, clip, builder, work);
+  }
+  return builder.finish();
+}
+
+function copyAll(lines: Lines, from: number, to: number, builder: LineBuilder): void {
+  for (let i = from; i < to; i++) builder.copy(lines, i, lines.tag[i]);
+}
+
+function cutAll(lines: Lines, from: number, to: number, clip: Region, builder: LineBuilder): void {
+  for (let i = from; i < to; i++) cutLine(lines, i, clip, false, builder);
+}
+
+/** The outline as it is where the clip leaves it whole, else that of what is left of the area. */
+function clipFill(
+  lines: Lines,
+  from: number,
+  to: number,
+  drawing: Drawing,
+  clip: Region,
+  builder: LineBuilder,
+  work: Work,
+): void {
+  const whole = new LineBuilder();
+  copyAll(lines, from, to, whole);
+  const outline = whole.finish();
+  const cut = new LineBuilder();
+  cutAll(lines, from, to, clip, cut);
+  if (totalLength(outline) - totalLength(cut.finish()) < UNCUT) {
+    copyAll(lines, from, to, builder);
+    return;
+  }
+  const shape = lines.tag[from];
+  const area = filledAreas(outline, drawing, () => clip, ANYWHERE, work).get(shape);
+  for (const ring of area?.rings ?? []) {
+    for (const point of [...ring, ring[0]]) builder.point(point.x / SCALE, point.y / SCALE);
+    builder.end(shape);
+  }
+}

@@ -1,0 +1,18 @@
+/** How commands are sent to the machine. */
+import type { SettingsTable } from "./setting.js";
+
+export const STREAM_TABLE = {
+  sendAheadMs: {
+    kind: "number",
+    label: "Sent ahead",
+    about: "motion sent ahead of the pen; less stops sooner, but a busy computer may make the pen pause",
+    flag: "--send-ahead-ms",
+    default: 300,
+    min: 100,
+    max: 1_000,
+    isWhole: true,
+    unit: "ms",
+    step: 50,
+    digits: 0,
+  },
+} as const satisfies SettingsTable;

@@ -1,0 +1,55 @@
+/** On a desk's screen the page is as high as the window and stays where it is; its columns scroll by themselves. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { nextFrames, plotBar } from "../support/page-actions.js";
+import { PageTest } from "../support/page-test.js";
+
+const SIZES = [
+  { width: 1440, height: 900 },
+  { width: 1920, height: 1080 },
+  { width: 1024, height: 768 },
+];
+/** The left column's groups, folded ones too. */
+const GROUPS = ".column-setup .group-head";
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("window-height");
+});
+
+afterAll(async () => test.close());
+
+/** How high the document is, and how far it is scrolled, px. */
+const documentPx = (): Promise<{ height: number; scrolled: number }> =>
+  test.page.evaluate(() => ({
+    height: document.documentElement.scrollHeight,
+    scrolled: document.scrollingElement?.scrollTop ?? 0,
+  }));
+
+describe.each(SIZES)("a window of $width × $height", (size) => {
+  it("holds the whole page, with all groups of settings open, also after wheeling past a column's end", async () => {
+    const { page } = test;
+    await page.setViewportSize(size);
+    expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
+    const folded = page.locator(`${GROUPS}[aria-expanded=false]`);
+    while ((await folded.count()) > 0) await folded.first().click();
+    expect(await page.locator(GROUPS).count()).toBeGreaterThan(8);
+    // The parts that are fetched when they are first shown.
+    await page.getByRole("button", { name: "Prepared drawing as SVG" }).waitFor();
+    for (const column of [".column-setup", ".column-run"]) {
+      const box = (await page.locator(column).boundingBox())!;
+      await page.mouse.move(box.x + 20, box.y + box.height / 2);
+      for (let turn = 0; turn < 12; turn++) await page.mouse.wheel(0, 1_000);
+      await nextFrames(page);
+      await page
+        .locator(column)
+        .evaluate((element) => element.scrollTop + element.clientHeight >= element.scrollHeight - 1)
+        .then((isAtEnd) => expect(isAtEnd).toBe(true));
+    }
+    expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
+    await page.locator(".column-run").evaluate((element) => (element.scrollTop = 0));
+    const plot = (await plotBar(page).boundingBox())!;
+    expect(plot.y).toBeGreaterThanOrEqual(0);
+    expect(plot.y + plot.height).toBeLessThanOrEqual(size.height);
+  }, 120_000);
+});

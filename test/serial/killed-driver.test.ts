@@ -1,0 +1,74 @@
+/**
+ * kill -9 of a plotting process, over a real pseudo-terminal, while it draws a line that crosses itself again and again:
+ * the counters fit several places of the line. PLOTWRIGHT_FAULTS=20 for the long run.
+ */
+import { fork } from "node:child_process";
+import { once } from "node:events";
+import { fileURLToPath } from "node:url";
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { JournalEntry } from "../../server/plotter/types.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { untilIdle, waitS } from "../support/faulty-plots.js";
+import { drawnMm, plotting, seeded } from "../support/live-plot.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { PtyBoard } from "../support/pty-board.js";
+
+const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
+const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
+
+/** Loops of some 25 mm, each over the one before. */
+const LOOPS = Array.from({ length: 900 }, (_, i) => [
+  30 + 0.008 * i + 4 * Math.cos(i / 9),
+  30 + 0.01 * i + 4 * Math.sin(i / 9),
+]).flat();
+const STROKES = strokesOf(LOOPS);
+const EARLIEST_S = 1.5;
+const LATEST_S = 6;
+/** Missing or doubled: the steps' rounding, and the place within the tolerance of a crossing. */
+const MOST_MM = 0.3;
+
+describe.each(FIRMWARES)("a plot on firmware %s that is killed on a line that crosses itself", (firmware) => {
+  it("goes on from the place where the board ended", { timeout: 60_000 + 40_000 * COUNT }, async () => {
+    const random = seeded(17);
+    const { mode } = DEFAULT_PLOT_SETTINGS.motion;
+    const { world, board, run } = await plotting(mode, STROKES, firmware);
+    await world.run(run.finished);
+    const wholeMm = drawnMm(board);
+    const offMm: number[] = [];
+    for (let i = 0; i < COUNT; i++) {
+      const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+      offMm.push((await killedAfter(firmware, afterS)) - wholeMm);
+    }
+    expect(offMm.filter((mm) => Math.abs(mm) > MOST_MM)).toEqual([]);
+  });
+});
+
+/** mm that are on the paper in the end. */
+async function killedAfter(firmware: string, afterS: number): Promise<number> {
+  const board = await PtyBoard.open({ firmware, wakeful: true });
+  const driver = new PlotterDriver({ device: board.path });
+  try {
+    const file = fileURLToPath(new URL("../support/plot-child.ts", import.meta.url));
+    const child = fork(file, [board.path, JSON.stringify([LOOPS])], { execArgv: ["--import", "tsx"] });
+    const journal: JournalEntry[] = [];
+    child.on("message", (entry: JournalEntry) => journal.push(entry));
+    await once(child, "message");
+    await waitS(afterS);
+    child.kill("SIGKILL");
+    await once(child, "exit");
+    const { place: from, sent } = journal[journal.length - 1]!;
+    await driver.start();
+    await untilIdle(driver);
+    const run = await driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, { from, sent });
+    await run.resume();
+    expect(await run.finished).toEqual({ kind: "done" });
+    const { drawn } = await board.report();
+    return drawnMm({
+      drawn: () => drawn.map(({ penDown, xy }) => ({ penDown, xy: Float64Array.from(xy) })),
+    });
+  } finally {
+    await driver.close();
+    await board.close();
+  }
+}

@@ -1,0 +1,151 @@
+/**
+ * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the line, the whole drawing is on the paper
+ * in the end, once. PLOTWRIGHT_FAULTS=20 for the long run: so many random instants of each, on both firmwares.
+ */
+import { describe, expect, it } from "vitest";
+import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
+import { seeded } from "../support/live-plot.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+
+const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
+const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
+const EARLIEST_S = 0.3;
+const LATEST_S = 7;
+
+/** Not drawn in one piece, and drawn twice in all. */
+const MOST_MM = 0.05;
+/** Beside the drawing: a rounded corner. */
+const MOST_AWAY_MM = 0.1;
+const MOST_SLEPT_S = 1;
+const MOST_TRIES = 3;
+
+const GARBAGE_BYTES = 300;
+
+const FAULTS: readonly Fault[] = [
+  { name: "nothing", happen: () => undefined },
+  {
+    name: "bytes lost while the line is mute",
+    happen: async (board, random) => {
+      board.tell({ type: "deaf", deaf: true, afterBytes: Math.floor(60 * random()) });
+      await waitS(6);
+      board.tell({ type: "deaf", deaf: false });
+    },
+  },
+  {
+    name: "a stray reply",
+    happen: (board) => board.tell({ type: "garbage", bytes: [...Buffer.from("OK\r\n")] }),
+  },
+  {
+    name: "the cable pulled",
+    happen: async (board) => {
+      board.tell({ type: "unplug" });
+      await waitS(2);
+      board.tell({ type: "replug" });
+    },
+  },
+  {
+    name: "silence",
+    happen: async (board) => {
+      board.tell({ type: "mute", mute: true });
+      await waitS(4);
+      board.tell({ type: "mute", mute: false });
+    },
+  },
+  {
+    name: "garbage",
+    happen: (board, random) => {
+      const bytes = Array.from({ length: GARBAGE_BYTES }, () => Math.floor(256 * random()));
+      board.tell({ type: "garbage", bytes });
+    },
+  },
+];
+
+/** Plots again where the machine had so little time that the board seemed to have died. */
+async function undisturbed(plot: () => Promise<FaultyPlotResult>): Promise<FaultyPlotResult> {
+  for (let tries = 1; ; tries++) {
+    const result = await plot();
+    if (result.sleptS < MOST_SLEPT_S || tries === MOST_TRIES) return result;
+  }
+}
+/**
+ * Firmware before 3 draws what it has got behind the refused command, since its parser stands blocked: on a curve that
+ * is beside the stroke, and drawn again.
+ */
+const REFUSAL: Fault = { name: "a refused command", happen: (board) => board.tell({ type: "refuse" }) };
+const WINDOW_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * 0.45;
+
+/** These cost the place: home is set anew, and the line goes on from where the board surely was. */
+const LOST_PLACES: readonly Fault[] = [
+  {
+    name: "the motors' supply off",
+    happen: async (board) => {
+      board.tell({ type: "volts", volts: 0 });
+      await waitS(3);
+      board.tell({ type: "volts", volts: 9.1 });
+    },
+  },
+  { name: "a restart of the board", happen: (board) => board.tell({ type: "restart" }) },
+];
+
+/** mm in the longest time between two readings of the supply, and in what the board has got. */
+const SUPPLY_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * (0.25 + 0.45 + 0.45);
+
+// Mostly they wait for the board, so some go side by side.
+describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
+  it.each(FAULTS)(
+    "$name leaves no gap and draws nothing twice",
+    { timeout: 120_000 + 90_000 * COUNT },
+    async (fault) => {
+      const random = seeded(1_000_003 * (1 + FAULTS.indexOf(fault)));
+      const wrong: unknown[] = [];
+      for (let i = 0; i < COUNT; i++) {
+        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+        const result = await undisturbed(() => plotWithFault(fault, firmware, afterS, random));
+        const { gapMm, overlapMm, awayMm, outcomes, sleptS } = result;
+        const isDone = outcomes[outcomes.length - 1] === "done";
+        if (!isDone || gapMm > MOST_MM || overlapMm > MOST_MM || awayMm > MOST_AWAY_MM) {
+          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes, sleptS });
+        }
+      }
+      expect(wrong).toEqual([]);
+    },
+  );
+
+  it(
+    "a refused command leaves no gap, and draws nothing twice that can be stopped",
+    { timeout: 60_000 + 60_000 * COUNT },
+    async () => {
+      const random = seeded(3_000_017);
+      const mostMm = firmware === "3.0.3" ? MOST_MM : WINDOW_MM;
+      const wrong: unknown[] = [];
+      for (let i = 0; i < COUNT; i++) {
+        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+        const { gapMm, overlapMm, awayMm, outcomes } = await plotWithFault(REFUSAL, firmware, afterS, random);
+        const isDone = outcomes[outcomes.length - 1] === "done";
+        if (!isDone || gapMm > MOST_MM || overlapMm > mostMm) {
+          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes });
+        }
+      }
+      expect(wrong).toEqual([]);
+    },
+  );
+
+  it.each(LOST_PLACES)(
+    "$name leaves no gap, and draws no more twice than since the last good reading",
+    { timeout: 60_000 + 60_000 * COUNT },
+    async (fault) => {
+      const random = seeded(2_000_003 * (1 + LOST_PLACES.indexOf(fault)));
+      const wrong: unknown[] = [];
+      for (let i = 0; i < COUNT; i++) {
+        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+        const { gapMm, overlapMm, outcomes } = await plotWithFault(fault, firmware, afterS, random);
+        const isDone = outcomes[outcomes.length - 1] === "done";
+        const saysSo = outcomes.slice(0, -1).every((words) => words.includes("may overlap a little"));
+        if (!isDone || !saysSo || gapMm > MOST_MM || overlapMm > SUPPLY_MM) {
+          wrong.push({ afterS, gapMm, overlapMm, outcomes });
+        }
+      }
+      expect(wrong).toEqual([]);
+    },
+  );
+});

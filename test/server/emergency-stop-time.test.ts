@@ -1,0 +1,56 @@
+/** How long the motors run on after an emergency stop: what the plotter's state says of it holds at any instant. */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { FAULT_DRAWING } from "../support/faulty-plots.js";
+import { seeded } from "../support/live-plot.js";
+import { LocalPlanner } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+const LOOK_MS = 2;
+
+/** The longest that the motors ran on after a stop at some instants, and what was said of it, ms. */
+async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: number; saidMs: number }> {
+  const random = seeded(123_456_789);
+  let [mostMs, saidMs] = [0, 0];
+  for (let i = 0; i < 12; i++) {
+    const world = new ManualClock();
+    const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+    await world.run(driver.start());
+    const settings = { ...DEFAULT_PLOT_SETTINGS, sendAheadMs };
+    const run = await world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), settings));
+    await world.advance(0.6 + 6 * random());
+    saidMs = driver.state.emergencyStopMs!;
+    const stopped = run.emergencyStop();
+    let steps = "";
+    for (let ms = 0; ms < 1_000; ms += LOOK_MS) {
+      const { steps1, steps2 } = driver.virtualBoard!.state();
+      if (steps !== `${steps1},${steps2}`) mostMs = Math.max(mostMs, ms);
+      steps = `${steps1},${steps2}`;
+      await world.advance(LOOK_MS / 1_000);
+    }
+    await world.run(stopped);
+    expect(driver.log()).toContain(`takes up to ${saidMs} ms on firmware ${firmware}`);
+    await world.run(driver.close());
+  }
+  return { mostMs, saidMs };
+}
+
+describe("an emergency stop", { timeout: 60_000 }, () => {
+  it("takes what was sent ahead on firmware 2.8.1, so less where less is sent ahead", async () => {
+    const usual = await stopMs("2.8.1", 300);
+    expect(usual.saidMs).toBe(420);
+    expect(usual.mostMs).toBeLessThanOrEqual(usual.saidMs);
+    expect(usual.mostMs).toBeGreaterThan(200);
+    const short = await stopMs("2.8.1", 100);
+    expect(short.saidMs).toBe(330);
+    expect(short.mostMs).toBeLessThanOrEqual(short.saidMs);
+    expect(short.mostMs).toBeLessThan(usual.mostMs - 50);
+  });
+
+  it("takes a moment on firmware 3", async () => {
+    const { mostMs, saidMs } = await stopMs("3.0.3", 300);
+    expect(saidMs).toBe(30);
+    expect(mostMs).toBeLessThanOrEqual(saidMs);
+  });
+});

@@ -1,0 +1,120 @@
+/** Files and settings that would keep a planner busy for hours: each ends with an error that says so. */
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { runPlanInThread } from "../../server/cli/plan-thread.js";
+import { measureDrawing, WorkerPlanner } from "../../server/planning/planner.js";
+import { PLANNING_LIMITS } from "../../server/planning/planning-limits.js";
+import { ERROR_TABLE, PlotwrightError, machineOf } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+
+const COUNT = 20_000;
+const range = (count: number): number[] => Array.from({ length: count }, (_, i) => i);
+/** Rules that each element has to be held against: reading it takes more than an hour. */
+const SLOW_TO_READ = `<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><style>${range(COUNT)
+  .map((i) => `g:not(.a${i}) g:not(.b${i}) path:not(.c${i}){stroke-width:${i}}`)
+  .join("")}</style>${"<g>".repeat(50)}${'<path d="M0 0h9"/>'.repeat(COUNT)}${"</g>".repeat(50)}</svg>`;
+const SLOW_TO_ORDER = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200"><path stroke="black" fill="none" d="${range(
+  COUNT,
+)
+  .map((i) => `M${(i * 7919) % 200} ${(i * 104_729) % 197}h.5`)
+  .join("")}"/></svg>`;
+const ORDERED: PlotSettings = {
+  ...DEFAULT_PLOT_SETTINGS,
+  prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, order: "best", orderS: 3_600 },
+};
+
+let dir: string;
+beforeAll(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-limits-"));
+});
+afterAll(() => rmSync(dir, { recursive: true, force: true }));
+
+function input(text: string, settings = DEFAULT_PLOT_SETTINGS): Parameters<typeof WorkerPlanner.open>[0] {
+  const path = join(dir, "a.svg");
+  writeFileSync(path, text);
+  return { path, settings, machine: machineOf(settings) };
+}
+
+async function failure(work: Promise<unknown>): Promise<PlotwrightError> {
+  const error: unknown = await work.then(
+    () => new Error("it came to an end"),
+    (thrown: unknown) => thrown,
+  );
+  expect(error).toBeInstanceOf(PlotwrightError);
+  return error as PlotwrightError;
+}
+
+/** As heap, or in typed arrays. */
+const TOO_MUCH = ["too-large", expect.stringContaining("more memory than there is") as string];
+
+describe("a planner", () => {
+  it("ends reading a file that takes too long", async () => {
+    const limits = { ...PLANNING_LIMITS, importS: 1 };
+    const { code, message } = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
+    expect(code).toBe("bad-file");
+    expect(message).toMatch(/^This file takes too long to read: more than 1 s/);
+  }, 60_000);
+
+  it("counts the time to read apart from what the user lets the search for an order take", async () => {
+    const limits = { ...PLANNING_LIMITS, importS: 1 };
+    const slow = { ...input(SLOW_TO_READ, ORDERED), limits };
+    expect((await failure(WorkerPlanner.open(slow))).message).toMatch(/too long to read/);
+  }, 60_000);
+
+  it("lets the search for an order take as long as the user wants", async () => {
+    const settings = { ...ORDERED, prepare: { ...ORDERED.prepare, orderS: 2 } };
+    // Less than the search takes: without the user's own time it would be ended.
+    const limits = { ...PLANNING_LIMITS, prepareS: 0.5 };
+    const unordered = await failure(
+      WorkerPlanner.open({
+        ...input(SLOW_TO_ORDER, { ...settings, prepare: { ...settings.prepare, orderS: 0 } }),
+        limits: { ...limits, prepareS: 0 },
+      }),
+    );
+    expect([unordered.code, unordered.message]).toEqual([
+      "too-large",
+      expect.stringContaining("takes too long to prepare") as string,
+    ]);
+    const { stats } = await measureDrawing({ ...input(SLOW_TO_ORDER, settings), limits }, null);
+    expect(stats.strokeCount).toBe(COUNT);
+  }, 120_000);
+
+  it("ends planning that takes too long", async () => {
+    const limits = { ...PLANNING_LIMITS, planS: 0 };
+    const error = await failure(measureDrawing({ ...input(SLOW_TO_ORDER), limits }, null));
+    expect([error.code, error.message]).toEqual([
+      "too-large",
+      expect.stringContaining("too long to plan") as string,
+    ]);
+  }, 60_000);
+
+  it("gives up where memory would run out, and says so", async () => {
+    const limits = { ...PLANNING_LIMITS, heapMb: 64 };
+    const groups = `0\nSECTION\n2\nENTITIES\n0\nMTEXT\n${"3\nabc\n".repeat(2_000_000)}0\nENDSEC\n0\nEOF\n`;
+    const error = await failure(WorkerPlanner.open({ ...input(groups), limits }));
+    expect([error.code, error.message]).toEqual(TOO_MUCH);
+  }, 60_000);
+
+  it("gives up where the process grows too far", async () => {
+    const limits = { ...PLANNING_LIMITS, growthMb: 20 };
+    const error = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
+    expect([error.code, error.message]).toEqual(TOO_MUCH);
+  }, 60_000);
+});
+
+it("the command plan ends a file that takes too long to read, with 3", async () => {
+  const { path, settings } = input(SLOW_TO_READ);
+  const out: string[] = [];
+  const error = await failure(
+    runPlanInThread(
+      { file: path, settings, options: { firmware: "3.0.3" } },
+      { out: (text) => void out.push(text) },
+      { ...PLANNING_LIMITS, importS: 1 },
+    ),
+  );
+  expect(ERROR_TABLE[error.code].exitCode).toBe(3);
+  expect(error.message).toMatch(/takes too long to read/);
+  expect(out).toEqual([]);
+}, 60_000);

@@ -1,0 +1,196 @@
+/**
+ * What a plot goes on from when the board has lost its place or has refused a command: nothing is left out, and no more
+ * is drawn twice than the board can have drawn since it last said for certain where it was.
+ */
+import { describe, expect, it } from "vitest";
+import type { JournalEntry } from "../../server/plotter/types.js";
+import type { PlotwrightError, StrokeSet, VirtualBoard } from "../../src/index.js";
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { compareDrawn } from "../support/drawn-truth.js";
+import { FAULT_DRAWING } from "../support/faulty-plots.js";
+import { seeded } from "../support/live-plot.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
+
+const FIRMWARES = ["2.8.1", "3.0.3"];
+const COUNT = 10;
+const PLOT_S = 8;
+const SPEED_MM_PER_S = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS;
+/** Between two readings of the supply, on a board whose answers wait for the motion before them; and what it has got. */
+const SUPPLY_INTERVAL_S = 0.25 + 0.3;
+const WINDOW_S = 0.3;
+const MOST_OVERLAP_MM = SPEED_MM_PER_S * (SUPPLY_INTERVAL_S + WINDOW_S);
+/** Drawn beside its place before a board whose parser stands blocked can be stopped. */
+const WINDOW_MM = SPEED_MM_PER_S * (WINDOW_S + 0.15);
+const GAP_MM = 0.05;
+
+/** A circle of 25 mm, nine times over. */
+const ROUND_AND_ROUND = strokesOf(
+  Array.from({ length: 9 * 60 + 1 }, (_, i) => [
+    30 + 4 * Math.cos((i / 60) * 2 * Math.PI),
+    30 + 4 * Math.sin((i / 60) * 2 * Math.PI),
+  ]).flat(),
+);
+const STRAIGHT = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
+
+interface Broken {
+  readonly world: ManualClock;
+  readonly driver: PlotterDriver;
+  readonly board: VirtualBoard;
+  readonly strokes: StrokeSet;
+  readonly journal: JournalEntry[];
+  readonly message: string;
+}
+
+/** A plot until it is broken off by what happens at that instant. */
+async function brokenOff(
+  firmware: string,
+  afterS: number,
+  happen: (board: VirtualBoard) => void,
+  strokes = FAULT_DRAWING,
+): Promise<Broken> {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const journal: JournalEntry[] = [];
+  const record = (entry: JournalEntry): void => void journal.push(entry);
+  const run = await world.run(
+    driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { journal: { record } }),
+  );
+  await underWay(world, journal);
+  await world.advance(afterS);
+  const board = driver.virtualBoard!;
+  happen(board);
+  const message = await world.run(
+    run.finished.then(
+      () => "done",
+      (error: PlotwrightError) => `${error.code}: ${error.message}`,
+    ),
+    20,
+  );
+  return { world, driver, board, strokes, journal, message };
+}
+
+/** Until it has been planned and has begun. */
+async function underWay(world: ManualClock, journal: readonly JournalEntry[]): Promise<void> {
+  while (journal.length === 0) await world.advance(0.05);
+}
+
+/** The rest of it, from the journal's place, and what is on the paper then. */
+async function goneOn({ world, driver, board, strokes, journal }: Broken) {
+  const from = journal[journal.length - 1]?.place ?? { stroke: 0, alongMm: 0 };
+  const run = await world.run(driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { from }));
+  await world.advance(1);
+  await world.run(run.resume());
+  expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+  return compareDrawn(strokes, board.drawn());
+}
+
+describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
+  it("whose motors lose their supply goes on from the last good reading", { timeout: 60_000 }, async () => {
+    const random = seeded(5);
+    for (let i = 0; i < COUNT; i++) {
+      const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
+      expect(broken.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
+      // In steps, each of which lets what was promised be settled.
+      for (let step = 0; step < 40; step++) await broken.world.advance(0.05);
+      expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+      broken.board.setMotorVolts(9.1);
+      await broken.world.advance(5);
+      expect(broken.driver.state).toMatchObject({ connection: "idle", xMm: null });
+      const { gapMm, overlapMm } = await goneOn(broken);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      expect(overlapMm).toBeLessThan(MOST_OVERLAP_MM);
+    }
+  });
+
+  it(
+    "whose board starts anew is broken off at once, and goes on from where it surely was",
+    { timeout: 60_000 },
+    async () => {
+      const random = seeded(6);
+      for (let i = 0; i < COUNT; i++) {
+        const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
+        expect(broken.message).toMatch(/^board-error: The board has started anew.*overlap a little/);
+        expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+        expect(broken.driver.state).toMatchObject({ connection: "idle", xMm: null });
+        const { gapMm, overlapMm } = await goneOn(broken);
+        expect(gapMm).toBeLessThan(GAP_MM);
+        expect(overlapMm).toBeLessThan(MOST_OVERLAP_MM);
+      }
+    },
+  );
+
+  it(
+    "one of whose commands is refused keeps its place, and goes on where its line ends",
+    { timeout: 60_000 },
+    async () => {
+      const random = seeded(7);
+      let refused = 0;
+      for (let i = 0; i < 2 * COUNT; i++) {
+        const broken = await brokenOff(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
+        // It may have been a question: those are asked again.
+        if (broken.message === "done") continue;
+        refused++;
+        expect(broken.message).toMatch(/^board-error: The board refused /);
+        expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: true });
+        expect(broken.driver.state.xMm).not.toBeNull();
+        const { gapMm, overlapMm, awayMm } = await goneOn(broken);
+        expect(gapMm).toBeLessThan(GAP_MM);
+        expect(overlapMm).toBeLessThan(GAP_MM);
+        expect(awayMm).toBeLessThan(GAP_MM);
+      }
+      expect(refused).toBeGreaterThan(COUNT / 2);
+    },
+  );
+
+  it("one of whose commands is refused on a curve leaves nothing out", { timeout: 60_000 }, async () => {
+    const random = seeded(8);
+    for (let i = 0; i < COUNT; i++) {
+      const broken = await brokenOff(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
+      if (broken.message === "done") continue;
+      const { gapMm, overlapMm } = await goneOn(broken);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      // Where the board's parser is free, it is stopped before any command after the refused one.
+      expect(overlapMm).toBeLessThan(firmware === "3.0.3" ? GAP_MM : WINDOW_MM);
+    }
+  });
+});
+
+// On 2.8.1 what was sent waits in the system's buffers, which the virtual line loses when it is pulled.
+it(
+  "a plot whose server is killed on a line that goes over itself goes on from the later of the places that fit",
+  { timeout: 60_000 },
+  async () => {
+    const random = seeded(9);
+    for (let i = 0; i < 2 * COUNT; i++) {
+      const world = new ManualClock();
+      const driver = new PlotterDriver({ device: "virtual", clock: world, firmware: "3.0.3" });
+      await world.run(driver.start());
+      const planner = new KeepingPlanner(ROUND_AND_ROUND);
+      const journal: JournalEntry[] = [];
+      const record = (entry: JournalEntry): void => void journal.push(entry);
+      const run = await world.run(driver.plot(planner, DEFAULT_PLOT_SETTINGS, { journal: { record } }));
+      await underWay(world, journal);
+      await world.advance(1.5 + 4 * random());
+      // A server that is killed writes nothing down at its end; the board plays what it has.
+      const { place: from, sent } = journal[journal.length - 1]!;
+      driver.virtualBoard!.unplug();
+      await world.run(run.finished.catch(() => undefined));
+      await world.advance(5);
+      const { idleTicksTimed } = firmwareFeatures("3.0.3");
+      const ticks = ranTicks(driver.virtualBoard!) - (1 + idleTicksTimed);
+      const [plot] = planner.plots;
+      const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot!, planSAfter(plot!.commands, ticks));
+      const again = await world.run(
+        driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, sent }),
+      );
+      expect(Math.abs(mmOf(ROUND_AND_ROUND, again.holdPlace!) - truthMm)).toBeLessThan(2 * GAP_MM);
+      await world.run(Promise.all([again.cancel(), again.finished]));
+    }
+  },
+);

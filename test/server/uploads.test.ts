@@ -1,0 +1,161 @@
+/** Uploads that take long, or are made to: the others are served meanwhile, and nothing is done for those who have gone. */
+import { mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { createServer, type PlotwrightServer } from "../../server/index.js";
+import { lane } from "../../server/planning/lane.js";
+import { apiErrorSchema, DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
+import { startApp, type TestApp } from "./support/app.js";
+
+const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10" stroke="red"/></svg>';
+const JSON_TYPE = { "Content-Type": "application/json" };
+
+describe("a lane", () => {
+  /** Work that ends when told to; `begun` in the order in which it begins. */
+  function desk(places: number): {
+    readonly begun: string[];
+    begin(name: string, client?: string, signal?: AbortSignal): Promise<string>;
+    end(name: string): void;
+  } {
+    const turn = lane(places);
+    const begun: string[] = [];
+    const ends = new Map<string, () => void>();
+    return {
+      begun,
+      begin: (name, client, signal) =>
+        turn({ client, signal }, async () => {
+          begun.push(name);
+          await new Promise<void>((resolve) => ends.set(name, resolve));
+          return name;
+        }),
+      end: (name) => ends.get(name)?.(),
+    };
+  }
+  const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+
+  it("gives each client one place, the others in the order in which they came", async () => {
+    const { begun, begin, end } = desk(2);
+    const all = [begin("a1", "a"), begin("a2", "a"), begin("b1", "b"), begin("c1", "c"), begin("b2", "b")];
+    await settled();
+    expect(begun).toEqual(["a1", "b1"]);
+    end("b1");
+    await settled();
+    expect(begun).toEqual(["a1", "b1", "c1"]);
+    end("a1");
+    await settled();
+    expect(begun).toEqual(["a1", "b1", "c1", "a2"]);
+    ["c1", "a2"].forEach(end);
+    await settled();
+    end("b2");
+    expect(await Promise.all(all)).toEqual(["a1", "a2", "b1", "c1", "b2"]);
+  });
+
+  it("forgets who has gone while waiting, and who had gone before", async () => {
+    const { begun, begin, end } = desk(1);
+    const gone = new AbortController();
+    const first = begin("first");
+    const leaving = begin("leaving", "x", gone.signal);
+    const last = begin("last");
+    gone.abort();
+    await expect(leaving).rejects.toMatchObject({ code: "cancelled" });
+    await expect(begin("late", "x", AbortSignal.abort())).rejects.toMatchObject({ code: "cancelled" });
+    end("first");
+    await first;
+    await settled();
+    expect(begun).toEqual(["first", "last"]);
+    end("last");
+    await last;
+  });
+});
+
+describe("uploads whose order is searched for an hour", () => {
+  const scattered = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200"><path stroke="black" fill="none" d="${Array.from(
+    { length: 20_000 },
+    (_, i) => `M${(i * 7919) % 200} ${(i * 104_729) % 197}h.5`,
+  ).join("")}"/></svg>`;
+  const prepare = { ...DEFAULT_PLOT_SETTINGS.prepare, order: "best" as const, orderS: 3_600 };
+  const body = JSON.stringify({
+    name: "long",
+    drawing: scattered,
+    settings: { ...DEFAULT_PLOT_SETTINGS, prepare },
+  });
+
+  let dataDir: string;
+  let server: PlotwrightServer;
+  beforeEach(async () => {
+    dataDir = mkdtempSync(join(tmpdir(), "plotwright-uploads-"));
+    server = await createServer({ port: 0, device: "virtual", dataDir });
+  });
+  afterEach(async () => {
+    await server.close();
+    rmSync(dataDir, { recursive: true, force: true });
+  });
+
+  it("keep no ordinary one waiting, and end with the client who wanted them", async () => {
+    const gone = new AbortController();
+    const jobs = `${server.url}/api/v1/jobs`;
+    const drawings = (): string[] => readdirSync(join(dataDir, "drawings"));
+    const long = [1, 2, 3].map(() =>
+      fetch(jobs, { method: "POST", headers: JSON_TYPE, body, signal: gone.signal }).then(
+        () => "answered",
+        () => "gone",
+      ),
+    );
+    await expect.poll(() => drawings().filter((name) => name.endsWith(".svg")).length).toBe(3);
+    const answer = await fetch(`${jobs}?name=ordinary`, { method: "POST", body: SVG });
+    expect([answer.status, jobSchema.parse(await answer.json()).name]).toEqual([201, "ordinary"]);
+    gone.abort();
+    expect(await Promise.all(long)).toEqual(["gone", "gone", "gone"]);
+    // Their drawings go when their planning has ended.
+    await expect.poll(() => drawings().length).toBe(1);
+  }, 120_000);
+});
+
+describe("JSON", () => {
+  let app: TestApp;
+  beforeEach(async () => {
+    app = await startApp({ maxUploadBytes: 40_000_000 });
+  });
+  afterEach(() => app.close());
+
+  async function post(body: string): Promise<{ status: number; message: string }> {
+    const answer = await fetch(`${app.url}/api/v1/jobs`, { method: "POST", headers: JSON_TYPE, body });
+    const { message } = answer.ok ? { message: "" } : apiErrorSchema.parse(await answer.json()).error;
+    return { status: answer.status, message };
+  }
+  const nested = (depth: number): string => "[".repeat(depth) + "]".repeat(depth);
+  const job = (more: string): string => `{"name":"a","drawing":${JSON.stringify(SVG)},${more}}`;
+
+  it.each([
+    ["all of it", nested(1_000_000)],
+    ["beside the drawing", job(`"settings":${nested(1_000_000)}`)],
+    ["a small one", job(`"settings":${nested(50_000)}`)],
+    ["in place of the drawing", `{"name":"a","drawing":${nested(1_000_000)}}`],
+  ])("nested deeply, %s, is refused and nothing of it kept", async (_what, body) => {
+    const { status, message } = await post(body);
+    expect([status, message]).toEqual([400, expect.stringMatching(/nested|object|expected|drawing|JSON/i)]);
+    expect(app.drawingsOnDisk()).toEqual([]);
+    expect(app.logged.filter((line) => line.includes("Error"))).toEqual([]);
+  });
+
+  it("of a million members comes to the main thread in no part", async () => {
+    const members = Array.from({ length: 1_000_000 }, (_, i) => `"k${i}":1`).join(",");
+    const { status, message } = await post(job(`"settings":{"prepare":{"layerPens":{${members}}}}`));
+    expect([status, message]).toEqual([413, expect.stringContaining("Without its drawing")]);
+    expect(app.drawingsOnDisk()).toEqual([]);
+  });
+
+  it("that is broken far in is refused with words", async () => {
+    const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(1_000_000))}`).slice(0, -1));
+    expect([status, message]).toEqual([400, "The request is not valid JSON."]);
+  });
+
+  it("that is large for its drawing is taken", async () => {
+    const drawing = SVG.replace("</svg>", `<!--${"x".repeat(10_000_000)}--></svg>`);
+    expect(await post(JSON.stringify({ name: "a", drawing, settings: DEFAULT_PLOT_SETTINGS }))).toEqual({
+      status: 201,
+      message: "",
+    });
+  });
+});

@@ -1,0 +1,103 @@
+/**
+ * One plot on a board in another process, over a real pseudo-terminal, with a fault at one instant: it is taken up
+ * again as often as it is broken off, as a user would do by Recover and Resume. Then what the board drew is compared
+ * with the drawing.
+ */
+import { PlotterDriver } from "../../server/plotter/plotter.js";
+import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
+import type { PlotwrightError, StrokeSet } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { compareDrawn, type DrawnTruth } from "./drawn-truth.js";
+import { LocalPlanner, strokesOf } from "./local-planner.js";
+import { PtyBoard, type BoardReport } from "./pty-board.js";
+
+/** Long and short lines, curves and corners, all some mm apart: about 8 s of plotting. */
+export const FAULT_DRAWING: StrokeSet = strokesOf(
+  Array.from({ length: 160 }, (_, i) => [
+    30 + 16 * Math.cos((i / 165) * 2 * Math.PI),
+    30 + 16 * Math.sin((i / 165) * 2 * Math.PI),
+  ]).flat(),
+  [60, 12, 100, 12, 100, 22, 60, 22, 62, 30, 66, 24, 70, 30, 74, 24, 78, 30],
+  [60, 36, 63, 36],
+  [68, 36, 70, 38],
+  Array.from({ length: 120 }, (_, i) => [60 + i / 3, 45 + 3 * Math.sin(i / 6)]).flat(),
+);
+
+/** Each longer than any plot with a fault needs. */
+const MOST_INTERRUPTIONS = 4;
+const IDLE_WITHIN_S = 40;
+
+export interface Fault {
+  readonly name: string;
+  /** What happens, and what mends it, with the time that passes between. */
+  happen(board: PtyBoard, random: () => number): void | Promise<void>;
+  /** Before the plot is taken up again: sets home where the fault has cost it. */
+  readonly beforeResume?: (driver: PlotterDriver, board: PtyBoard) => Promise<void>;
+}
+
+export interface FaultyPlotResult extends DrawnTruth {
+  /** How each run of the plot ended: "done", or the error's code and message. */
+  readonly outcomes: readonly string[];
+  readonly report: BoardReport;
+  /** For how long the machine did not run the board's process meanwhile: a real board never stands still. */
+  readonly sleptS: number;
+}
+
+export const waitS = (s: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, 1_000 * s));
+
+/** `afterS`: from the first movement to the fault. */
+export async function plotWithFault(
+  fault: Fault,
+  firmware: string,
+  afterS: number,
+  random: () => number = () => 0.5,
+  strokes: StrokeSet = FAULT_DRAWING,
+): Promise<FaultyPlotResult> {
+  const board = await PtyBoard.open({ firmware, wakeful: true });
+  const driver = new PlotterDriver({ device: board.path });
+  try {
+    await driver.start();
+    const journal: JournalEntry[] = [];
+    const start = (): Promise<LivePlotRun> =>
+      driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, {
+        from: journal[journal.length - 1]?.place,
+        journal: { record: (entry) => journal.push(entry) },
+      });
+    const { sleptS: sleptBeforeS } = await board.report();
+    let run = await start();
+    await new Promise<void>((resolve) => run.onProgress(() => resolve()));
+    const happened = waitS(afterS).then(() => fault.happen(board, random));
+    const outcomes: string[] = [];
+    for (;;) {
+      const outcome = await outcomeOf(run);
+      outcomes.push(outcome);
+      if (outcome === "done" || outcomes.length > MOST_INTERRUPTIONS) break;
+      await happened;
+      await untilIdle(driver);
+      await fault.beforeResume?.(driver, board);
+      run = await start();
+      await run.resume();
+    }
+    await happened;
+    const report = await board.report();
+    const sleptS = report.sleptS - sleptBeforeS;
+    return { outcomes, report, sleptS, ...compareDrawn(strokes, report.drawn) };
+  } finally {
+    await driver.close();
+    await board.close();
+  }
+}
+
+const outcomeOf = (run: LivePlotRun): Promise<string> =>
+  run.finished.then(
+    ({ kind }) => kind,
+    (error: PlotwrightError) => `${error.code}: ${error.message}`,
+  );
+
+export async function untilIdle(driver: PlotterDriver): Promise<void> {
+  const untilMs = Date.now() + 1_000 * IDLE_WITHIN_S;
+  while (driver.state.connection !== "idle") {
+    if (Date.now() > untilMs) throw new Error(`the plotter is not idle again: ${driver.state.message}`);
+    await waitS(0.05);
+  }
+}

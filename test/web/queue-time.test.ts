@@ -1,0 +1,27 @@
+import { describe, expect, it } from "vitest";
+import { queueTime } from "../../web/state/queue-time.js";
+import { makeJob } from "./fixtures.js";
+
+const waiting = makeJob("next", { expectedS: 3_600 });
+const withActive = (state: "plotting" | "paused" | "interrupted") =>
+  makeJob("active", { state, expectedS: 900, remainingS: 600 });
+
+describe("the time of a queue", () => {
+  it("is what is left of the running plot and all of those that wait", () => {
+    expect(queueTime([withActive("plotting"), waiting], true)).toEqual({ totalS: 4_200, isRunning: true });
+  });
+
+  it.each(["paused", "interrupted"] as const)("has no end that could be told while a plot is %s", (state) => {
+    expect(queueTime([withActive(state), waiting], true).isRunning).toBe(false);
+    expect(queueTime([withActive(state)], false).isRunning).toBe(false);
+  });
+
+  it("has none before it is started", () => {
+    expect(queueTime([waiting], true).isRunning).toBe(false);
+  });
+
+  it("has none where it stops for paper between two plots", () => {
+    expect(queueTime([withActive("plotting"), waiting], false).isRunning).toBe(false);
+    expect(queueTime([withActive("plotting")], false).isRunning).toBe(true);
+  });
+});
