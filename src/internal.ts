@@ -1,5 +1,6 @@
 /** What server and web use besides the public library. No promise is made to anybody else. */
 export { followedSettings, OLDEST_PLANNED_FIRMWARE } from "./job/plan-job.js";
+export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
 export { planWalk } from "./job/plan-walk.js";
 export {
   isAllowed,
@@ -18,3 +19,5 @@ export { STREAM_TABLE } from "./settings/stream.js";
 export { reseatWaitS } from "./plan/pen-times.js";
 export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
 export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";
+export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";

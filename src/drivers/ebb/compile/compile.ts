@@ -7,6 +7,7 @@
  * next command is computed from that state. So rounding never adds up, and the final step counters equal
  * those of the plan.
  */
+import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
@@ -43,10 +44,11 @@ export interface CompileOptions {
  * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
  * The motors are switched on and off by `setUpCommands` and `closingCommands`, once per session.
  *
- * @throws PlotwrightError "bad-setting" for an invalid firmware version
+ * @throws PlotwrightError "bad-setting" for an invalid firmware version or an incomplete machine profile
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
+  checkProfile(options.machine);
   return new Compiler(trajectory, options).run();
 }
 

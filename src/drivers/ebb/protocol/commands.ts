@@ -2,6 +2,7 @@
  * Command lines of the EiBotBoard: those at the start and end of a plot, and a writer
  * for the commands between.
  */
+import { checkProfile } from "../../../machines/check-profile.js";
 import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -15,6 +16,7 @@ const STANDARD_PIN = 4;
 
 /** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
+  checkProfile(machine);
   const features = firmwareFeatures(firmware);
   const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
   // On older boards EM does not clear the accumulators: CS sets them to a known value.

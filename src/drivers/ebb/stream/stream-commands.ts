@@ -5,13 +5,21 @@ import { Streamer } from "./streamer.js";
 import type { StreamPlace } from "./timeline.js";
 import type { Cancellation } from "../../transport.js";
 
+/** Progress of a plot. */
+export interface StreamProgress extends StreamPlace {
+  /** Share of the plot's time that is done, 0 … 1. */
+  readonly fraction: number;
+  /** Remaining time of the plot, seconds. */
+  readonly leftS: number;
+}
+
 /** Plays one stream to its end, or after `cancel` is raised, until the commands already written are done. */
 export async function streamCommands(
   session: BoardSession,
   stream: CommandStream,
   options: StreamOptions & {
     readonly cancel?: Cancellation;
-    readonly onProgress?: (place: StreamPlace) => void;
+    readonly onProgress?: (progress: StreamProgress) => void;
     /** Board seconds between calls of `onProgress`, and between checks of `cancel`. Default 0.06. */
     readonly progressEveryS?: number;
   },
@@ -20,7 +28,7 @@ export async function streamCommands(
   let stopTicking: (() => void) | null = null;
   const tick = (): void => {
     if (options.cancel?.aborted && streamer.playing) streamer.cut();
-    else options.onProgress?.(streamer.place());
+    else options.onProgress?.(progressOf(streamer.place()));
     stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
   };
   const played = streamer.play(stream);
@@ -31,4 +39,12 @@ export async function streamCommands(
   } finally {
     (stopTicking as (() => void) | null)?.();
   }
+}
+
+function progressOf(place: StreamPlace): StreamProgress {
+  const { planS, count } = place.stream;
+  const fromS = planS[0]!;
+  const toS = planS[count]!;
+  const fraction = toS > fromS ? Math.min(1, Math.max(0, (place.planS - fromS) / (toS - fromS))) : 1;
+  return { ...place, fraction, leftS: Math.max(0, toS - place.planS) };
 }
