@@ -26,7 +26,7 @@ import { Store } from "./queue/store.js";
 import { SharedQueue, claimsOf, type SharedParts } from "./shared/shared-queue.js";
 import { SharedStore } from "./shared/shared-store.js";
 import { Access } from "./security/access.js";
-import { Baton } from "./security/baton.js";
+import { OperatorLock } from "./security/operator-lock.js";
 import { LocalName, MDNS_NAME } from "./security/local-name.js";
 import { lanAddresses, pairingLinks } from "./security/network.js";
 import { FIRST_PLOTTER, openDriven } from "./plotters.js";
@@ -214,8 +214,12 @@ async function openParts(
   closing.add("the shared queue", () => shared?.close());
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
   access.onRevoke(() => hub.dropAll());
-  const baton = new Baton({ store, log, announce: (operator) => announce({ type: "operator", operator }) });
-  closing.add("the operator's turn", () => baton.close());
+  const operatorLock = new OperatorLock({
+    store,
+    log,
+    announce: (operator) => announce({ type: "operator", operator }),
+  });
+  closing.add("the operator's turn", () => operatorLock.close());
   return {
     version: packageVersion(),
     machines,
@@ -223,7 +227,7 @@ async function openParts(
     files,
     registry,
     hub,
-    baton,
+    operatorLock,
     webhooks,
     notices,
     shared,

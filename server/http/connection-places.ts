@@ -1,19 +1,22 @@
 /**
- * Who holds the server's connections. A device that has not shown a session or a key is a stranger: strangers share
- * a small part of the places, and each address only a few of those. A new connection always gets a place; where
- * there is none left, the oldest connection of a stranger is closed for it. So strangers can lock nobody out, and
- * most places are kept for paired devices and for this computer.
+ * Limits the connections of unknown clients. A client is unknown until it has sent a valid session or key.
+ * Unknown clients share a small part of the server's connections, and each address may have only a few of
+ * them. A new connection is always accepted; at the limit, the oldest unknown connection is closed. So
+ * unknown clients can lock nobody out, and most connections remain for paired devices and for this computer.
  */
 import type { IncomingMessage } from "node:http";
 import type { Socket } from "node:net";
 
-/** A page with its files needs about 10. */
-const MOST_OF_ADDRESS = 60;
-const MOST_OF_STRANGERS = 300;
+/** Loading the page with its files takes about 10 connections. */
+const MAX_PER_ADDRESS = 60;
+const MAX_UNKNOWN = 300;
 
 export class ConnectionPlaces {
-  /** Connections that have shown nothing yet, the oldest first. TLS wraps a socket, so its two ends are the key. */
-  readonly #strangers = new Map<string, Socket>();
+  /**
+   * Unknown connections, oldest first. TLS wraps the socket object, so the key is the remote address and
+   * port.
+   */
+  readonly #unknown = new Map<string, Socket>();
   readonly #isTrusted: (address: string | undefined) => boolean;
 
   constructor(isTrusted: (address: string | undefined) => boolean) {
@@ -23,23 +26,23 @@ export class ConnectionPlaces {
   opened(socket: Socket): void {
     if (this.#isTrusted(socket.remoteAddress)) return;
     const key = keyOf(socket);
-    this.#strangers.set(key, socket);
+    this.#unknown.set(key, socket);
     socket.once("close", () => {
-      if (this.#strangers.get(key) === socket) this.#strangers.delete(key);
+      if (this.#unknown.get(key) === socket) this.#unknown.delete(key);
     });
-    const all = [...this.#strangers.values()];
+    const all = [...this.#unknown.values()];
     const ofAddress = all.filter(({ remoteAddress }) => remoteAddress === socket.remoteAddress);
-    if (ofAddress.length > MOST_OF_ADDRESS) this.#close(ofAddress[0]!);
-    else if (all.length > MOST_OF_STRANGERS) this.#close(all[0]!);
+    if (ofAddress.length > MAX_PER_ADDRESS) this.#close(ofAddress[0]!);
+    else if (all.length > MAX_UNKNOWN) this.#close(all[0]!);
   }
 
-  /** The connection's device has shown who it is: it keeps its place for as long as it likes. */
+  /** The client has identified itself: its connection no longer counts as unknown. */
   isKnown({ socket }: IncomingMessage): void {
-    this.#strangers.delete(keyOf(socket));
+    this.#unknown.delete(keyOf(socket));
   }
 
   #close(socket: Socket): void {
-    this.#strangers.delete(keyOf(socket));
+    this.#unknown.delete(keyOf(socket));
     socket.destroy();
   }
 }

@@ -42,7 +42,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     response.json(queue.get(request.params.id));
   });
 
-  // As an attachment of plain text: a browser must never run what is in an uploaded SVG.
+  // Sent as a plain-text attachment: a browser must never run scripts of an uploaded SVG.
   router.get("/:id/drawing", (request, response, next) => {
     const { id } = request.params;
     response.attachment(fileName(queue.get(id).name));
@@ -76,7 +76,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     });
   }
 
-  // Just after its start the server is still looking for its boards.
+  // Shortly after its start the server is still looking for boards, so wait for that.
   const onBoard: Readonly<Record<string, (id: string) => Job | Promise<Job>>> = {
     start: (id) => queue.start(id),
     recover: (id) => queue.recover(id),
@@ -162,13 +162,13 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   }
 }
 
-/** Parsed here at once; a larger one goes to disk and is taken apart in a thread. */
+/** Small bodies are parsed here; larger ones are written to disk and parsed in a worker thread. */
 function isSmall(request: Request): boolean {
   const bytes = request.headers["content-length"];
   return bytes !== undefined && Number(bytes) <= MAX_PARSED_BYTES;
 }
 
-/** Who does not wait for the answer wants no plan any more. */
+/** Identifies the client; planning is aborted when it disconnects before the answer. */
 function askerOf(request: Request, response: Response): Asker {
   const gone = new AbortController();
   response.on("close", () => {
@@ -177,7 +177,7 @@ function askerOf(request: Request, response: Response): Asker {
   return { client: request.socket.remoteAddress, signal: gone.signal };
 }
 
-/** Leaves the connection open when reading stops early, so that the refusal can still be answered. */
+/** Leaves the connection open when reading stops early, so that an error can still be sent. */
 const bytesOf = (request: Request): AsyncIterable<Uint8Array> =>
   request.iterator({ destroyOnReturn: false }) as AsyncIterable<Uint8Array>;
 
@@ -189,7 +189,7 @@ function asJson(value: unknown): unknown {
   }
 }
 
-/** A name that every system can save under. */
+/** A file name that is valid on every system. */
 function fileName(name: string): string {
   const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
   return isDrawingName(safe) ? safe : `${safe}.svg`;

@@ -114,7 +114,7 @@ describe("a damaged database", () => {
     writeFileSync(databasePath(), bytes);
     const store = (await start())!;
     expect(idsOf(store)).toEqual(ids.slice(0, -2));
-    expect(store.opened.repair).toMatch(/could not be used: .*The copy from .* has taken its place/);
+    expect(store.opened.repair).toMatch(/could not be used: .*It was replaced with the copy from /);
     store.close();
     const kept = readdirSync(dir).find((name) => name.startsWith("plotwright-damaged-"))!;
     expect(readFileSync(inDir(kept))).toEqual(bytes);

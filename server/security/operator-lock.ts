@@ -1,6 +1,6 @@
 /**
- * One operator at a time: of several browsers that may operate, one holds the baton, the others watch until
- * they take it. Stopping needs no baton. Scripts are not browsers and need none either.
+ * One operator at a time: of several browsers that may operate, one holds the operator lock, the others watch until
+ * they take it. Stopping needs no operator lock. Scripts are not browsers and need none either.
  *
  *   free ──first to act──> held ──take by another──> held by that one
  *    ^                      │
@@ -12,7 +12,7 @@ import { PlotwrightError } from "../../src/index.js";
 import { operatorSchema, type Operator } from "../../src/schema/index.js";
 import type { Store } from "../queue/store.js";
 
-export interface BatonParts {
+export interface OperatorLockParts {
   readonly store: Pick<Store, "setting" | "saveSetting">;
   readonly announce: (operator: Operator | null) => void;
   readonly log: (line: string) => void;
@@ -23,15 +23,15 @@ export interface BatonParts {
 const SETTING = "operator";
 const LAPSE_MS = 30_000;
 
-export class Baton {
-  readonly #parts: BatonParts;
+export class OperatorLock {
+  readonly #parts: OperatorLockParts;
   #operator: Operator | null;
   /** Open event streams by browser. */
   readonly #streams = new Map<string, number>();
   #lapse: NodeJS.Timeout | null = null;
   #isClosed = false;
 
-  constructor(parts: BatonParts) {
+  constructor(parts: OperatorLockParts) {
     this.#parts = parts;
     const kept = operatorSchema.safeParse(parts.store.setting(SETTING));
     this.#operator = kept.success ? kept.data : null;
@@ -42,7 +42,7 @@ export class Baton {
     return this.#operator;
   }
 
-  /** Before a browser changes something: gives it a free baton; throws `not-operator` while another one has it. */
+  /** Before a browser changes something: gives it a free operator lock; throws `not-operator` while another one has it. */
   act(browser: Operator): void {
     if (this.#operator === null) this.#give(browser, "acts first");
     else if (this.#operator.id !== browser.id) {
