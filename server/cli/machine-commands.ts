@@ -5,7 +5,7 @@ import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles } from "../machines/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../plotter/hand-moves.js";
-import { openPlotter } from "../plotters.js";
+import { openPlotter } from "../driven-plotter.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { CliIo } from "./io.js";

@@ -23,7 +23,6 @@ import { jobsRoutes } from "./jobs-routes.js";
 import { machinesRoutes } from "./machines-routes.js";
 import { openApiText } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
-import { plotterListRoutes } from "./plotter-list-routes.js";
 import { sharedRoutes } from "./shared-routes.js";
 import { samplesRoutes } from "./samples.js";
 import { studioRoutes } from "./studio-routes.js";
@@ -88,11 +87,10 @@ export function apiMounts(
   return [
     ["", stateRoutes(parts, browsers)],
     ["", studioRoutes({ ...parts, plotters, browsers })],
-    ["", plotterListRoutes(registry, queue, parts.log)],
+    ["", plottersRoutes(registry, queue, parts.log)],
     ["/access", accessRoutes(parts.access)],
     ["/jobs", jobsRoutes(queue, parts.files, parts.machines)],
     ["/machines", machinesRoutes(parts.machines)],
-    ["/plotters", plottersRoutes(plotters, queue)],
     ["/plotters", handMovesRoutes(handMoveParts(parts))],
     ["/shared-jobs", sharedRoutes(parts.shared)],
     ["/samples", samplesRoutes(parts.samplesDir)],

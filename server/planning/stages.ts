@@ -1,6 +1,6 @@
 /**
- * Text to strokes to commands, as the worker and the command line run them. The machine comes in as data
- * (a profile), so custom machines need no look-up here.
+ * The steps from a drawing to strokes to commands, used by the worker and the command line. The machine is
+ * passed as a profile, so custom machines need no lookup here.
  */
 import {
   PlotwrightError,
@@ -19,15 +19,15 @@ import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 
 export interface PreparedJob {
   readonly prepared: Prepared;
-  /** The file's and the paper's. Plain text. */
+  /** Warnings about the file and the paper, as plain text. */
   readonly warnings: readonly string[];
 }
 
 /**
- * No clock goes in: the same drawing and settings give the same strokes in every process, so that a place in a job stays
- * valid after a restart.
+ * Does not depend on time: the same drawing and settings give the same strokes in every process, so that a
+ * place in a job stays valid after a restart.
  *
- * Throws `bad-file` (when nothing is left to draw), `out-of-bounds`, `bad-setting`.
+ * Throws `bad-file` (when there is nothing to draw), `out-of-bounds`, `bad-setting`.
  */
 export function prepareDrawing(
   drawing: Drawing,
@@ -44,7 +44,7 @@ export function prepareDrawing(
   return { prepared, warnings };
 }
 
-/** The plan of a request with its commands, as it crosses threads. */
+/** The trajectory and commands for a request, in a form that can be sent between threads. */
 export function planAndCompile(
   prepared: Pick<Prepared, "strokes">,
   { settings, ...options }: PlanRequest,
