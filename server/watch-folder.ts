@@ -14,7 +14,8 @@ import { createReadStream } from "node:fs";
 import { lstat, readFile, stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
-import { isDrawingName, PlotwrightError } from "../src/index.js";
+import { PlotwrightError } from "../src/index.js";
+import { isDrawingName } from "../src/internal.js";
 import {
   cleanName,
   DEFAULT_PLOT_SETTINGS,

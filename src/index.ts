@@ -32,12 +32,9 @@ export {
   importDrawing,
   importDrawingWithPauses,
   formatOf,
-  isDrawingName,
-  DRAWING_EXTENSIONS,
   DRAWING_FORMATS,
   type DrawingFormat,
 } from "./import/registry.js";
-export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // prepare
 export { prepare, type Prepared } from "./prepare/prepare.js";

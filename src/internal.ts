@@ -18,3 +18,5 @@ export { STREAM_TABLE } from "./settings/stream.js";
 export { reseatWaitS } from "./plan/pen-times.js";
 export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
 export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";
+export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";

@@ -2,7 +2,8 @@
 import express, { Router, type Request, type Response } from "express";
 import { basename } from "node:path";
 import { z } from "zod";
-import { isDrawingName, PlotwrightError } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { isDrawingName } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   cleanName,

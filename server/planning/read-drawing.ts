@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
-import { PlotwrightError, textOfBytes } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { textOfBytes } from "../../src/internal.js";
 
 /** The file's text; throws `bad-file` with the reason if it can't be read. */
 export function readDrawing(file: string): string {

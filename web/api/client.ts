@@ -19,7 +19,7 @@ import {
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import { encodingOf, textOfBytes } from "../../src/index.js";
+import { encodingOf, textOfBytes } from "../../src/internal.js";
 import { text } from "../text/text.js";
 import type { DrawingText } from "../worker/protocol.js";
 

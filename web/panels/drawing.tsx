@@ -1,5 +1,5 @@
 import { useId } from "react";
-import { DRAWING_EXTENSIONS } from "../../src/index.js";
+import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { text } from "../text/text.js";
 import { formatNumber } from "../ui/format.js";

@@ -1,6 +1,7 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import { contentOf, type JobAction, type ApiClient } from "../api/client.js";
-import { isDrawingName, MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
+import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
+import { isDrawingName } from "../../src/internal.js";
 import {
   machineProfileSchema,
   type Job,

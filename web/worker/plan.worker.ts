@@ -14,13 +14,13 @@ import {
   prepare,
   prepareSettingsOf,
   strokeCount,
-  textOfBytes,
   trajectoryStats,
   type Drawing,
   type Placement,
   type Prepared,
   type Trajectory,
 } from "../../src/index.js";
+import { textOfBytes } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";

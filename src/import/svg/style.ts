@@ -2,16 +2,9 @@
 import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "../color.js";
+import type { Paint } from "./paint.js";
 import { computeTextStyle, declaresTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, splitLength, type LengthBasis } from "./length.js";
-
-export type Paint =
-  | { readonly kind: "none" }
-  | { readonly kind: "color"; readonly color: Color }
-  | { readonly kind: "currentColor" }
-  | { readonly kind: "context"; readonly of: "fill" | "stroke" }
-  /** A gradient or pattern, by id, and what to use where there is none. */
-  | { readonly kind: "server"; readonly id: string; readonly fallback: Paint };
 
 /** The inherited properties. */
 export interface Style {

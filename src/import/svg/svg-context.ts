@@ -2,7 +2,8 @@
 import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
 import type { ClipNode } from "../clip-node.js";
 import type { LengthBasis } from "./length.js";
-import type { Paint, Style } from "./style.js";
+import type { Paint } from "./paint.js";
+import type { Style } from "./style.js";
 
 export interface Context {
   /** User units to page mm. */

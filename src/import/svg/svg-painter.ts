@@ -20,7 +20,8 @@ import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
 import { ASCENT_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
-import { declaredValue, type Paint } from "./style.js";
+import type { Paint } from "./paint.js";
+import { declaredValue } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {

@@ -1,7 +1,7 @@
 /** What CSS and SVG say about text alone: baselines, spaces, decorations, directions. */
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
-import type { Paint } from "./style.js";
+import type { Paint } from "./paint.js";
 
 /** Of the fonts that browsers use, about: above and below the baseline, and small letters. */
 const ASCENT_EM = 0.9;

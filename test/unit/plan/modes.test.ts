@@ -225,8 +225,8 @@ describe("settings beyond speed and acceleration", () => {
       [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /slow-in speed/],
       [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
       [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
-      [{}, { dropPctPerS: 0 }, /drop rate/],
-      [{}, { clearPct: 120 }, /clear share/],
+      [{}, { dropPctPerS: 0 }, /sinks at/],
+      [{}, { clearPct: 120 }, /clear after/],
       [{}, { hop: { longestMm: 3, upPct: 20 } }, /hop height 20 % is not above/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
     ];
