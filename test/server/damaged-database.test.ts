@@ -145,7 +145,7 @@ describe("a damaged database", () => {
     const before = readFileSync(databasePath());
     for (let tries = 0; tries < 2; tries++) {
       expect(() => Store.open(dir)).toThrow(
-        /can't be opened .*its copy .* can't be used either.*begin with an empty queue/,
+        /can't be opened .*its copy .* can't be used either.*start with an empty queue/,
       );
     }
     expect(readFileSync(databasePath())).toEqual(before);
@@ -187,7 +187,7 @@ describe("an emptied database", () => {
       expect(serverNotices.map(({ message }) => message)).toEqual(
         Array.from(
           { length: count },
-          () => expect.stringContaining("Look through the queue before you plot") as string,
+          () => expect.stringContaining("Check the queue before you plot") as string,
         ),
       );
     }

@@ -53,7 +53,7 @@ describe("a plotter whose model nobody has named", () => {
 describe("a shared job that was taken and has not begun", () => {
   it("does not begin while the database is away, which says why, and a copy of it does", async () => {
     await database.cut();
-    expect(await start("fern")).toMatch(/^409 .*another one may have been given/);
+    expect(await start("fern")).toMatch(/^409 .*another server may have been given/);
     expect(await jobsOf(server)).toEqual(["fern queued"]);
     await send(server.url, "PATCH", `/jobs/${await jobNamed("fern")}`, { name: "fern here" });
     const copy = (await (
