@@ -75,7 +75,7 @@ export interface ServerOptions {
   /** Time without a sign of life after which a sharing server counts as lost; default 60 000. */
   readonly sharedLostAfterMs?: number;
   /** Timeout of the shared database; default 5 s. */
-  readonly sharedPatienceMs?: number;
+  readonly sharedTimeoutMs?: number;
   /** Receives the lines of the log. */
   readonly log?: (line: string) => void;
 }
@@ -270,7 +270,7 @@ function openLocalName(
 
 /** Opens the shared queue; null if the server has none. */
 async function openShared(
-  { sharedQueue, sharedPollMs, sharedLostAfterMs, sharedPatienceMs }: ServerOptions,
+  { sharedQueue, sharedPollMs, sharedLostAfterMs, sharedTimeoutMs }: ServerOptions,
   parts: Pick<SharedParts, "queue" | "files" | "plotters" | "log"> & {
     readonly store: Store;
     readonly notices: Notices;
@@ -283,7 +283,7 @@ async function openShared(
   if (serverId !== storedId) store.saveSetting("server-id", serverId);
   return new SharedQueue({
     ...parts,
-    shared: await SharedStore.open(sharedQueue, log, sharedPatienceMs),
+    shared: await SharedStore.open(sharedQueue, log, sharedTimeoutMs),
     serverId,
     serverName: hostname(),
     notice: (message) => notices.add(message),

@@ -6,7 +6,7 @@ import type { Duplex } from "node:stream";
 import { PlotwrightError } from "../../src/index.js";
 import type { Access } from "../security/access.js";
 import { isTrustedAddress, roleOf } from "./auth.js";
-import { ConnectionPlaces } from "./connection-places.js";
+import { ConnectionLimits } from "./connection-limits.js";
 
 /** PEM texts. */
 export interface TlsFiles {
@@ -42,9 +42,9 @@ export function httpServer(
   log: (line: string) => void,
   times: Partial<typeof TIMES> = {},
 ): Server {
-  const places = new ConnectionPlaces((address) => isTrustedAddress(address, access));
+  const limits = new ConnectionLimits((address) => isTrustedAddress(address, access));
   const listener: RequestListener = (request, response) => {
-    if (roleOf(request, access) !== null) places.isKnown(request);
+    if (roleOf(request, access) !== null) limits.identified(request);
     // Connections of unknown clients end with the answer, so that nobody can pile up refused connections.
     else response.setHeader("Connection", "close");
     app(request, response);
@@ -54,7 +54,7 @@ export function httpServer(
       ? createHttpServer({ ...TIMES, ...times }, listener)
       : secureServer(tls, listener, times);
   server.maxConnections = MAX_CONNECTIONS;
-  server.on("connection", (socket) => places.opened(socket));
+  server.on("connection", (socket) => limits.opened(socket));
   // The server supports no other protocol: refuse all upgrades (such as WebSockets, perhaps from another
   // site).
   server.on("upgrade", (request, socket) => {

@@ -5,14 +5,14 @@
 import { PlotwrightError } from "../../src/index.js";
 
 /** The client that requests planning. */
-export interface Asker {
+export interface Requester {
   /** Requests of one client run one after the other; default: the server itself. */
   readonly client?: string | undefined;
   /** Aborted when nobody waits for the result any longer. */
   readonly signal?: AbortSignal | undefined;
 }
 
-export type Lane = <T>(asker: Asker, work: () => Promise<T>) => Promise<T>;
+export type Lane = <T>(requester: Requester, work: () => Promise<T>) => Promise<T>;
 
 export function lane(slots: number): Lane {
   const running: string[] = [];

@@ -28,10 +28,10 @@ export function createPlanning(files: DrawingFiles): Planning {
   const isLong = async (path: string, { order, orderS }: PlotSettings["prepare"]): Promise<boolean> =>
     (order === "best" && orderS > LONG_ORDER_S) || (await stat(path)).size > LARGE_BYTES;
   return {
-    measure: async (drawing, settings, firmware, asker = {}) => {
+    measure: async (drawing, settings, firmware, requester = {}) => {
       const wanted = input(drawing, settings);
       const turn = (await isLong(wanted.path, settings.prepare)) ? longWork : shortWork;
-      return turn(asker, () => measureDrawing(wanted, firmware, asker.signal));
+      return turn(requester, () => measureDrawing(wanted, firmware, requester.signal));
     },
     open: (drawing, settings, signal) =>
       WorkerPlanner.open({ ...input(drawing, settings), limits: OWN_PLANNING_LIMITS }, signal),

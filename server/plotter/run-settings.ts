@@ -1,4 +1,4 @@
-/** The settings of a plot under way, as they were changed on the way. */
+/** The settings of a running plot, with the changes made while it runs. */
 import {
   drawLimitsOf,
   penOfLayer,
@@ -29,7 +29,7 @@ export class RunSettings {
     this.speedPct = speedPct ?? this.speedPct;
   }
 
-  /** What is to be planned with: the speeds by the percentage. */
+  /** The settings for planning, with the speeds scaled by the percentage. */
   get planned(): PlotSettings {
     const share = this.speedPct / 100;
     if (share === 1) return this.current;

@@ -157,7 +157,7 @@ export class JobList {
    * Updates the expected time of all jobs queued for a plotter. It takes one statement and one event however
    * many jobs there are, because other plotters are plotting meanwhile.
    */
-  expectAnew(plotterId: string, ratio: number): void {
+  updateExpected(plotterId: string, ratio: number): void {
     const expectedS = this.#parts.store.saveExpected(plotterId, ratio);
     const ids = Object.keys(expectedS);
     for (const id of ids) this.#jobs.set(id, { ...this.get(id), expectedS: expectedS[id] ?? null });

@@ -9,7 +9,7 @@ import {
   type MovePlace,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import type { Asker } from "../planning/lane.js";
+import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
 import { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
@@ -43,8 +43,8 @@ export class JobQueue {
 
   /** The settings of one plotter; default: the first one. */
   settings(plotterId = this.#firstPlotter()): QueueSettings {
-    const kept = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
-    return kept.success ? kept.data : { runOn: false };
+    const stored = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
+    return stored.success ? stored.data : { runOn: false };
   }
 
   allSettings(): Record<string, QueueSettings> {
@@ -72,20 +72,20 @@ export class JobQueue {
    * Plans the drawing to check that it can be plotted, then appends it. If planning throws, the drawing is
    * removed.
    */
-  async add(wanted: NewQueueJob, asker: Asker = {}): Promise<Job> {
+  async add(wanted: NewQueueJob, requester: Requester = {}): Promise<Job> {
     try {
-      return await this.#add(wanted, asker);
+      return await this.#add(wanted, requester);
     } catch (error) {
       await this.#parts.files.remove(wanted.drawing.id);
       throw error;
     }
   }
 
-  async #add(wanted: NewQueueJob, asker: Asker): Promise<Job> {
+  async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const firmware = this.#firmwareOf(plotterId);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, asker);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
     // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
     return this.#jobs.insert(
@@ -99,12 +99,12 @@ export class JobQueue {
    * The name can change at any time; settings and plotter only while queued. Throws if the settings can't be
    * planned.
    */
-  async patch(id: string, patch: JobPatch, asker: Asker = {}): Promise<Job> {
+  async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
     if (settings !== undefined) this.#jobs.mustBeQueued(id, "Its settings");
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
-    const planned = await this.#measuredAnew(id, patch, asker);
+    const planned = await this.#remeasured(id, patch, requester);
     // The plotter may have been removed meanwhile.
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
     const job = {
@@ -117,7 +117,11 @@ export class JobQueue {
   }
 
   /** The figures of a job after a change of its settings or plotter; empty when they stay the same. */
-  async #measuredAnew(id: string, { settings, plotterId }: JobPatch, asker: Asker): Promise<Partial<Job>> {
+  async #remeasured(
+    id: string,
+    { settings, plotterId }: JobPatch,
+    requester: Requester,
+  ): Promise<Partial<Job>> {
     const job = this.get(id);
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId);
     const motionDiffers =
@@ -125,7 +129,7 @@ export class JobQueue {
     if (settings === undefined && !motionDiffers) return {};
     const wanted = settings ?? job.settings;
     const drawing = this.#parts.store.drawingOf(id);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, asker);
+    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
     this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
@@ -274,7 +278,7 @@ export class JobQueue {
 
   #done(job: Job): void {
     const { plotterId } = job;
-    this.#jobs.expectAnew(plotterId, timeRatio(this.list(), plotterId));
+    this.#jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
     if (this.settings(plotterId).runOn && !this.#runs.isClosing) void this.#startNext(plotterId);
   }
 

@@ -18,7 +18,7 @@ import type { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
 import type { QueueParts } from "./queue-parts.js";
-import { MovingTimer } from "./queued-job.js";
+import { MotionTimer } from "./queued-job.js";
 import { Runner, type RunEnd } from "./runner.js";
 
 export const SERVER_STOPPED =
@@ -40,7 +40,7 @@ const INTERRUPTIONS: readonly ErrorCode[] = [
 interface Running {
   readonly jobId: string;
   readonly runner: Runner;
-  readonly timer: MovingTimer;
+  readonly timer: MotionTimer;
 }
 
 export class PlotRuns {
@@ -154,7 +154,7 @@ export class PlotRuns {
     this.#jobs.close();
   }
 
-  #begin(plotter: PlotterPort, job: Job): MovingTimer {
+  #begin(plotter: PlotterPort, job: Job): MotionTimer {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
@@ -176,7 +176,7 @@ export class PlotRuns {
         ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
       },
     );
-    const timer = new MovingTimer(this.#parts.nowIso());
+    const timer = new MotionTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
     return timer;
   }

@@ -1,6 +1,6 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
 import type { Job, JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
-import type { Asker } from "../planning/lane.js";
+import type { Requester } from "../planning/lane.js";
 import type { PlotPlanner } from "../plotter/types.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 import type { PlotterPort } from "./plotter-port.js";
@@ -12,7 +12,7 @@ export interface Planning {
     drawing: string,
     settings: PlotSettings,
     firmware: string | null,
-    asker?: Asker,
+    requester?: Requester,
   ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
   open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
 }

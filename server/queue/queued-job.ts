@@ -31,7 +31,7 @@ export function queuedJob(
 }
 
 /** Measures the seconds a plot has moved, without holds. Times are ISO 8601, as in the job. */
-export class MovingTimer {
+export class MotionTimer {
   #since: number | null;
   #movedMs = 0;
 

@@ -114,14 +114,14 @@ export class Store {
   }
 
   /** Jobs of the shared queue that have begun without the other servers having been informed yet. */
-  untoldShared(): { readonly id: string; readonly jobId: string }[] {
+  unreportedShared(): { readonly id: string; readonly jobId: string }[] {
     return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0 AND job_id IS NOT NULL").map((row) => ({
       id: String(row["id"]),
       jobId: String(row["job_id"]),
     }));
   }
 
-  saveTold(id: string): void {
+  saveReported(id: string): void {
     this.#run("UPDATE shared SET is_told = 1 WHERE id = ?", [id]);
   }
 

@@ -25,7 +25,7 @@ export interface SharedParts {
   readonly serverId: string;
   /** Shown to users. */
   readonly serverName: string;
-  readonly store: Pick<Store, "isShared" | "untoldShared" | "saveTold" | "forgetShared">;
+  readonly store: Pick<Store, "isShared" | "unreportedShared" | "saveReported" | "forgetShared">;
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
@@ -83,7 +83,7 @@ export class SharedQueue {
    */
   async claim(jobId: string): Promise<string | null> {
     const { shared, store, serverId, queue, log } = this.#parts;
-    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return null;
     const { name } = queue.get(jobId);
     try {
@@ -97,7 +97,7 @@ export class SharedQueue {
 
   async release(jobId: string): Promise<void> {
     const { shared, store, serverId, log } = this.#parts;
-    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return;
     await shared.release(known.id, serverId).catch((error: unknown) => log(`shared queue: ${String(error)}`));
   }
@@ -151,7 +151,7 @@ export class SharedQueue {
   /** Drops queued jobs that were given to other servers while this one was away. */
   async #dropLost(): Promise<void> {
     const { shared, store, serverId, queue } = this.#parts;
-    for (const known of store.untoldShared()) {
+    for (const known of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === known.jobId);
       if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.#leave(known);
     }
@@ -175,11 +175,11 @@ export class SharedQueue {
   /** Marks jobs that have begun here in the database, so that they can't be given to other servers. */
   async #reportBegun(): Promise<void> {
     const { shared, store, serverId, queue, notice } = this.#parts;
-    for (const { id, jobId } of store.untoldShared()) {
+    for (const { id, jobId } of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === jobId);
       if (job?.state === "queued") continue;
       const isOurs = await shared.begun(id, serverId);
-      store.saveTold(id);
+      store.saveReported(id);
       if (isOurs || job === undefined) continue;
       notice(`"${job.name}" was given to another server while this one was away, and may be plotted twice.`);
     }
@@ -263,11 +263,14 @@ export class SharedQueue {
  * Claims for the own queue, which exists before the shared queue is opened. While there is no shared queue,
  * jobs taken from it can't start, since they may have been given to another server.
  */
-export const claimsOf = (store: Pick<Store, "untoldShared">, shared: () => SharedQueue | null): Claims => ({
+export const claimsOf = (
+  store: Pick<Store, "unreportedShared">,
+  shared: () => SharedQueue | null,
+): Claims => ({
   claim: async (jobId) => {
     const queue = shared();
     if (queue !== null) return queue.claim(jobId);
-    if (!store.untoldShared().some((one) => one.jobId === jobId)) return null;
+    if (!store.unreportedShared().some((one) => one.jobId === jobId)) return null;
     return "This job is from the shared queue, so another server may have been given it. Start this server with --shared-queue, or duplicate the job and start the copy.";
   },
   release: async (jobId) => shared()?.release(jobId),

@@ -11,7 +11,7 @@ import type { Socket } from "node:net";
 const MAX_PER_ADDRESS = 60;
 const MAX_UNKNOWN = 300;
 
-export class ConnectionPlaces {
+export class ConnectionLimits {
   /**
    * Unknown connections, oldest first. TLS wraps the socket object, so the key is the remote address and
    * port.
@@ -37,7 +37,7 @@ export class ConnectionPlaces {
   }
 
   /** The client has identified itself: its connection no longer counts as unknown. */
-  isKnown({ socket }: IncomingMessage): void {
+  identified({ socket }: IncomingMessage): void {
     this.#unknown.delete(keyOf(socket));
   }
 
