@@ -7,14 +7,14 @@ export function settingsTable(): string {
     const off = row.kind === "switch" ? `, \`${flag.replace("--", "--no-")}\`` : "";
     return [`\`${flagInWords(setting).replaceAll("|", "\\|")}\`${off}`, row.about, valuesInWords(setting)];
   });
-  return table([["option", "meaning", "values"], ...rows]);
+  return markdownTable([["option", "meaning", "values"], ...rows]);
 }
 
 /** Columns are padded as prettier does it. */
-function table(rows: readonly (readonly string[])[]): string {
+export function markdownTable(rows: readonly (readonly string[])[]): string {
   const widths = rows[0]!.map((_, column) => Math.max(...rows.map((row) => row[column]!.length)));
   const line = (cells: readonly string[]): string =>
     `| ${cells.map((cell, column) => cell.padEnd(widths[column]!)).join(" | ")} |`;
   const rule = `| ${widths.map((width) => "-".repeat(width)).join(" | ")} |`;
-  return `${[line(rows[0]!), rule, ...rows.slice(1).map(line)].join("\n")}\n`;
+  return `${[line(rows[0]!), rule, ...rows.slice(1).map(line)].join("\n")}`;
 }

@@ -93,7 +93,16 @@ export function ensureDependencies() {
   }
 }
 
-const BUILD_INPUTS = ["src", "server", "web", "tsconfig.json", "package.json", "package-lock.json"];
+const BUILD_INPUTS = [
+  "src",
+  "server",
+  "web",
+  "scripts/licences.mjs",
+  "scripts/licences",
+  "tsconfig.json",
+  "package.json",
+  "package-lock.json",
+];
 
 function* filesBelow(relative) {
   if (!existsSync(inRoot(relative))) return;

@@ -21,6 +21,7 @@ export {
   type StrokeSet,
   type StrokeLayer,
 } from "./drawing/stroke-set.js";
+export { strokesOf, type Line } from "./drawing/lines.js";
 export { PAPER_SIZES, type PaperName, type PaperSize } from "./drawing/paper.js";
 
 // import
@@ -120,6 +121,7 @@ export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines
 export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
 
 // job
+export { planSvg, type PlannedSvg, type SvgSettings } from "./job/plan-svg.js";
 export { planJob, type JobOptions, type JobSettings, type MachineJob } from "./job/plan-job.js";
 
 // ebb
@@ -162,7 +164,7 @@ export {
 } from "./drivers/ebb/stream/session.js";
 export { SessionLog } from "./drivers/ebb/stream/session-log.js";
 export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
-export { streamCommands } from "./drivers/ebb/stream/stream-commands.js";
+export { streamCommands, type StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { parseSteps } from "./drivers/ebb/protocol/replies.js";
 export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions, StreamReport } from "./drivers/ebb/stream/stream-types.js";

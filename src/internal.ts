@@ -1,5 +1,6 @@
 /** What server and web use besides the public library. No promise is made to anybody else. */
 export { followedSettings, OLDEST_PLANNED_FIRMWARE } from "./job/plan-job.js";
+export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
 export { planWalk } from "./job/plan-walk.js";
 export {
   isAllowed,

@@ -1,5 +1,6 @@
 import react from "@vitejs/plugin-react";
 import { defineConfig, type Plugin } from "vite";
+import { licencePlugins } from "../scripts/licences.mjs";
 
 /**
  * Parts of libraries that are referred to, so that no tree-shaking removes them, and never called here:
@@ -52,12 +53,14 @@ const serviceWorker = (): Plugin => ({
   },
 });
 
+const licences = licencePlugins();
+
 // The page is served by plotwright's own server under a strict content security policy:
 // everything is a file of its own, nothing is inlined into the HTML.
 export default defineConfig({
   // Relative to the package, where npm runs its scripts.
   root: "web",
-  plugins: [react(), withoutNeverCalled(), serviceWorker()],
+  plugins: [react(), withoutNeverCalled(), serviceWorker(), licences.inPage()],
   build: {
     outDir: "../dist/web",
     emptyOutDir: true,
@@ -78,7 +81,7 @@ export default defineConfig({
       },
     },
   },
-  worker: { format: "es", plugins: () => [withoutNeverCalled()] },
+  worker: { format: "es", plugins: () => [withoutNeverCalled(), licences.inWorkers()] },
   server: {
     port: 5173,
     // Only the versioned interface: /api/ is also where the sources of the client lie.

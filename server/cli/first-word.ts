@@ -3,11 +3,8 @@ import { PlotwrightError } from "../../src/index.js";
 
 const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;
 
-/** Throws `bad-setting` for a word that is none of the commands. Without a word, or with an option, it is `serve`. */
-export function mustBeCommand(word: string | undefined, commands: readonly string[]): void {
-  if (word === undefined || word.startsWith("-") || commands.includes(word)) return;
-  throw new PlotwrightError("bad-setting", `There is no command ${word}. ${hint(word, commands)}`);
-}
+export const notACommand = (word: string, commands: readonly string[]): PlotwrightError =>
+  new PlotwrightError("bad-setting", `There is no command ${word}. ${hint(word, commands)}`);
 
 function hint(word: string, commands: readonly string[]): string {
   if (DRAWING.test(word)) return `To plot a drawing: plotwright plot ${word}`;

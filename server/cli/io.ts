@@ -1,4 +1,6 @@
 /** What a command needs of its process, given in so that tests can run commands without one. */
+import { isatty } from "node:tty";
+
 export interface CliIo {
   /** Results: one call for each piece of text. */
   out(text: string): void;
@@ -29,7 +31,8 @@ export function processIo(): CliIo {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),
     isTerminal: process.stderr.isTTY,
-    hasKeyboard: process.stdin.isTTY,
+    // Not process.stdin.isTTY: to open stdin as a stream makes a pipe answer "nothing yet" to whoever reads it whole.
+    hasKeyboard: isatty(0),
     onInterrupt: (listener) => {
       const soft = (): void => listener(false);
       const final = (): void => listener(true);
@@ -51,7 +54,7 @@ export function processIo(): CliIo {
       setTimeout(end, ms).unref();
     },
     onLine: (listener) => {
-      if (!process.stdin.isTTY) return () => undefined;
+      if (!isatty(0)) return () => undefined;
       const take = (data: Buffer): void => listener(data.toString("utf8").trim());
       process.stdin.on("data", take);
       return () => {

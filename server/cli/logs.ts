@@ -1,7 +1,7 @@
 /** `plotwright logs`: what happened, as one text to be sent to whoever helps. */
-import { writeFileSync } from "node:fs";
 import { defaultDataDir } from "../data-dir.js";
 import { bundleText, readLog } from "../log-book.js";
+import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 
 export interface LogsOptions {
@@ -17,10 +17,10 @@ export async function runLogs(options: LogsOptions, io: CliIo, version: string):
   const text =
     (options.data === undefined ? await fromServer(options.port) : null) ??
     bundleText({ version, serverLog: readLog(options.data ?? defaultDataDir()) });
-  if (options.out === undefined) io.out(`${text}\n`);
-  else {
-    writeFileSync(options.out, `${text}\n`);
-    io.err(`${options.out} is written. Look through it before you send it.\n`);
+  const { out = "-" } = options;
+  writeOut(out, `${text}\n`, io);
+  if (out !== "-") {
+    io.err(`${out} is written. Look through it before you send it.\n`);
   }
 }
 

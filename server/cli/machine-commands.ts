@@ -1,29 +1,39 @@
-/** One-off commands to the machine: pen, moves by hand, devices, machines, info. */
-import { resolve } from "node:path";
+/** One-off commands to the machine: pen, moves by hand, a raw line, info. */
 import type { PlotSettings } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles } from "../machines/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../plotter/hand-moves.js";
 import { openPlotter } from "../driven-plotter.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
-import { findBoards } from "../serial/find-boards.js";
+import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
+import type { DeviceOptions } from "./options.js";
 
-export interface DeviceOptions {
-  readonly device?: string;
-  readonly virtualSpeed?: number;
+/** Or a height in percent. */
+export type PenPlace = "up" | "down" | number;
+
+export interface FrameOptions extends DeviceOptions {
+  readonly only?: readonly string[];
 }
 
-export async function runPen(
-  where: "up" | "down",
+export async function runPen(where: PenPlace, settings: PlotSettings, options: DeviceOptions): Promise<void> {
+  const { upPct, downPct } = settings.pen;
+  const heightPct = where === "up" ? upPct : where === "down" ? downPct : where;
+  // A height of one's own counts as down: whatever moves next lifts the pen first.
+  await withPlotter(options, settings, (plotter) => plotter.pen(where === "up", heightPct));
+}
+
+/** One line to the board, and what it answers. */
+export async function runRaw(
+  line: string,
   settings: PlotSettings,
   options: DeviceOptions,
+  io: CliIo,
 ): Promise<void> {
-  const { upPct, downPct } = settings.pen;
-  await withPlotter(options, settings, (plotter) =>
-    plotter.pen(where === "up", where === "up" ? upPct : downPct),
-  );
+  await withPlotter(options, settings, async (plotter) => {
+    const { replies, note } = await plotter.command(line);
+    replies.forEach((reply) => io.out(`${reply}\n`));
+    if (note !== null) io.err(`${note}\n`);
+  });
 }
 
 /** One move by hand, with the machine, speeds and heights of the settings. */
@@ -32,12 +42,8 @@ export async function runMove(move: HandMove, settings: PlotSettings, options: D
 }
 
 /** Walks around where a drawing would come to lie. */
-export async function runFrame(
-  file: string,
-  settings: PlotSettings,
-  options: DeviceOptions & { readonly only?: readonly string[] },
-): Promise<void> {
-  const boxMm = await drawingBoxMm(resolve(file), settings, options.only);
+export async function runFrame(file: string, settings: PlotSettings, options: FrameOptions): Promise<void> {
+  const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
   await runMove({ kind: "frame", boxMm }, settings, options);
 }
 
@@ -49,25 +55,17 @@ export async function runAlign(settings: PlotSettings, options: DeviceOptions): 
   });
 }
 
-export function runMachines(options: { readonly data?: string }, io: CliIo): void {
-  const files = new MachineFiles(options.data ?? defaultDataDir());
-  for (const { id, name, widthMm, heightMm, builtIn } of files.list()) {
-    io.out(`${id}\t${name}\t${widthMm} × ${heightMm} mm${builtIn ? "" : "\tyour own"}\n`);
-  }
-  files.warnings.forEach((warning) => io.err(`${warning}\n`));
-}
-
-export async function runDevices(io: CliIo): Promise<void> {
-  const boards = await findBoards();
-  for (const { path, description, serialNumber } of boards) {
-    io.out(`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
-  }
-  io.out("virtual\tthe built-in virtual board\n");
-}
-
-export async function runInfo(settings: PlotSettings, options: DeviceOptions, io: CliIo): Promise<void> {
+export async function runInfo(
+  settings: PlotSettings,
+  options: DeviceOptions & { readonly json?: boolean },
+  io: CliIo,
+): Promise<void> {
   await withPlotter(options, settings, (plotter) => {
     const { name, kind, device, firmware, penUp, motorsOn, xMm, yMm } = plotter.snapshot();
+    if (options.json === true) {
+      io.out(`${JSON.stringify({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
+      return;
+    }
     const known = (value: unknown): string => (value === null ? "not known" : String(value));
     io.out(
       [

@@ -1,5 +1,4 @@
 /** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
-import { writeFileSync } from "node:fs";
 import {
   PlotwrightError,
   importDrawing,
@@ -16,10 +15,11 @@ import {
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
+import { prepareJob, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readDrawing } from "../planning/read-drawing.js";
-import { prepareDrawing, type PreparedJob } from "../planning/stages.js";
+import { writeOut } from "./files.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -72,29 +72,31 @@ export interface PlanOutput {
 export type PlanStep = "prepare" | "plan";
 
 export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
-  if (options.json === true && options.ebb === "-") {
-    throw new PlotwrightError("bad-setting", "--json and --ebb - both write to stdout: give --ebb a file.");
+  const toStdout = [
+    ...(options.json === true ? ["--json"] : []),
+    ...(["ebb", "preview", "svg", "strokes"] as const)
+      .filter((name) => options[name] === "-")
+      .map((name) => `--${name} -`),
+  ];
+  if (toStdout.length > 1) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `${toStdout.join(" and ")} both write to stdout: give one of them a file.`,
+    );
   }
-  const planned = planFile(file, base, options, io);
-  if (options.ebb !== undefined) {
-    const text = `${planned.lines.join("\n")}\n`;
-    if (options.ebb === "-") io.out(text);
-    else writeOut(options.ebb, text);
-  }
-  if (options.preview !== undefined) {
-    const { paperWidthMm: widthMm, paperHeightMm: heightMm } = planned.job.prepared;
-    writeOut(options.preview, trajectoryToSvg(planned.trajectory, { widthMm, heightMm }));
-  }
-  const { prepared } = planned.job;
+  const { report, settings, job, trajectory, lines } = planFile(file, base, options, io);
+  const { prepared } = job;
+  const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
+  if (options.ebb !== undefined) writeOut(options.ebb, `${lines.join("\n")}\n`, io);
+  if (options.preview !== undefined) writeOut(options.preview, trajectoryToSvg(trajectory, paper), io);
   if (options.svg !== undefined) {
-    writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, planned.settings)));
+    writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, settings)), io);
   }
   if (options.strokes !== undefined) {
-    const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
-    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`);
+    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`, io);
   }
-  if (options.json === true) io.out(`${JSON.stringify(planned.report)}\n`);
-  else if (options.ebb !== "-") io.out(words(planned.report));
+  if (options.json === true) io.out(`${JSON.stringify(report)}\n`);
+  else if (toStdout.length === 0) io.out(words(report));
 }
 
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
@@ -106,7 +108,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();
   let orderingFrom = performance.now();
-  const job = prepareDrawing(drawing, settings, machine, {
+  const job = prepareJob(drawing, settings, machine, {
     onProgress: (_done, step) => {
       if (step === "ordering") orderingFrom = performance.now();
     },
@@ -144,19 +146,11 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   return { report, settings, job, trajectory, lines };
 }
 
-function writeOut(path: string, text: string): void {
-  try {
-    writeFileSync(path, text);
-  } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
-      cause,
-    });
-  }
-}
-
 function words(report: PlanReport): string {
   const lines = [
-    `${report.strokes} strokes, ${report.points} points, ${report.penLifts} pen lifts`,
+    [many(report.strokes, "stroke"), many(report.points, "point"), many(report.penLifts, "pen lift")].join(
+      ", ",
+    ),
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
     `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
     ...report.warnings.map((warning) => `note: ${warning}`),
@@ -170,6 +164,7 @@ export function minutes(seconds: number): string {
   return parts.map((part) => String(part).padStart(2, "0")).join(":");
 }
 
+const many = (count: number, what: string): string => `${count} ${what}${count === 1 ? "" : "s"}`;
 const metres = (mm: number): string => `${(mm / 1000).toFixed(2)} m`;
 const rounded = (value: number): number => Math.round(value * 1000) / 1000;
 

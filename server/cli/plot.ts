@@ -1,49 +1,119 @@
 /**
- * `plotwright plot FILE.svg`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
+ * `plotwright plot FILE…`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to go on with, the first one cancels.
  */
-import { SingleBar } from "cli-progress";
-import { resolve } from "node:path";
+import { basename } from "node:path";
 import { PlotwrightError, machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { defaultDataDir } from "../data-dir.js";
 import { WorkerPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
-import type { PlotProgress, PlotRun } from "../plotter/types.js";
+import type { JournalEntry, PlotStart } from "../plotter/types.js";
+import type { PlotterPort } from "../queue/plotter-port.js";
+import { nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
-import { withPlotter, type DeviceOptions } from "./machine-commands.js";
-import { minutes } from "./plan.js";
+import { withPlotter } from "./machine-commands.js";
+import type { DeviceOptions } from "./options.js";
+import { PlotRecord, type CutShort } from "./plot-record.js";
+import { cancelled, waitForPaper, watch } from "./plot-watch.js";
+import { serverHint } from "./server-client.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
+  readonly copies: number;
+  readonly paperS?: number;
+  readonly resume?: boolean;
+  readonly anew?: boolean;
+  readonly quiet?: boolean;
+  readonly data?: string;
+}
+
+interface Plot {
+  readonly name: string;
+  readonly path: string;
+  readonly settings: PlotSettings;
+  readonly only: readonly string[] | undefined;
+  readonly from: CutShort["from"] | null;
 }
 
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
 export async function runPlot(
-  file: string,
+  files: readonly string[],
   settings: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
+  const jobs = files.flatMap((file) => Array<string>(options.copies).fill(file));
+  if (jobs.length === 0) throw new PlotwrightError("bad-setting", "Which drawing? plotwright plot FILE.svg");
+  if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "Between two plots somebody changes the paper and presses Enter. Without a keyboard, say with --paper-s how many seconds to wait.",
+    );
+  }
+  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
+  mustHaveEnded(record, options);
+  for (const [index, file] of jobs.entries()) {
+    if (index > 0 && !(await waitForPaper(nameOf(file), options.paperS, io))) return cancelled(io);
+    const code = await withDrawingFile(file, (path) => {
+      const plot: Plot = { name: basename(nameOf(file)), path, settings, only: options.only, from: null };
+      return plotOne(plot, { begin: () => record.begin(path, plot), record }, options, io);
+    });
+    if (code !== 0) return code;
+  }
+  return 0;
+}
+
+/** Goes on with the plot that a crash has cut short, from where it was half a second before at most. */
+export async function resumePlot(
+  files: readonly string[],
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  if (files.length > 0) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "--resume goes on with the drawing that was begun: name no file.",
+    );
+  }
+  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
+  const found = record.mustFind();
+  const plot: Plot = { ...found, path: record.drawingPath };
+  return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
+}
+
+/** The carriage is somewhere in that drawing, and what is drawn is on its paper: to begin anew is rarely meant. */
+function mustHaveEnded(record: PlotRecord, { anew }: PlotCommandOptions): void {
+  const found = record.find();
+  if (found === null || anew === true) return;
+  throw new PlotwrightError(
+    "conflict",
+    `The plot of ${found.name} was cut short at ${Math.round(100 * found.progress)} %. plotwright plot --resume goes on with it; --anew forgets it and begins with a new one.`,
+  );
+}
+
+async function plotOne(
+  plot: Plot,
+  keep: { readonly begin: () => void; readonly record: PlotRecord },
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const { path, settings, only } = plot;
+  const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
     const planner = await WorkerPlanner.open(
-      {
-        path: resolve(file),
-        settings,
-        machine: machineOf(settings),
-        only: options.only,
-        limits: OWN_PLANNING_LIMITS,
-      },
+      { path, settings, machine: machineOf(settings), only, limits: OWN_PLANNING_LIMITS },
       stop.signal,
     );
     try {
-      planner.warnings.forEach((warning) => io.err(`note: ${warning}\n`));
-      return await withPlotter(options, settings, async (plotter) => {
+      planner.warnings.forEach((warning) => say(`note: ${warning}\n`));
+      return await withPlotter(options, settings, (plotter) => {
         forget();
-        const code = await watch(await plotter.plot(planner, settings), io);
-        await plotter.motorsOff();
-        return code;
+        return onPlotter(plotter, planner, plot, keep, options, io);
+      }).catch(async (error: unknown) => {
+        throw await serverHint(error);
       });
     } finally {
       await planner.close();
@@ -58,76 +128,25 @@ export async function runPlot(
   }
 }
 
-async function watch(run: PlotRun, io: CliIo): Promise<number> {
-  const bar = io.isTerminal ? progressBar() : null;
-  const control = new Control(run, io);
-  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.goOn())];
-  run.onProgress((progress) => bar?.update(progress.progress * 100, timesOf(progress)));
-  try {
-    const outcome = await Promise.race([run.finished, control.failed]);
-    if (outcome.kind === "cancelled") return cancelled(io);
-    bar?.update(100);
-    return 0;
-  } finally {
-    bar?.stop();
-    forget.forEach((stop) => stop());
-  }
+async function onPlotter(
+  plotter: PlotterPort,
+  planner: WorkerPlanner,
+  { name, settings, from }: Plot,
+  { begin, record }: { readonly begin: () => void; readonly record: PlotRecord },
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const isLost = plotter.snapshot().xMm === null;
+  let progress = 0;
+  begin();
+  const journal = { record: (entry: JournalEntry) => record.save(entry, progress) };
+  // Taken up again without a keyboard, there is nobody to give the word.
+  const start: PlotStart = { from, journal, held: from !== null && io.hasKeyboard };
+  const run = await plotter.plot(planner, settings, start);
+  run.onProgress((now) => (progress = now.progress));
+  const resumed = from === null ? null : { isLost };
+  const code = await watch(run, { name, isQuiet: options.quiet === true, resumed }, io);
+  record.end();
+  await plotter.motorsOff();
+  return code;
 }
-
-/** What the user's keys mean, by what went before. */
-class Control {
-  readonly #run: PlotRun;
-  readonly #io: CliIo;
-  #held = false;
-  #cancelling = false;
-  /** Rejects when a request can't be carried out. */
-  readonly failed: Promise<never>;
-  #fail: (error: unknown) => void = () => undefined;
-
-  constructor(run: PlotRun, io: CliIo) {
-    this.#run = run;
-    this.#io = io;
-    this.failed = new Promise((_resolve, reject) => (this.#fail = reject));
-    this.failed.catch(() => undefined);
-  }
-
-  interrupt(isFinal: boolean): void {
-    if (this.#cancelling) return;
-    if (this.#held || isFinal || !this.#io.hasKeyboard) {
-      this.#cancelling = true;
-      this.#io.err("\nCancelling: the pen lifts and goes home.\n");
-      this.#run.cancel().catch(this.#fail);
-    } else {
-      this.#held = true;
-      this.#io.err("\nHolding. Enter goes on, Ctrl-C again cancels.\n");
-      this.#run.pause().catch(this.#fail);
-    }
-  }
-
-  goOn(): void {
-    if (!this.#held || this.#cancelling) return;
-    this.#held = false;
-    this.#run.resume().catch(this.#fail);
-  }
-}
-
-function cancelled(io: CliIo): number {
-  io.err("plotwright: the plot was cancelled.\n");
-  return 5;
-}
-
-function progressBar(): SingleBar {
-  const bar = new SingleBar({
-    format: "{bar} {percentage} %  {elapsed} so far, {left} left",
-    barCompleteChar: "█",
-    barIncompleteChar: "░",
-    hideCursor: true,
-  });
-  bar.start(100, 0, { elapsed: "00:00:00", left: "…" });
-  return bar;
-}
-
-const timesOf = (progress: PlotProgress): { elapsed: string; left: string } => ({
-  elapsed: minutes(progress.elapsedS),
-  left: minutes(progress.remainingS),
-});

@@ -3,28 +3,30 @@
  * checked by the same schema as the web's; a fault names the flag, or the place in the file.
  */
 import { Option, type Command } from "commander";
-import { readFileSync } from "node:fs";
 import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles, readMachineFile } from "../machines/machine-files.js";
+import { MachineFiles, machineOfText } from "../machines/machine-files.js";
+import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
 /** What commander hands to an action: option names in camel case. */
 export type OptionValues = Readonly<Record<string, unknown>>;
 
-export function addSettingOptions(command: Command): Command {
-  for (const { flags, about, parse, choices } of SETTING_OPTIONS) {
+/** `parts`: the settings that the command follows, by where they stand: "pen", "motion.travel"; left out: all. */
+export function addSettingOptions(command: Command, parts?: readonly string[]): Command {
+  const isMeant = ({ path }: SettingOption): boolean =>
+    parts === undefined || parts.some((part) => path === part || path.startsWith(`${part}.`));
+  for (const { flags, about, parse, choices } of SETTING_OPTIONS.filter(isMeant)) {
     const option = new Option(flags, about);
     if (choices !== undefined) option.choices(choices);
     if (parse !== undefined) option.argParser(parse);
     command.addOption(option);
   }
   return command
-    .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter"))
-    .addOption(new Option("--only <layer...>", "draw these layers only, by name or id"))
-    .addOption(new Option("--config <file>", "JSON file with settings; flags go before it"));
+    .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter, or -"))
+    .addOption(new Option("--config <file>", "JSON file with settings, or -; flags go before it"));
 }
 
 /** Throws `bad-setting` naming the flag at fault. */
@@ -79,7 +81,7 @@ function setMachine(settings: Record<string, unknown>, machine: MachineProfile):
 
 function readMachine(path: string): MachineProfile {
   try {
-    return readMachineFile(path);
+    return machineOfText(readText(path));
   } catch (cause) {
     throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${(cause as Error).message}.`, {
       cause,
@@ -95,7 +97,7 @@ const dataDirOf = ({ data }: OptionValues): string => (typeof data === "string" 
 
 function readConfig(path: string): Record<string, unknown> {
   try {
-    const value: unknown = JSON.parse(readFileSync(path, "utf8"));
+    const value: unknown = JSON.parse(readText(path));
     if (isRecord(value)) return value;
     throw new Error("it is not a JSON object");
   } catch (cause) {

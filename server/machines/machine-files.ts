@@ -68,8 +68,11 @@ export class MachineFiles {
 }
 
 /** Throws an error that says what is wrong with the file. */
-export function readMachineFile(path: string): MachineProfile {
-  const result = machineProfileSchema.safeParse(JSON.parse(readFileSync(path, "utf8")));
+const readMachineFile = (path: string): MachineProfile => machineOfText(readFileSync(path, "utf8"));
+
+/** Throws what is wrong with it. */
+export function machineOfText(text: string): MachineProfile {
+  const result = machineProfileSchema.safeParse(JSON.parse(text));
   if (result.success) return result.data;
   const issue = result.error.issues[0];
   throw new Error(`${issue?.path.join(".") ?? ""}: ${issue?.message ?? "not a machine's profile"}`);

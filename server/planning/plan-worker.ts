@@ -11,11 +11,12 @@ import {
   trajectoryStats,
   type Prepared,
 } from "../../src/index.js";
+import { prepareJob } from "../../src/internal.js";
 import type { JobStats } from "../../src/schema/index.js";
 import { faultOf, type FromWorker, type ToWorker, type WorkerInput } from "./messages.js";
 import { withOnlyLayers } from "./only-layers.js";
 import { readDrawing } from "./read-drawing.js";
-import { planAndCompile, prepareDrawing } from "./stages.js";
+import { planAndCompile } from "./stages.js";
 
 const input = workerData as WorkerInput;
 const port = parentPort;
@@ -29,7 +30,7 @@ try {
   const drawing = importDrawing("", readDrawing(input.path));
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);
-  const { prepared, warnings } = prepareDrawing(drawing, settings, input.machine);
+  const { prepared, warnings } = prepareJob(drawing, settings, input.machine);
   port.on("message", (message: ToWorker) => answer(prepared, warnings, message));
   post({ type: "ready", strokes: prepared.strokes, warnings });
 } catch (error) {

@@ -38,10 +38,7 @@ export interface Connection {
   readonly boardClock: Clock;
   /** Board seconds in one of ours. */
   readonly speed: number;
-  /**
-   * The same for how long something may take: as long as the slower of the two, board or computer, would
-   * need.
-   */
+  /** The same for how long something may take: as long as the slower of the two, board or computer, would need. */
   readonly waitSpeed: number;
   /** Present for the built-in virtual board. */
   readonly virtualBoard: VirtualBoard | null;

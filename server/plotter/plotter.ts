@@ -379,7 +379,7 @@ export class PlotterDriver {
     }
   }
 
-  /** Use the result immediately: after an await, another caller may use the carriage too. */
+  /** To be taken at once: between asking and taking, another one could ask. */
   private idleCarriage(): Carriage {
     if (this.run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");

@@ -1,4 +1,4 @@
-/** The settings of a running plot, with the changes made while it runs. */
+/** The settings of a plot under way, as they were changed on the way. */
 import {
   drawLimitsOf,
   penOfLayer,

@@ -8,6 +8,7 @@ import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
 import type { BoardState, CommandStream } from "../drivers/ebb/compile/command-stream.js";
 import { compile } from "../drivers/ebb/compile/compile.js";
 import { motionForFirmware } from "../drivers/ebb/protocol/firmware-motion.js";
+import { checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 import { plan } from "../plan/plan.js";
@@ -55,7 +56,8 @@ export interface MachineJob {
 /**
  * Plans `strokes` for a machine, from any place to any stroke.
  *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other or a firmware that is no version, "cancelled"
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other a firmware that is no version or a machine profile
+ *   with something missing, "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
  */
 export function planJob(
@@ -64,6 +66,7 @@ export function planJob(
   machine: MachineProfile,
   options: JobOptions = {},
 ): MachineJob {
+  checkProfile(machine);
   const firmware = options.firmware ?? OLDEST_PLANNED_FIRMWARE;
   const { motion, pen } = followedSettings(settings, strokes.layers, firmware);
   const trajectory = plan(firstStrokes(strokes, options.until ?? null), motion, pen, {

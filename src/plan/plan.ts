@@ -16,8 +16,8 @@ import { PenMoveWriter } from "./pen-moves.js";
 import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter } from "./run-writer.js";
-import type { MotionSettings } from "../settings/motion.js";
-import type { PenSettings } from "../settings/pen.js";
+import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
+import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
 export interface PlanOptions {
@@ -49,8 +49,8 @@ export interface PlanOptions {
  */
 export function plan(
   strokes: StrokeSet,
-  motion: MotionSettings,
-  pen: PenSettings,
+  motion: MotionSettings = DEFAULT_MOTION,
+  pen: PenSettings = DEFAULT_PEN,
   options: PlanOptions = {},
 ): Trajectory {
   checkSettings(motion, pen);

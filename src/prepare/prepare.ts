@@ -29,7 +29,7 @@ import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
 import { setFor } from "./set-for.js";
-import type { PrepareSettings } from "../settings/prepare.js";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../settings/prepare.js";
 import {
   ANYWHERE,
   addHatch,
@@ -66,7 +66,11 @@ export interface Prepared {
  * Lays the drawing on the paper and makes it into strokes in drawing order (mm in the machine frame).
  * Throws PlotwrightError `bad-setting` (no room inside the margins) and `cancelled`.
  */
-export function prepare(drawing: Drawing, settings: PrepareSettings, options: Work = {}): Prepared {
+export function prepare(
+  drawing: Drawing,
+  settings: PrepareSettings = DEFAULT_PREPARE,
+  options: Work = {},
+): Prepared {
   const progress = (done: number, step: string): void => {
     stopIfCancelled(options);
     options.onProgress?.(done, step);

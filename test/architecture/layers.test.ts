@@ -16,7 +16,18 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   prepare: ["drawing", "geometry", "machines", "settings", "units", "errors"],
   plan: ["prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  job: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  job: [
+    "import",
+    "drivers",
+    "plan",
+    "prepare",
+    "drawing",
+    "geometry",
+    "machines",
+    "settings",
+    "units",
+    "errors",
+  ],
   export: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
 };
@@ -122,6 +133,8 @@ describe("server and web", () => {
 
   it("never import each other, nor a test", () => {
     const wrong = [...importsIn("server"), ...importsIn("web")].filter(({ from, to }) => {
+      // It configures the build, and is no part of the page.
+      if (from === "web/vite.config.ts") return false;
       const other = from.startsWith("web/") ? "server/" : "web/";
       return to.startsWith(other) || to.startsWith("test/") || to.startsWith("scripts/");
     });

@@ -8,6 +8,7 @@ import {
   plan,
   Streamer,
   streamCommands,
+  type StreamProgress,
   VirtualBoard,
   type CommandStream,
   type PlotwrightError,
@@ -241,6 +242,21 @@ describe("cutting and replacing", () => {
     const report = await rig.world.run(played);
     expect(report).toMatchObject({ complete: true, exact: true, end: { commandIndex: 0 } });
     expect(rig.board.statistics().underrunCount).toBe(0);
+  });
+
+  it("tells the fraction done and the time left while it plays", async () => {
+    const rig = await newRig();
+    const stream = makeStream(wavyRows(100, 20));
+    const seen: StreamProgress[] = [];
+    const onProgress = (progress: StreamProgress): unknown => seen.push(progress);
+    await rig.world.run(streamCommands(rig.session, stream, { clock: rig.world, onProgress }));
+    const totalS = stream.planS[stream.count]!;
+    for (const { fraction, leftS, planS } of seen) {
+      expect(fraction).toBeCloseTo(planS / totalS, 9);
+      expect(leftS).toBeCloseTo(totalS - planS, 9);
+    }
+    expect(seen[0]!.fraction).toBeLessThan(0.1);
+    expect(seen.at(-1)!.fraction).toBeGreaterThan(0.9);
   });
 
   it("stops at a cancellation, with the board at rest and its place known", async () => {

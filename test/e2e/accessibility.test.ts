@@ -84,6 +84,19 @@ describe("someone without a mouse", () => {
   });
 });
 
+describe("the About sheet", () => {
+  it("is opened from the sheet of keys, and shows the licences of what is built in", async () => {
+    const page = await openPage();
+    await page.keyboard.press("?");
+    await page.getByRole("button", { name: "About plotwright" }).click();
+    const sheet = page.getByRole("dialog", { name: "About plotwright" });
+    await expect.poll(() => sheet.textContent()).toMatch(/zustand [\d.]+ \(MIT\)/);
+    expect(await sheet.textContent()).toMatch(/Hershey fonts.*css-tree/s);
+    expect(await seriousFindings(page)).toEqual([]);
+    await page.context().close();
+  });
+});
+
 describe("axe finds nothing serious, light and dark", () => {
   it.each([DESK, PHONE])("on the first visit, $name", async (look) => {
     const page = await firstVisit(look);

@@ -49,10 +49,40 @@ describe("the installed package", () => {
 
   it("holds the built product and nothing else", () => {
     expect(readdirSync(installed).sort()).toEqual(
-      ["CHANGELOG.md", "LICENSE", "README.md", "dist", "package.json", "samples"].sort(),
+      [
+        ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md"],
+        ...["dist", "docs", "package.json", "samples"],
+      ].sort(),
     );
     expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["server", "src", "web"]);
     expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
+  });
+
+  it("has the licence of everything that is built into the page", () => {
+    const text = readFileSync(path.join(installed, "dist", "web", "licences.txt"), "utf8");
+    // React and zustand are in the page, css-tree, saxes and clipper2-ts in its workers, the fonts in our sources.
+    for (const name of [
+      "plotwright",
+      "react",
+      "zustand",
+      "css-tree",
+      "saxes",
+      "clipper2-ts",
+      "Hershey fonts",
+    ]) {
+      const section = text
+        .split("\n\n\n")
+        .find((one) => one.startsWith(`${name} `) || one.startsWith(`${name},`));
+      expect([name, section]).toEqual([name, expect.stringMatching(/permi(t|ssion)/i)]);
+    }
+  });
+
+  it("has every file that a link of its README leads to", () => {
+    const readme = readFileSync(path.join(installed, "README.md"), "utf8");
+    const links = [...readme.matchAll(/\]\(([^)#]+)[^)]*\)/g)].map((match) => match[1] ?? "");
+    const own = links.filter((link) => !/^https?:/.test(link));
+    expect(own.length).toBeGreaterThan(5);
+    expect(own.filter((link) => !existsSync(path.join(installed, link)))).toEqual([]);
   });
 
   it("tells its version by npx plotwright --version", () => {

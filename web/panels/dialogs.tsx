@@ -3,6 +3,7 @@ import { usePageState } from "../state/use-store.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
+const AboutDialog = lazyPart(async () => (await import("./about.js")).AboutDialog);
 const Wizard = lazyPart(async () => (await import("../machine/wizard.js")).Wizard);
 const MachinesDialog = lazyPart(async () => (await import("../machine/machines-dialog.js")).MachinesDialog);
 const Console = lazyPart(async () => (await import("../machine/console.js")).Console);
@@ -14,6 +15,8 @@ export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   switch (dialog) {
     case "keys":
       return <HelpSheet shortcuts={shortcuts} />;
+    case "about":
+      return <AboutDialog />;
     case "wizard":
       return <Wizard />;
     case "machines":

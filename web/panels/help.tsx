@@ -1,6 +1,7 @@
 import { usePageStore } from "../state/use-store.js";
 import type { Shortcut } from "../state/shortcuts.js";
 import { text } from "../text/text.js";
+import { later } from "../text/later.js";
 import { Dialog } from "../ui/dialog.js";
 
 const words = text.shortcuts;
@@ -24,6 +25,9 @@ export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => 
       </dl>
       <p className="note">{text.preview.hint}</p>
       <p className="note">{words.fields}</p>
+      <button type="button" className="link" onClick={() => store.setState({ openDialog: "about" })}>
+        {later.about.title}
+      </button>
     </Dialog>
   );
 };

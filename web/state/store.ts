@@ -46,7 +46,7 @@ export interface Notice {
 }
 
 /** Sheets over the page, one at a time. */
-export type DialogName = "keys" | "machines" | "wizard" | "console" | "studio";
+export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
 
 interface SampleInfo {
   readonly name: string;

@@ -302,6 +302,17 @@ export const enLater = {
     cameraFailed: "The camera’s picture did not come. Is its address right, and can this device reach it?",
   },
 
+  about: {
+    title: "About plotwright",
+    what: "plotwright: free software for pen plotters, under the MIT licence.",
+    whatVersion: (version: string) =>
+      `plotwright ${version}: free software for pen plotters, under the MIT licence.`,
+    licences: "It is built with the work of others. These are their licences.",
+    licencesLabel: "Licences",
+    loading: "Fetching the licences…",
+    absent: "The licences could not be fetched. They are in the file licences.txt of the installed page.",
+  },
+
   nudge: {
     title: "Pen heights now",
     up: "Height up",

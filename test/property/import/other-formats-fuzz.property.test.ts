@@ -3,11 +3,11 @@
  * planned too. PLOTWRIGHT_FUZZ_CASES: how many, PLOTWRIGHT_FUZZ_FIRST: from which seed on.
  */
 import { expect, it } from "vitest";
-import { planAndCompile, prepareDrawing } from "../../../server/planning/stages.js";
+import { planAndCompile } from "../../../server/planning/stages.js";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importDrawing } from "../../../src/import/registry.js";
 import { machineOf, type Drawing } from "../../../src/index.js";
-import { OLDEST_PLANNED_FIRMWARE } from "../../../src/internal.js";
+import { OLDEST_PLANNED_FIRMWARE, prepareJob } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
@@ -90,7 +90,7 @@ it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES
     if (Math.floor(i / FILES.length) % PLANNED_EACH !== 0) continue;
     try {
       endWhenOver(HANGS_MS, () => {
-        const { prepared } = prepareDrawing(drawing, DEFAULT_PLOT_SETTINGS, machine);
+        const { prepared } = prepareJob(drawing, DEFAULT_PLOT_SETTINGS, machine);
         planAndCompile(prepared, PLAN_ALL, machine);
       });
     } catch (error) {

@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PEN, plan, type MotionMode } from "../../../src/index.js";
+import { DEFAULT_PEN, plan, type MotionLimits, type MotionMode } from "../../../src/index.js";
 import { arbitraryLimits, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { optimalRunTime } from "../../support/path-optimum.js";
 import { cornersOf, distance, type Limits } from "../../support/reference-planners/polyline.js";
@@ -55,7 +55,7 @@ describe("the time of a small path", () => {
   });
 });
 
-function planned(points: readonly Point[], mode: MotionMode, draw: Parameters<typeof plan>[1]["draw"]) {
+function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits) {
   return plan(strokeSetOf([points]), { mode, draw, travel: draw }, NO_PEN, { returnHome: false });
 }
 

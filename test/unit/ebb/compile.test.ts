@@ -7,8 +7,10 @@ import {
   DEFAULT_PEN,
   machineById,
   plan,
+  planJob,
   setUpCommands,
   type CommandStream,
+  type MachineProfile,
 } from "../../../src/index.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
@@ -18,6 +20,7 @@ const linesOf = (stream: CommandStream): string[] =>
 const compiled = (strokes: readonly (readonly Point[])[], firmware: string, pen = DEFAULT_PEN) =>
   compile(plan(strokeSetOf(strokes), DEFAULT_MOTION, pen), { machine, firmware, pen });
 
+const DEFAULT_JOB = { motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
 const LINE: readonly Point[] = [
   [10, 10],
   [60, 35],
@@ -39,6 +42,30 @@ describe("compile", () => {
     const trajectory = plan(strokeSetOf([LINE]), { ...DEFAULT_MOTION, mode: "scurve" }, DEFAULT_PEN);
     const lines = linesOf(compile(trajectory, { machine, firmware: "3.0.3", pen: DEFAULT_PEN }));
     expect(lines.some((line) => line.startsWith("T3,"))).toBe(true);
+  });
+
+  it.each([
+    ["stepsPerMm", { ...machine, stepsPerMm: undefined }],
+    ["motors", { ...machine, motors: "belt" }],
+    ["controller", { ...machine, controller: undefined }],
+    [
+      "controller.microstepMode",
+      { ...machine, controller: { ...machine.controller, microstepMode: undefined } },
+    ],
+    ["controller.servoPin", { ...machine, controller: { ...machine.controller, servoPin: 7 } }],
+    ["controller.servoPosAt0Pct", { ...machine, controller: { ...machine.controller, servoPosAt0Pct: NaN } }],
+  ])("refuses a machine profile whose %s is missing or wrong, and names it", (field, profile) => {
+    const incomplete = profile as unknown as MachineProfile;
+    const trajectory = plan(strokeSetOf([LINE]));
+    const refused = expect.objectContaining({
+      code: "bad-setting",
+      message: expect.stringContaining(field) as unknown,
+    }) as Error;
+    expect(() => compile(trajectory, { machine: incomplete, firmware: "2.8.1", pen: DEFAULT_PEN })).toThrow(
+      refused,
+    );
+    expect(() => setUpCommands(incomplete, DEFAULT_PEN, "2.8.1")).toThrow(refused);
+    expect(() => planJob({ strokes: strokeSetOf([LINE]) }, DEFAULT_JOB, incomplete)).toThrow(refused);
   });
 
   it("makes no commands of an empty plan", () => {

@@ -5,6 +5,7 @@
  * The host model knows after each command where the board truly is, step and phase, and the next one is aimed from
  * there: the step counters at the end are those of the plan.
  */
+import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
@@ -41,10 +42,11 @@ export interface CompileOptions {
  * Commands that play a trajectory on a board of that firmware, from pen heights to the last pen move. Motors are
  * switched on and off by `setUpCommands` and `closingCommands`, once a session.
  *
- * @throws PlotwrightError "bad-setting" for a firmware that is no version
+ * @throws PlotwrightError "bad-setting" for a firmware that is no version, and for a machine profile with something missing
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
+  checkProfile(options.machine);
   return new Compiler(trajectory, options).run();
 }
 

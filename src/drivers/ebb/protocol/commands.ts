@@ -1,6 +1,7 @@
 /**
  * Command lines of the EiBotBoard: those a plot begins and ends with, and a writer for the stream between.
  */
+import { checkProfile } from "../../../machines/check-profile.js";
 import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -14,6 +15,7 @@ const STANDARD_PIN = 4;
 
 /** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
+  checkProfile(machine);
   const features = firmwareFeatures(firmware);
   const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
   // Older boards keep their accumulators through EM: CS makes them known.

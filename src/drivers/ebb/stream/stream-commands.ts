@@ -5,13 +5,21 @@ import { Streamer } from "./streamer.js";
 import type { StreamPlace } from "./timeline.js";
 import type { Cancellation } from "../../transport.js";
 
+/** How far a plot is. */
+export interface StreamProgress extends StreamPlace {
+  /** 0 … 1, of the plot's time. */
+  readonly fraction: number;
+  /** Seconds of the plot that are left. */
+  readonly leftS: number;
+}
+
 /** Plays one stream from beginning to end; with `cancel`, only to the command under way when it is raised. */
 export async function streamCommands(
   session: BoardSession,
   stream: CommandStream,
   options: StreamOptions & {
     readonly cancel?: Cancellation;
-    readonly onProgress?: (place: StreamPlace) => void;
+    readonly onProgress?: (progress: StreamProgress) => void;
     /** Board seconds between two calls of `onProgress`, and two looks at `cancel`. Default 0.06. */
     readonly progressEveryS?: number;
   },
@@ -20,7 +28,7 @@ export async function streamCommands(
   let stopTicking: (() => void) | null = null;
   const tick = (): void => {
     if (options.cancel?.aborted && streamer.playing) streamer.cut();
-    else options.onProgress?.(streamer.place());
+    else options.onProgress?.(progressOf(streamer.place()));
     stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
   };
   const played = streamer.play(stream);
@@ -31,4 +39,12 @@ export async function streamCommands(
   } finally {
     (stopTicking as (() => void) | null)?.();
   }
+}
+
+function progressOf(place: StreamPlace): StreamProgress {
+  const { planS, count } = place.stream;
+  const fromS = planS[0]!;
+  const toS = planS[count]!;
+  const fraction = toS > fromS ? Math.min(1, Math.max(0, (place.planS - fromS) / (toS - fromS))) : 1;
+  return { ...place, fraction, leftS: Math.max(0, toS - place.planS) };
 }

@@ -1,0 +1,15 @@
+import { Option } from "commander";
+import { runBoard, type BoardCommandOptions } from "./board.js";
+import { positive, type Declare } from "./options.js";
+
+export const declareBoard: Declare = (command, { io }) => {
+  command
+    .requiredOption("--pty <path>", "where the serial port shall appear")
+    .option("--firmware <version>", "firmware to be", "2.8.1")
+    .addOption(
+      new Option("--speed <factor>", "board seconds in one of ours (default: 1)").argParser(positive),
+    )
+    .option("--machine <id>", "plotter model (default: axidraw-v3)")
+    .option("--svg <file>", "where what was drawn goes (default: drawn.svg)")
+    .action((options: BoardCommandOptions) => runBoard(options, io));
+};

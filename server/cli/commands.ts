@@ -1,0 +1,155 @@
+/** All commands by name. What one is made of is loaded only when it is asked for: nobody waits for the others. */
+import type { Declare } from "./options.js";
+
+export interface CliCommand {
+  readonly name: string;
+  readonly about: string;
+  /** Of its help and of docs/cli.md; a test runs each of them. */
+  readonly examples: readonly string[];
+  readonly load: () => Promise<Declare>;
+}
+
+const hand = async (): Promise<typeof import("./hand-commands.js")> => import("./hand-commands.js");
+const server = async (): Promise<typeof import("./server-commands.js")> => import("./server-commands.js");
+const queue = async (): Promise<typeof import("./queue-commands.js")> => import("./queue-commands.js");
+const list = async (): Promise<typeof import("./list-commands.js")> => import("./list-commands.js");
+
+/** What it does when no command is named. */
+export const DEFAULT_COMMAND = "serve";
+
+export const COMMANDS: readonly CliCommand[] = [
+  {
+    name: "serve",
+    about: "serve the page and the queue (default)",
+    examples: ["plotwright --port 9381", "plotwright serve --lan --device virtual"],
+    load: async () => (await server()).declareServe,
+  },
+  {
+    name: "plan",
+    about: "show what a plot would be, without a board",
+    examples: [
+      "plotwright plan drawing.svg --paper A4 --margin 1cm",
+      "plotwright plan drawing.svg --json",
+      "plotwright plan - --ebb -",
+    ],
+    load: async () => (await import("./plan-command.js")).declarePlan,
+  },
+  {
+    name: "plot",
+    about: "plot drawings",
+    examples: [
+      "plotwright plot drawing.svg --speed 40 --pen-down 25",
+      "plotwright plot drawing.svg other.svg --copies 2 --paper-s 30",
+      "plotwright plot --resume",
+    ],
+    load: async () => (await import("./plot-command.js")).declarePlot,
+  },
+  {
+    name: "add",
+    about: "put drawings into a running server's queue",
+    examples: ["plotwright add drawing.svg --copies 3", "plotwright add - --url http://127.0.0.1:9080"],
+    load: async () => (await queue()).declareAdd,
+  },
+  {
+    name: "queue",
+    about: "show a running server's queue",
+    examples: ["plotwright queue", "plotwright queue --json"],
+    load: async () => (await queue()).declareQueue,
+  },
+  {
+    name: "pen",
+    about: "lift or lower the pen, or move it to a height",
+    examples: ["plotwright pen up", "plotwright pen 40"],
+    load: async () => (await hand()).declarePen,
+  },
+  {
+    name: "home",
+    about: "lift the pen and walk home",
+    examples: ["plotwright home"],
+    load: async () => (await hand()).declareHome,
+  },
+  {
+    name: "jog",
+    about: "move by so many mm, pen up",
+    examples: ["plotwright jog 10 -5", "plotwright jog 1in 0"],
+    load: async () => (await hand()).declareJog,
+  },
+  {
+    name: "walk",
+    about: "go to a place in mm from home, pen up",
+    examples: ["plotwright walk 100 5cm --travel-speed 80"],
+    load: async () => (await hand()).declareWalk,
+  },
+  {
+    name: "set-home",
+    about: "make home where the carriage stands",
+    examples: ["plotwright set-home"],
+    load: async () => (await hand()).declareSetHome,
+  },
+  {
+    name: "align",
+    about: "lift the pen and switch the motors off, to put the carriage to home by hand",
+    examples: ["plotwright align"],
+    load: async () => (await hand()).declareAlign,
+  },
+  {
+    name: "cycle-pen",
+    about: "lower the pen and lift it again",
+    examples: ["plotwright cycle-pen --pen-down 20"],
+    load: async () => (await hand()).declareCyclePen,
+  },
+  {
+    name: "test-patch",
+    about: "draw a small pattern where the carriage stands",
+    examples: ["plotwright test-patch"],
+    load: async () => (await hand()).declareTestPatch,
+  },
+  {
+    name: "frame",
+    about: "go around a drawing, pen up",
+    examples: ["plotwright frame drawing.svg --paper A5"],
+    load: async () => (await hand()).declareFrame,
+  },
+  {
+    name: "raw",
+    about: "send one line to the board",
+    examples: ["plotwright raw QM"],
+    load: async () => (await hand()).declareRaw,
+  },
+  {
+    name: "info",
+    about: "tell what the board says of itself",
+    examples: ["plotwright info --json"],
+    load: async () => (await hand()).declareInfo,
+  },
+  {
+    name: "devices",
+    about: "list the boards that are plugged in",
+    examples: ["plotwright devices --json"],
+    load: async () => (await list()).declareDevices,
+  },
+  {
+    name: "machines",
+    about: "list the plotter models, yours too",
+    examples: ["plotwright machines"],
+    load: async () => (await list()).declareMachines,
+  },
+  {
+    name: "service",
+    about: "keep the server running by systemd",
+    examples: ["plotwright service install --print -- --port 9381", "plotwright service status"],
+    load: async () => (await server()).declareService,
+  },
+  {
+    name: "logs",
+    about: "print what happened, to be sent to whoever helps",
+    examples: ["plotwright logs --out plotwright.log"],
+    load: async () => (await server()).declareLogs,
+  },
+  {
+    name: "board",
+    about: "be a virtual board that other programs can drive",
+    examples: ["plotwright board --pty /tmp/plotter --speed 10 --svg drawn.svg"],
+    load: async () => (await import("./board-command.js")).declareBoard,
+  },
+];

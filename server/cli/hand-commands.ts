@@ -1,0 +1,115 @@
+/** One-off commands to the machine: pen, moves by hand, a raw line, info. */
+import { InvalidArgumentError, type Command } from "commander";
+import type { HandMove } from "../plotter/hand-moves.js";
+import { length } from "./lengths.js";
+import {
+  runAlign,
+  runFrame,
+  runInfo,
+  runMove,
+  runPen,
+  runRaw,
+  type FrameOptions,
+  type PenPlace,
+} from "./machine-commands.js";
+import {
+  addData,
+  addDevice,
+  addHandOptions,
+  addJson,
+  percent,
+  type Declare,
+  type DeviceOptions,
+} from "./options.js";
+import { addSettingOptions, handSettingsFromOptions, type OptionValues } from "./settings-options.js";
+
+type HandOptions = OptionValues & DeviceOptions;
+
+export const declarePen: Declare = (command) => {
+  addHandOptions(command.argument("<where>", "up, down, or a height in percent", penPlace))
+    .option("--pen-up <percent>", "height when up (default: 60)", percent)
+    .option("--pen-down <percent>", "height when down (default: 30)", percent)
+    .action((where: PenPlace, options: HandOptions) =>
+      runPen(where, handSettingsFromOptions(options), options),
+    );
+};
+
+export const declareAlign: Declare = (command) => {
+  addHandOptions(command).action((options: HandOptions) =>
+    runAlign(handSettingsFromOptions(options), options),
+  );
+};
+
+export const declareInfo: Declare = (command, { io }) => {
+  addJson(addHandOptions(command)).action((options: HandOptions & { json?: boolean }) =>
+    runInfo(handSettingsFromOptions(options), options, io),
+  );
+};
+
+export const declareRaw: Declare = (command, { io }) => {
+  addHandOptions(command.argument("<line>", "as the board takes it, for example QM")).action(
+    (line: string, options: HandOptions) => runRaw(line, handSettingsFromOptions(options), options, io),
+  );
+};
+
+/** The settings that a command follows; with others it would look as if they did something. */
+const PEN = ["machine", "pen"];
+const PEN_AND_TRAVEL = [...PEN, "motion.travel"];
+
+export const declareHome: Declare = (command) => {
+  addMove(command, PEN_AND_TRAVEL).action((options: HandOptions) => move({ kind: "home" }, options));
+};
+
+export const declareJog: Declare = (command) => {
+  addMove(place(command, "dx", "dy"), PEN_AND_TRAVEL).action(
+    (dxMm: number, dyMm: number, options: HandOptions) => move({ kind: "jog", dxMm, dyMm }, options),
+  );
+};
+
+export const declareWalk: Declare = (command) => {
+  addMove(place(command, "x", "y"), PEN_AND_TRAVEL).action((xMm: number, yMm: number, options: HandOptions) =>
+    move({ kind: "walk", xMm, yMm }, options),
+  );
+};
+
+export const declareSetHome: Declare = (command) => {
+  addMove(command, ["machine"]).action((options: HandOptions) => move({ kind: "set-home" }, options));
+};
+
+export const declareCyclePen: Declare = (command) => {
+  addMove(command, PEN).action((options: HandOptions) => move({ kind: "cycle-pen" }, options));
+};
+
+export const declareTestPatch: Declare = (command) => {
+  addMove(command, [...PEN, "motion"]).action((options: HandOptions) =>
+    move({ kind: "test-patch" }, options),
+  );
+};
+
+export const declareFrame: Declare = (command) => {
+  addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
+    .option("--only <layer...>", "around these layers only, by name or id")
+    .action((file: string, options: OptionValues & FrameOptions) =>
+      runFrame(file, handSettingsFromOptions(options), options),
+    );
+};
+
+const addMove = (command: Command, settings: readonly string[]): Command =>
+  addData(addDevice(addSettingOptions(command, settings)));
+
+const move = (how: HandMove, options: HandOptions): Promise<void> =>
+  runMove(how, handSettingsFromOptions(options), options);
+
+function place(command: Command, ...names: readonly string[]): Command {
+  for (const name of names) command.argument(`<${name}>`, "mm, or with a unit as in 2cm", length);
+  return command;
+}
+
+function penPlace(text: string): PenPlace {
+  if (text === "up" || text === "down") return text;
+  const height = text.trim() === "" ? NaN : Number(text.replace(/%$/, ""));
+  if (!(height >= 0 && height <= 100)) {
+    throw new InvalidArgumentError("It must be up, down, or a height of 0 to 100 percent.");
+  }
+  return height;
+}

@@ -1,0 +1,42 @@
+/** What there is: boards and plotter models. */
+import { defaultDataDir } from "../data-dir.js";
+import { MachineFiles } from "../machines/machine-files.js";
+import type { CliIo } from "./io.js";
+import { addData, addJson, type Declare } from "./options.js";
+
+interface ListOptions {
+  readonly data?: string;
+  readonly json?: boolean;
+}
+
+export const declareDevices: Declare = (command, { io }) => {
+  addJson(command).action((options: ListOptions) => runDevices(options, io));
+};
+
+export const declareMachines: Declare = (command, { io }) => {
+  addJson(addData(command)).action((options: ListOptions) => runMachines(options, io));
+};
+
+async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
+  const { findBoards } = await import("../serial/find-boards.js");
+  const boards = await findBoards();
+  if (json === true) {
+    io.out(`${JSON.stringify(boards)}\n`);
+    return;
+  }
+  for (const { path, description, serialNumber } of boards) {
+    io.out(`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
+  }
+  io.out("virtual\tthe built-in virtual board\n");
+}
+
+function runMachines({ data, json }: ListOptions, io: CliIo): void {
+  const files = new MachineFiles(data ?? defaultDataDir());
+  if (json === true) io.out(`${JSON.stringify(files.list())}\n`);
+  else {
+    for (const { id, name, widthMm, heightMm, builtIn } of files.list()) {
+      io.out(`${id}\t${name}\t${widthMm} × ${heightMm} mm${builtIn ? "" : "\tyour own"}\n`);
+    }
+  }
+  files.warnings.forEach((warning) => io.err(`${warning}\n`));
+}

@@ -1,0 +1,66 @@
+/** Options that several commands have, and how their values are read. */
+import { InvalidArgumentError, Option, type Command } from "commander";
+import type { CliIo } from "./io.js";
+
+/** What a command's file is given to declare its options and what it does. */
+export interface CommandContext {
+  readonly io: CliIo;
+  readonly version: string;
+  setExitCode(code: number): void;
+}
+export type Declare = (command: Command, context: CommandContext) => void;
+
+export interface DeviceOptions {
+  readonly device?: string;
+  readonly virtualSpeed?: number;
+}
+
+export const addDevice = (command: Command): Command =>
+  command
+    .option("--device <path>", "serial port of the board, or virtual (default: the first board found)")
+    .addOption(
+      new Option("--virtual-speed <factor>", "how fast the virtual board runs (default: 1)").argParser(
+        positive,
+      ),
+    );
+
+export const addData = (command: Command): Command =>
+  command.option("--data <folder>", "folder for jobs and settings");
+
+/** Whose servo and steps these are: told, or as a server has kept them in its data folder. */
+export const addHandOptions = (command: Command): Command =>
+  addData(addDevice(command))
+    .option("--machine <id>", "plotter model (default: the one that the server's plotter has)")
+    .option("--machine-file <file>", "JSON file with the profile of your own plotter, or -");
+
+export const addJson = (command: Command): Command => command.option("--json", "print JSON");
+
+export function port(text: string): number {
+  const value = Number(text);
+  if (!/^\d+$/.test(text) || value > 65_535) throw new InvalidArgumentError("It must be 0 to 65535.");
+  return value;
+}
+
+export function positive(text: string): number {
+  const value = Number(text);
+  if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
+  return value;
+}
+
+export function percent(text: string): number {
+  const value = text.trim() === "" ? NaN : Number(text);
+  if (!(value >= 0 && value <= 100)) throw new InvalidArgumentError("It must be 0 to 100.");
+  return value;
+}
+
+export function copies(text: string): number {
+  const value = Number(text);
+  if (!/^\d+$/.test(text) || value < 1 || value > 100) throw new InvalidArgumentError("It must be 1 to 100.");
+  return value;
+}
+
+export function seconds(text: string): number {
+  const value = text.trim() === "" ? NaN : Number(text);
+  if (!(value >= 0 && value <= 86_400)) throw new InvalidArgumentError("It must be 0 to 86400 seconds.");
+  return value;
+}

@@ -1,0 +1,24 @@
+import { withDrawingFile } from "./files.js";
+import type { PlanCommandOptions } from "./plan.js";
+import { runPlanInThread } from "./plan-thread.js";
+import type { Declare } from "./options.js";
+import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+
+export const declarePlan: Declare = (command, { io }) => {
+  addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))
+    .option("--only <layer...>", "draw these layers only, by name or id")
+    .option("--json", "print one JSON object")
+    .option("--ebb <out>", "write the board's commands, one a line, to a file or - for stdout")
+    .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
+    .option("--preview <out.svg>", "write a picture coloured by speed, to a file or -")
+    .option(
+      "--svg <out.svg>",
+      "write the prepared drawing, its layers' settings as codes in their names, to a file or -",
+    )
+    .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
+    .action((file: string, options: PlanCommandOptions & OptionValues) =>
+      withDrawingFile(file, (path) =>
+        runPlanInThread({ file: path, settings: settingsFromOptions(options), options }, io),
+      ),
+    );
+};

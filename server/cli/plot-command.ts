@@ -1,0 +1,25 @@
+import { addData, addDevice, copies, seconds, type Declare } from "./options.js";
+import { resumePlot, runPlot, type PlotCommandOptions } from "./plot.js";
+import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+
+export const declarePlot: Declare = (command, { io, setExitCode }) => {
+  addData(
+    addDevice(
+      addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+    ),
+  )
+    .option("--only <layer...>", "draw these layers only, by name or id")
+    .option("--copies <number>", "how often to plot each", copies, 1)
+    .option(
+      "--paper-s <seconds>",
+      "wait so long for new paper between two plots, instead of for Enter",
+      seconds,
+    )
+    .option("--resume", "go on with the plot that was cut short by a crash")
+    .option("--anew", "forget a plot that was cut short")
+    .option("--quiet", "say nothing but errors")
+    .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
+      if (options.resume === true) setExitCode(await resumePlot(files, options, io));
+      else setExitCode(await runPlot(files, settingsFromOptions(options), options, io));
+    });
+};

@@ -1,0 +1,122 @@
+/**
+ * What a plot of the command line needs to go on after a crash: its drawing, its settings, and the journal that its
+ * driver writes. One folder for each device; it is gone when the plot has ended.
+ */
+import {
+  copyFileSync,
+  mkdirSync,
+  existsSync,
+  readFileSync,
+  renameSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
+import { join } from "node:path";
+import { z } from "zod";
+import { PlotwrightError } from "../../src/index.js";
+import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import type { JournalEntry } from "../plotter/types.js";
+
+const plotSchema = z.object({
+  name: z.string(),
+  settings: plotSettingsSchema,
+  only: z.array(z.string()).optional(),
+  pid: z.number(),
+});
+const entrySchema = z.object({
+  place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
+  progress: z.number(),
+});
+
+/** What is plotted. */
+export interface Plotted {
+  readonly name: string;
+  readonly settings: PlotSettings;
+  /** The layers that are drawn, by name; left out: all. */
+  readonly only: readonly string[] | undefined;
+}
+
+/** A plot that was cut short. */
+export interface CutShort extends Plotted {
+  readonly from: JournalEntry["place"];
+  /** 0 … 1. */
+  readonly progress: number;
+}
+
+export class PlotRecord {
+  readonly #folder: string;
+
+  constructor(dataDir: string, device = "auto") {
+    this.#folder = join(dataDir, "command-line", encodeURIComponent(device));
+  }
+
+  /** The drawing as it was when the plot began. */
+  get drawingPath(): string {
+    return join(this.#folder, "drawing");
+  }
+
+  begin(path: string, plot: Plotted): void {
+    this.end();
+    mkdirSync(this.#folder, { recursive: true, mode: 0o700 });
+    copyFileSync(path, this.drawingPath);
+    this.takeOver(plot);
+  }
+
+  /** Begun, or taken up again, by this process. */
+  takeOver({ name, settings, only }: Plotted): void {
+    this.#write("plot.json", { name, settings, only, pid: process.pid });
+  }
+
+  /** `progress`: 0 … 1. */
+  save(entry: JournalEntry, progress: number): void {
+    this.#write("journal.json", { ...entry, progress });
+  }
+
+  end(): void {
+    rmSync(this.#folder, { recursive: true, force: true });
+  }
+
+  /** Null where the last plot ended, had drawn nothing, or is still under way in another process. */
+  find(): CutShort | null {
+    const plot = plotSchema.safeParse(this.#read("plot.json"));
+    const entry = entrySchema.safeParse(this.#read("journal.json"));
+    if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
+    if (plot.data.pid !== process.pid && isRunning(plot.data.pid)) return null;
+    const { name, settings, only } = plot.data;
+    return { name, settings, only, from: entry.data.place, progress: entry.data.progress };
+  }
+
+  /** Throws `not-found`. */
+  mustFind(): CutShort {
+    const found = this.find();
+    if (found !== null) return found;
+    throw new PlotwrightError(
+      "not-found",
+      "No plot was cut short on this device: there is nothing to resume.",
+    );
+  }
+
+  #read(name: string): unknown {
+    try {
+      return JSON.parse(readFileSync(join(this.#folder, name), "utf8"));
+    } catch {
+      return null;
+    }
+  }
+
+  /** Whole or not at all, whenever the process ends. */
+  #write(name: string, value: unknown): void {
+    const path = join(this.#folder, name);
+    writeFileSync(`${path}.new`, JSON.stringify(value));
+    renameSync(`${path}.new`, path);
+  }
+}
+
+function isRunning(pid: number): boolean {
+  try {
+    process.kill(pid, 0);
+    return true;
+  } catch {
+    return false;
+  }
+}

@@ -1,0 +1,129 @@
+/** What somebody sees of a plot under way, and what their keys do to it. */
+import { SingleBar } from "cli-progress";
+import type { PlotProgress, PlotRun } from "../plotter/types.js";
+import type { PlotWait } from "../../src/schema/index.js";
+import type { CliIo } from "./io.js";
+import { minutes } from "./plan.js";
+
+export interface Watched {
+  readonly name: string;
+  readonly isQuiet: boolean;
+  /** Taken up again after a crash; `isLost`: the board does not know its place any more. */
+  readonly resumed: { readonly isLost: boolean } | null;
+}
+
+/** Until it ends. Returns the exit code: 0, or 5 when it was cancelled. */
+export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, io: CliIo): Promise<number> {
+  const say = isQuiet ? () => undefined : (text: string) => io.err(text);
+  const isHeld = resumed !== null && io.hasKeyboard;
+  const bar = io.isTerminal && !isQuiet ? progressBar() : null;
+  const control = new Control(run, io, isHeld);
+  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.goOn())];
+  let elapsedS = 0;
+  run.onProgress((progress) => {
+    elapsedS = progress.elapsedS;
+    bar?.update(progress.progress * 100, timesOf(progress));
+  });
+  run.onHeld((_held, wait = null) => {
+    if (wait !== null) control.waitsFor(wait);
+  });
+  if (bar === null) say(`${resumed === null ? "Plotting" : "Going on with"} ${name}.\n`);
+  if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter goes on, Ctrl-C cancels.\n`);
+  try {
+    const outcome = await Promise.race([run.finished, control.failed]);
+    if (outcome.kind === "cancelled") return cancelled(io);
+    bar?.update(100);
+    if (bar === null) say(`Done: ${name}, after ${minutes(elapsedS)}.\n`);
+    return 0;
+  } finally {
+    bar?.stop();
+    forget.forEach((stop) => stop());
+  }
+}
+
+const LOST = "The board has lost its place: push the carriage to home by hand first.";
+const KNOWN = "The board still knows its place.";
+
+/** False when it was cancelled meanwhile. */
+export async function waitForPaper(name: string, waitS: number | undefined, io: CliIo): Promise<boolean> {
+  io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
+  const forget: (() => void)[] = [];
+  try {
+    return await new Promise<boolean>((resolve) => {
+      forget.push(io.onInterrupt(() => resolve(false)));
+      if (waitS === undefined) forget.push(io.onLine(() => resolve(true)));
+      else {
+        const timer = setTimeout(() => resolve(true), 1_000 * waitS);
+        forget.push(() => clearTimeout(timer));
+      }
+    });
+  } finally {
+    forget.forEach((stop) => stop());
+  }
+}
+
+export function cancelled(io: CliIo): number {
+  io.err("plotwright: the plot was cancelled.\n");
+  return 5;
+}
+
+/** What the user's keys mean, by what went before. */
+class Control {
+  readonly #run: PlotRun;
+  readonly #io: CliIo;
+  #held: boolean;
+  #cancelling = false;
+  /** Rejects when a request can't be carried out. */
+  readonly failed: Promise<never>;
+  #fail: (error: unknown) => void = () => undefined;
+
+  constructor(run: PlotRun, io: CliIo, isHeld: boolean) {
+    this.#run = run;
+    this.#io = io;
+    this.#held = isHeld;
+    this.failed = new Promise((_resolve, reject) => (this.#fail = reject));
+    this.failed.catch(() => undefined);
+  }
+
+  interrupt(isFinal: boolean): void {
+    if (this.#cancelling) return;
+    if (this.#held || isFinal || !this.#io.hasKeyboard) {
+      this.#cancelling = true;
+      this.#io.err("\nCancelling: the pen lifts and goes home.\n");
+      this.#run.cancel().catch(this.#fail);
+    } else {
+      this.#held = true;
+      this.#io.err("\nHolding. Enter goes on, Ctrl-C again cancels.\n");
+      this.#run.pause().catch(this.#fail);
+    }
+  }
+
+  /** A stop of its own, for another pen. */
+  waitsFor({ penName, layerName }: PlotWait): void {
+    this.#held = true;
+    const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
+    this.#io.err(`\nPut in ${what}. Enter goes on, Ctrl-C cancels.\n`);
+  }
+
+  goOn(): void {
+    if (!this.#held || this.#cancelling) return;
+    this.#held = false;
+    this.#run.resume().catch(this.#fail);
+  }
+}
+
+function progressBar(): SingleBar {
+  const bar = new SingleBar({
+    format: "{bar} {percentage} %  {elapsed} so far, {left} left",
+    barCompleteChar: "█",
+    barIncompleteChar: "░",
+    hideCursor: true,
+  });
+  bar.start(100, 0, { elapsed: "00:00:00", left: "…" });
+  return bar;
+}
+
+const timesOf = (progress: PlotProgress): { elapsed: string; left: string } => ({
+  elapsed: minutes(progress.elapsedS),
+  left: minutes(progress.remainingS),
+});

@@ -1,0 +1,75 @@
+/** Commands to a running server's queue. */
+import { Option, type Command } from "commander";
+import { basename } from "node:path";
+import { importDrawing } from "../../src/index.js";
+import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { withOnlyLayers } from "../planning/only-layers.js";
+import { readDrawing } from "../planning/read-drawing.js";
+import { nameOf, withDrawingFile } from "./files.js";
+import { addData, addJson, copies, type Declare } from "./options.js";
+import { minutes } from "./plan.js";
+import { addJob, DEFAULT_URL, serverState, type ServerOptions } from "./server-client.js";
+import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+
+interface AddOptions extends ServerOptions {
+  readonly only?: readonly string[];
+  readonly copies: number;
+  readonly plotter?: string;
+  readonly quiet?: boolean;
+}
+
+export const declareAdd: Declare = (command, { io }) => {
+  addData(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin"))))
+    .option("--only <layer...>", "draw these layers only, by name or id")
+    .option("--copies <number>", "how often to plot each", copies, 1)
+    .option("--plotter <id>", "which of the server's plotters (default: its first one)")
+    .option("--quiet", "say nothing but errors")
+    .action(async (files: string[], options: AddOptions & OptionValues) => {
+      const { plotters } = await serverState(options);
+      const plotter = plotters.find(({ id }) => id === (options.plotter ?? plotters[0]?.id));
+      // A plotter knows which model it is; who names one means that.
+      const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
+      const base = settingsFromOptions(machine ? { ...options, machine } : options);
+      for (const file of files) {
+        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readDrawing(path)));
+        const settings =
+          options.only === undefined
+            ? base
+            : withOnlyLayers(importDrawing(file, drawing), base, options.only);
+        const job = await addJob(options, {
+          name: basename(nameOf(file)),
+          drawing: withoutEncoding(drawing),
+          settings,
+          copies: options.copies,
+          ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
+        });
+        if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
+      }
+    });
+};
+
+export const declareQueue: Declare = (command, { io }) => {
+  addJson(addServer(command)).action(async (options: ServerOptions & { json?: boolean }) => {
+    const { jobs } = await serverState(options);
+    const waiting = jobs.filter((job) => !ENDED_STATES.some((state) => state === job.state));
+    if (options.json === true) io.out(`${JSON.stringify(waiting)}\n`);
+    else if (waiting.length === 0) io.err("The queue is empty.\n");
+    else waiting.forEach((job) => io.out(`${line(job)}\n`));
+  });
+};
+
+/** As text it goes in UTF-8, whatever the file said that it was in. */
+const withoutEncoding = (text: string): string =>
+  text.replace(/^(\s*<\?xml\s[^>]*?)\s+encoding\s*=\s*(?:"[^"]*"|'[^']*')/, "$1");
+
+const addServer = (command: Command): Command =>
+  command
+    .option("--url <url>", "where the server is", DEFAULT_URL)
+    .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
+
+const line = (job: Job): string =>
+  [job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name].join("\t");
+
+/** What is left of it, or all where it has not begun. */
+const timeOf = ({ remainingS, expectedS, stats, state }: Job): string =>
+  minutes(state === "queued" ? (expectedS ?? stats?.durationS ?? remainingS ?? 0) : (remainingS ?? 0));

@@ -1,0 +1,64 @@
+/** The server on this computer: serve, service, logs. */
+import { Command, Option } from "commander";
+import { addData, addDevice, port, positive, type Declare } from "./options.js";
+import { runLogs, type LogsOptions } from "./logs.js";
+import type { ServeCommandOptions } from "./serve.js";
+import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
+
+export const declareServe: Declare = (command, { io }) => {
+  addServe(command).action(async (options: ServeCommandOptions) => {
+    const { runServe } = await import("./serve.js");
+    await runServe(options, io);
+  });
+};
+
+export const declareLogs: Declare = (command, { io, version }) => {
+  addData(command)
+    .option("--port <number>", "port of the running server", port, 9080)
+    .option("--out <file>", "write it to a file (default: -, which is stdout)")
+    .action((options: LogsOptions) => runLogs(options, io, version));
+};
+
+export const declareService: Declare = (service, { io, setExitCode }) => {
+  const sub = (name: string, about: string): Command =>
+    service
+      .command(name)
+      .description(about)
+      .copyInheritedSettings(service)
+      .option("--system", "for the whole computer, started at boot; needs root");
+  sub("install", "write the unit and start it; options of serve after --")
+    .argument("[serve-options...]")
+    .option("--user <name>", "with --system: whose server it is")
+    .option("--print", "only show what would be written")
+    .action((serveArgs: string[], options: ServiceOptions) => {
+      // A service that dies of a mistyped option would be found out by nobody.
+      addServe(new Command("serve").copyInheritedSettings(service)).parse(serveArgs, { from: "user" });
+      installService(options, serveArgs, io);
+    });
+  sub("uninstall", "stop it and remove the unit").action((options: ServiceOptions) =>
+    uninstallService(options, io),
+  );
+  sub("status", "say whether it runs").action((options: ServiceOptions) =>
+    setExitCode(serviceStatus(options, io)),
+  );
+};
+
+function addServe(command: Command): Command {
+  return addData(addDevice(command))
+    .option("--port <number>", "port to listen on; 0 takes any free one", port, 9080)
+    .option("--host <address>", "address to listen on (default: 127.0.0.1; all with --lan)")
+    .option("--lan", "listen on the network; other devices have to be paired")
+    .option("--no-mdns", "with --lan: do not announce plotwright.local")
+    .option("--pair-always", "ask for pairing on this computer too")
+    .option("--cert <file>", "certificate (PEM): serve https")
+    .option("--key <file>", "the certificate's key (PEM)")
+    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
+    .option("--watch <folder>", "queue the drawings that are put there")
+    .addOption(
+      new Option("--shared-queue <url>", "share jobs with other servers by a PostgreSQL database").env(
+        "PLOTWRIGHT_SHARED_QUEUE",
+      ),
+    )
+    .option("--max-upload-mb <number>", "largest drawing taken, MB", positive, 200)
+    .option("--open", "open the page in the browser");
+}

@@ -1,0 +1,32 @@
+/** Lines that a program has computed, as what the planner takes. */
+import type { StrokeLayer, StrokeSet } from "./stroke-set.js";
+
+/** mm from home, in the order in which they are drawn. */
+export type Line = readonly (readonly [x: number, y: number])[];
+
+const ONE_LAYER: StrokeLayer = { id: "lines", name: "Lines", color: null };
+
+/**
+ * Strokes of one layer from lines of points, in their order. A line of one point is a dot.
+ *
+ * @throws RangeError for a line without points, and for a coordinate that is not a finite number
+ */
+export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER): StrokeSet {
+  const offsets = new Uint32Array(lines.length + 1);
+  lines.forEach((line, index) => {
+    if (line.length === 0) throw new RangeError(`line ${index} has no points: leave it out`);
+    offsets[index + 1] = offsets[index]! + line.length;
+  });
+  const xy = new Float64Array(2 * offsets[lines.length]!);
+  let at = 0;
+  lines.forEach((line, index) => {
+    for (const [x, y] of line) {
+      if (!Number.isFinite(x) || !Number.isFinite(y)) {
+        throw new RangeError(`line ${index} has the point ${x}, ${y}: both must be finite numbers of mm`);
+      }
+      xy[at++] = x;
+      xy[at++] = y;
+    }
+  });
+  return { xy, offsets, layer: new Uint16Array(lines.length), layers: [layer] };
+}

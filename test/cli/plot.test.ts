@@ -1,0 +1,150 @@
+/** `plotwright plot`, and what it leaves for a server's queue. */
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { PlotRecord } from "../../server/cli/plot-record.js";
+import { serverHint } from "../../server/cli/server-client.js";
+import { createServer } from "../../server/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { CaughtIo, cli, cliWith, type CliRun } from "./support.js";
+
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
+vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
+
+const LIMIT_MS = 60_000;
+let dir: string;
+let file: string;
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-plot-"));
+  file = join(dir, "a.svg");
+  writeFileSync(file, SVG);
+});
+afterEach(() => rmSync(dir, { recursive: true, force: true }));
+
+function plot(io: CaughtIo, ...args: string[]): Promise<CliRun> {
+  return cliWith(io, "plot", ...args, "--device", "virtual", "--virtual-speed", "100", "--data", dir);
+}
+function withoutKeyboard(): CaughtIo {
+  const io = new CaughtIo();
+  io.hasKeyboard = false;
+  return io;
+}
+
+describe("plotwright plot", () => {
+  it(
+    "says when it begins and when it is done, and nothing with --quiet",
+    async () => {
+      expect((await plot(new CaughtIo(), file)).err).toMatch(
+        /^Plotting a\.svg\.\nDone: a\.svg, after 00:00:\d\d\.\n$/,
+      );
+      expect(await plot(new CaughtIo(), "-", "--quiet")).toEqual({ code: 0, out: "", err: "" });
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "waits for Enter between two plots, or so long as it is told",
+    async () => {
+      const io = new CaughtIo();
+      const plotted = plot(io, file, "-");
+      await expect.poll(() => io.errText).toMatch(/Next: stdin\. Change the paper, then press Enter/);
+      expect(io.errText).not.toMatch(/Plotting stdin/);
+      io.line();
+      expect((await plotted).code).toBe(0);
+      expect(io.errText).toMatch(/Done: stdin/);
+      const refused = await plot(withoutKeyboard(), file, "--copies", "2");
+      expect(refused).toMatchObject({ code: 2, err: expect.stringMatching(/--paper-s/) as string });
+      const copies = await plot(withoutKeyboard(), file, "--copies", "3", "--paper-s", "0");
+      expect([copies.code, copies.err.match(/Done/g)?.length]).toEqual([0, 3]);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "does not begin over a plot that was cut short, unless it is told to forget it",
+    async () => {
+      const record = new PlotRecord(dir, "virtual");
+      const cutShort = (): void => {
+        record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+        const entry = { place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 };
+        record.save(entry, 0.4);
+      };
+      cutShort();
+      const refused = await plot(new CaughtIo(), file);
+      expect(refused.err).toMatch(/plot of b\.svg was cut short at 40 %.*plot --resume/);
+      expect([refused.code, record.find()?.progress]).toEqual([5, 0.4]);
+      const resumed = await plot(withoutKeyboard(), "--resume");
+      expect(resumed.err).toMatch(/^Going on with b\.svg\.\nDone: b\.svg/);
+      expect([resumed.code, record.find()]).toEqual([0, null]);
+      expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
+      cutShort();
+      expect((await plot(new CaughtIo(), file, "--anew")).code).toBe(0);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "with a keyboard, a plot that is resumed waits for Enter",
+    async () => {
+      const record = new PlotRecord(dir, "virtual");
+      record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+      record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      const io = new CaughtIo();
+      const plotted = plot(io, "--resume");
+      await expect.poll(() => io.errText).toMatch(/lost its place.*Enter goes on/);
+      expect(io.errText).not.toMatch(/Done/);
+      io.line();
+      expect((await plotted).code).toBe(0);
+    },
+    LIMIT_MS,
+  );
+
+  it("names the server that may have the plotter", async () => {
+    const taken = new PlotwrightError("busy", "Another program has it.");
+    vi.stubGlobal("fetch", () => Promise.resolve(new Response("{}")));
+    expect((await serverHint(taken)) as Error).toMatchObject({
+      code: "busy",
+      message: expect.stringMatching(/Another program has it\. .*plotwright add FILE/) as string,
+    });
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("fetch failed")));
+    expect(await serverHint(taken)).toBe(taken);
+    vi.unstubAllGlobals();
+  });
+});
+
+describe("plotwright add and queue", () => {
+  it(
+    "put drawings into a running server's queue, for its machine, and show them",
+    async () => {
+      const server = await createServer({
+        ...{ port: 0, dataDir: join(dir, "server"), device: "virtual", maxUploadBytes: 1e6 },
+        log: () => undefined,
+      });
+      try {
+        const at = ["--url", server.url];
+        const patch = { method: "PATCH", headers: { "Content-Type": "application/json" } };
+        const body = JSON.stringify({ machine: "axidraw-v3-a3" });
+        await fetch(`${server.url}/api/v1/plotters/main`, { ...patch, body });
+        const { code, out } = await cli("add", file, "-", "--copies", "2", "--speed", "30", ...at);
+        expect(code).toBe(0);
+        expect(out).toMatch(/^\S+\ta\.svg\t00:00:\d\d\n\S+\tstdin\t00:00:\d\d\n$/);
+        const listed = await cli("queue", "--json", ...at);
+        const jobs = JSON.parse(listed.out) as { name: string; settings: typeof DEFAULT_PLOT_SETTINGS }[];
+        expect(jobs.map(({ name }) => name)).toEqual(["a.svg", "a.svg", "stdin", "stdin"]);
+        expect(jobs[0]!.settings.motion.draw.speedMmPerS).toBe(30);
+        expect(jobs[0]!.settings.machine).toBe("axidraw-v3-a3");
+        expect((await cli("queue", ...at)).out.trimEnd().split("\n").length).toBe(4);
+        writeFileSync(file, "hello");
+        const refused = await cli("add", file, ...at);
+        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/did not take it/) });
+      } finally {
+        await server.close();
+      }
+      const gone = await cli("queue", "--url", server.url);
+      expect(gone).toMatchObject({ code: 5, err: expect.stringMatching(/No plotwright server answers/) });
+    },
+    LIMIT_MS,
+  );
+});

@@ -1,0 +1,104 @@
+/** docs/cli.md: its commands are those of the program's help, and each of their examples runs. */
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import { COMMANDS } from "../../server/cli/commands.js";
+import { PlotRecord } from "../../server/cli/plot-record.js";
+import { createServer, type PlotwrightServer } from "../../server/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { cliReference } from "../../scripts/cli-reference.js";
+import { CaughtIo, cliWith } from "./support.js";
+
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
+vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
+// Whatever is plugged into this computer is left alone.
+vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
+
+const LIMIT_MS = 120_000;
+const startedIn = process.cwd();
+let folder: string;
+let server: PlotwrightServer;
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), "plotwright-reference-"));
+  for (const name of ["drawing.svg", "other.svg"]) writeFileSync(join(folder, name), SVG);
+  vi.stubEnv("XDG_CONFIG_HOME", folder);
+  process.chdir(folder);
+  const options = { port: 0, dataDir: join(folder, "server"), device: "virtual", log: () => undefined };
+  server = await createServer({ ...options, maxUploadBytes: 1e6 });
+});
+afterAll(async () => {
+  await server.close();
+  process.chdir(startedIn);
+  vi.unstubAllEnvs();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** What the test adds, so that a line touches nothing outside its folder and takes no real time. */
+function additionsOf(command: string): string[] {
+  const data = ["--data", join(folder, "data")];
+  const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
+  switch (command) {
+    case "plan":
+    case "devices":
+    case "service":
+      return [];
+    case "machines":
+    case "logs":
+      return data;
+    case "serve":
+      return ["--port", "0", "--no-mdns", ...board];
+    case "plot":
+      return ["--paper-s", "0", ...board];
+    case "add":
+    case "queue":
+      return ["--url", server.url];
+    case "board":
+      return ["--pty", join(folder, "plotter")];
+    default:
+      return board;
+  }
+}
+
+/** Those that go on until somebody ends them. */
+const READY: Readonly<Record<string, RegExp>> = { serve: /plotwright is at/, board: /plotter/ };
+/** As systemctl says that something does not run. */
+const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3 };
+
+describe("docs/cli.md", () => {
+  it("has the commands that `npm run docs` writes", async () => {
+    const text = readFileSync(new URL("../../docs/cli.md", import.meta.url), "utf8");
+    expect(text).toContain(await cliReference());
+  });
+
+  const lines = COMMANDS.flatMap(({ name, examples }) => examples.map((line) => ({ name, line })));
+  it.each(lines)(
+    "$line",
+    async ({ name, line }) => {
+      if (line.endsWith("--resume")) leaveCutShort();
+      const io = new CaughtIo();
+      io.hasKeyboard = false;
+      const running = cliWith(io, ...line.split(" ").slice(1), ...additionsOf(name));
+      const ready = READY[name];
+      if (ready !== undefined) {
+        await expect.poll(() => io.outText + io.errText).toMatch(ready);
+        io.interrupt();
+      }
+      const { code, err } = await running;
+      expect([err, code]).toEqual([expect.any(String), CODES[line] ?? 0]);
+      if (line.includes("--out plotwright.log")) expect(existsSync("plotwright.log")).toBe(true);
+    },
+    LIMIT_MS,
+  );
+});
+
+function leaveCutShort(): void {
+  const record = new PlotRecord(join(folder, "data"), "virtual");
+  record.begin(join(folder, "drawing.svg"), {
+    name: "drawing.svg",
+    settings: DEFAULT_PLOT_SETTINGS,
+    only: undefined,
+  });
+  const place = { stroke: 0, alongMm: 2 };
+  record.save({ place, xMm: 0, yMm: 0, penUp: false, elapsedS: 1 }, 0.4);
+}
