@@ -70,7 +70,7 @@ export class MachineFiles {
 /** Throws an error that says what is wrong with the file. */
 const readMachineFile = (path: string): MachineProfile => machineOfText(readFileSync(path, "utf8"));
 
-/** Throws what is wrong with it. */
+/** Parses a machine profile; throws an error that says what is wrong with it. */
 export function machineOfText(text: string): MachineProfile {
   const result = machineProfileSchema.safeParse(JSON.parse(text));
   if (result.success) return result.data;

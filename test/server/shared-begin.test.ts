@@ -39,7 +39,9 @@ describe("a plotter whose model nobody has named", () => {
   it("is not given what is for any plotter of a model, says so, and is once it is named", async () => {
     await expect
       .poll(() => logged)
-      .toContainEqual(expect.stringMatching(/takes only jobs sent to .* by name, because its machine is not set/));
+      .toContainEqual(
+        expect.stringMatching(/takes only jobs sent to .* by name, because its machine is not set/),
+      );
     await share(server, "fern", { machine: MACHINE });
     await share(server, "moss", { plotter: "Left" });
     await expect.poll(() => jobsOf(server)).toEqual(["moss queued"]);
