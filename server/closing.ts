@@ -1,12 +1,13 @@
 /**
- * What a server has opened, and how it is given back: what plots first, so that pens lift and places are stored,
- * then the rest, the latest first. A part that hangs or fails is named in the log and left, and the others follow.
+ * Closes all parts of a server: running plots first, so that pens lift and places are stored, then the other
+ * parts in reverse order of opening. A part that hangs or fails is reported in the log, and closing continues
+ * with the next.
  */
 type CloseStep = () => Promise<void> | void;
 
-/** A part that takes longer hangs. All of them together end before systemd loses its patience (60 s). */
+/** A part that takes longer is considered hung. All parts together finish before systemd's timeout (60 s). */
 const LIMIT_MS = 4_000;
-/** Slowing down, lifting and walking home from the far corner. */
+/** Time to slow down, lift the pen and move home from the far corner. */
 const PLOTS_LIMIT_MS = 30_000;
 
 interface Part {
@@ -36,12 +37,12 @@ export class Closing {
     this.#parts.push({ name, close });
   }
 
-  /** Closed before all others, and side by side. */
+  /** Adds a part that is closed before the others, in parallel with the other urgent parts. */
   addUrgent(name: string, close: CloseStep): void {
     this.#urgent.push({ name, close });
   }
 
-  /** Never rejects; asked for again, it is the same end. */
+  /** Closes everything. Never rejects; further calls return the same promise. */
   run(): Promise<void> {
     this.#running ??= this.#closeAll();
     return this.#running;
@@ -57,7 +58,7 @@ export class Closing {
     let timer: NodeJS.Timeout | undefined;
     const late = new Promise<void>((resolve) => {
       timer = setTimeout(() => {
-        this.#log(`closing: ${name} has not ended within ${limitMs / 1000} s and is left as it is`);
+        this.#log(`closing: ${name} did not close within ${limitMs / 1000} s; continuing without it`);
         resolve();
       }, limitMs);
     });

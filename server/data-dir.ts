@@ -1,4 +1,4 @@
-/** Where a server keeps its jobs: one folder, owned by one running server at a time. */
+/** The folder in which a server stores its jobs. Only one running server at a time may use it. */
 import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
@@ -10,7 +10,9 @@ export function defaultDataDir(env: NodeJS.ProcessEnv = process.env): string {
   return join(base !== undefined && base !== "" ? base : join(homedir(), ".local", "share"), "plotwright");
 }
 
-/** Makes the folder (readable by its owner only); throws `bad-setting` when it can't, or can't write there. */
+/**
+ * Creates the folder (readable by its owner only); throws `bad-setting` if that fails or it is not writable.
+ */
 export function prepareDataDir(dir: string): void {
   const drawings = resolve(dir, "drawings");
   try {
@@ -18,7 +20,7 @@ export function prepareDataDir(dir: string): void {
   } catch (cause) {
     throw new PlotwrightError(
       "bad-setting",
-      `The data folder ${dir} can't be made (${(cause as Error).message}). Choose another one with --data.`,
+      `The data folder ${dir} can't be created (${(cause as Error).message}). Choose another one with --data.`,
       { cause },
     );
   }
@@ -28,13 +30,13 @@ export function prepareDataDir(dir: string): void {
   } catch (cause) {
     throw new PlotwrightError(
       "bad-setting",
-      `The data folder ${dir} can't be written to: change who may write there, or choose another folder with --data.`,
+      `The data folder ${dir} can't be written to. Change its permissions, or choose another folder with --data.`,
       { cause },
     );
   }
 }
 
-/** One folder after the other: below /proc, mkdir with "recursive" never returns. */
+/** Creates each folder separately, because mkdir with "recursive" never returns below /proc. */
 function makeFolder(path: string): void {
   if (existsSync(path)) return;
   makeFolder(dirname(path));

@@ -1,4 +1,4 @@
-/** Entry "plotwright/server": the whole server, to be embedded. */
+/** Entry "plotwright/server": creates the whole server, for embedding in other programs. */
 import { randomUUID } from "node:crypto";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -26,10 +26,10 @@ import { Store } from "./queue/store.js";
 import { SharedQueue, claimsOf, type SharedParts } from "./shared/shared-queue.js";
 import { SharedStore } from "./shared/shared-store.js";
 import { Access } from "./security/access.js";
-import { Baton } from "./security/baton.js";
+import { OperatorLock } from "./security/operator-lock.js";
 import { LocalName, MDNS_NAME } from "./security/local-name.js";
 import { lanAddresses, pairingLinks } from "./security/network.js";
-import { FIRST_PLOTTER, openDriven } from "./plotters.js";
+import { FIRST_PLOTTER, openDriven } from "./driven-plotter.js";
 import { PlotterRegistry } from "./plotter-registry.js";
 import { findBoards } from "./serial/find-boards.js";
 import { WatchFolder } from "./watch-folder.js";
@@ -39,60 +39,67 @@ export type { HandMove } from "./plotter/hand-moves.js";
 export { PlotterDriver, type PlotterOptions, type PlotterState } from "./plotter/plotter.js";
 
 export interface ServerOptions {
-  /** 9080 unless told; 0 takes any free one. */
+  /** Default 9080; 0 picks a free port. */
   readonly port?: number;
-  /** 127.0.0.1 unless told, or all addresses with `lan`. */
+  /** Default 127.0.0.1, or all addresses with `lan`. */
   readonly host?: string;
   /** Listen on the network. Other devices have to be paired; the links are in the server's `pairing`. */
   readonly lan?: boolean;
-  /** Announce plotwright.local by mDNS, or plotwright-2.local where that is taken; with `lan` unless told. */
+  /**
+   * Announce plotwright.local by mDNS, or plotwright-2.local if that is taken. Default: the value of `lan`.
+   */
   readonly mdns?: boolean;
-  /** PEM texts: serve https. */
+  /** Serve https with this certificate and key (PEM text). */
   readonly tls?: { readonly cert: string; readonly key: string };
-  /** Ask for pairing on this computer too (when a proxy here lets others in). */
+  /** Require pairing on this computer too, for use behind a proxy on this computer. */
   readonly pairAlways?: boolean;
-  /** Serial path of the board, or "virtual"; without it the first EBB found, else the virtual board. */
+  /**
+   * Serial path of the board, or "virtual"; default: the first EBB found, or the virtual board if there is
+   * none.
+   */
   readonly device?: string;
-  /** Board seconds a second on the virtual board: 1 is real time. */
+  /** Speed of the virtual board: 1 is real time. */
   readonly virtualSpeed?: number;
   /** Folder for jobs and settings. */
   readonly dataDir?: string;
-  /** Largest upload; 200 MB unless told. */
+  /** Largest upload; default 200 MB. */
   readonly maxUploadBytes?: number;
-  /** Host names to answer to, besides localhost and any address. */
+  /** Host names to accept besides localhost and addresses. */
   readonly allowedHosts?: readonly string[];
   /** Folder whose new drawings become queued jobs. */
   readonly watchDir?: string;
-  /** postgres://… of a database that several servers share jobs by; needs the packages pg and pg-boss. */
+  /** postgres://… of a database through which servers share jobs; needs the packages pg and pg-boss. */
   readonly sharedQueue?: string;
-  /** How often a free plotter looks there; 2000 unless told. */
+  /** How often idle plotters look for shared jobs; default 2000. */
   readonly sharedPollMs?: number;
-  /** Silence after which a server that shares jobs counts as gone; 60 000 unless told. */
+  /** Time without a sign of life after which a sharing server counts as lost; default 60 000. */
   readonly sharedLostAfterMs?: number;
-  /** A database that does not answer for so long counts as away; 5 s unless told. */
-  readonly sharedPatienceMs?: number;
-  /** Gets one line for each thing worth knowing; silent unless given. */
+  /** Timeout of the shared database; default 5 s. */
+  readonly sharedTimeoutMs?: number;
+  /** Receives the lines of the log. */
   readonly log?: (line: string) => void;
 }
 
 export interface PlotwrightServer {
-  /** Where the page is, with the real port. */
+  /** URL of the page, with the actual port. */
   readonly url: string;
-  /** Paths of the links that pair a device: add them to an address of this computer. */
+  /** Paths of the links that pair a device, to append to an address of this computer. */
   readonly pairing: { readonly operatePath: string; readonly watchPath: string };
-  /** Stops plotting (the pen lifts), stores, and gives port, board and data folder back. */
+  /** Stops plotting (the pen lifts), stores the state, and releases port, board and data folder. */
   close(): Promise<void>;
 }
 
 const DEFAULT_PORT = 9080;
 const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
 
-/** Throws `conflict` (port or data folder taken), `no-board` (a named device that isn't there), `bad-setting`. */
+/**
+ * Throws `conflict` (port or data folder in use), `no-board` (the named device is missing), `bad-setting`.
+ */
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
   const dataDir = options.dataDir ?? defaultDataDir();
   let book: LogBook | null = null;
   const log = (text: string): void => {
-    // What others send must not steer the terminal that shows it.
+    // Text from clients must not send control characters to the terminal.
     const line = text.replace(/[^\P{Cc}\n\t]/gu, "?");
     book?.write(line);
     options.log?.(line);
@@ -105,7 +112,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     book = new LogBook(dataDir);
     const { repair, copyFault } = store.opened;
     if (repair !== null) log(repair);
-    if (copyFault !== null) log(`the database could not be copied to a safe place: ${copyFault}`);
+    if (copyFault !== null) log(`the database could not be backed up: ${copyFault}`);
     const parts = await openParts(options, dataDir, store, log, closing);
     const { access, registry } = parts;
     const isTls = options.tls !== undefined;
@@ -144,7 +151,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
   }
 }
 
-/** Everything behind the routes, each with its way to be closed. */
+/** Opens everything behind the routes, and registers how each part is closed. */
 async function openParts(
   options: ServerOptions,
   dataDir: string,
@@ -155,7 +162,7 @@ async function openParts(
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   const unclaimedCount = await files.sweep((drawing) => store.isUsed(drawing));
   if (unclaimedCount > 0)
-    log(`${unclaimedCount} drawing(s) that no job names are now in ${files.unclaimedDir}`);
+    log(`${unclaimedCount} drawing(s) that belong to no job were moved to ${files.unclaimedDir}`);
   const hub = new EventHub();
   const announce = (event: ServerEvent): void => hub.announce(event);
   const nowIso = (): string => new Date().toISOString();
@@ -194,7 +201,7 @@ async function openParts(
       shared?.wake();
     },
   });
-  closing.addUrgent("what plots", () => queue.close());
+  closing.addUrgent("the running plots", () => queue.close());
   webhooks.start();
   const notices = new Notices({ store, announce, nowIso });
   if (store.opened.repair !== null) notices.add(store.opened.repair);
@@ -214,8 +221,12 @@ async function openParts(
   closing.add("the shared queue", () => shared?.close());
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
   access.onRevoke(() => hub.dropAll());
-  const baton = new Baton({ store, log, announce: (operator) => announce({ type: "operator", operator }) });
-  closing.add("the operator's turn", () => baton.close());
+  const operatorLock = new OperatorLock({
+    store,
+    log,
+    announce: (operator) => announce({ type: "operator", operator }),
+  });
+  closing.add("the operator lock", () => operatorLock.close());
   return {
     version: packageVersion(),
     machines,
@@ -223,7 +234,7 @@ async function openParts(
     files,
     registry,
     hub,
-    baton,
+    operatorLock,
     webhooks,
     notices,
     shared,
@@ -234,7 +245,7 @@ async function openParts(
   };
 }
 
-/** The name that it had last is asked for first. */
+/** Probes for the name of the last run first. */
 function openLocalName(
   at: { readonly port: number; readonly isTls: boolean },
   store: Store,
@@ -257,9 +268,9 @@ function openLocalName(
   });
 }
 
-/** Only a server that shares its queue loads what it takes for that. */
+/** Opens the shared queue; null if the server has none. */
 async function openShared(
-  { sharedQueue, sharedPollMs, sharedLostAfterMs, sharedPatienceMs }: ServerOptions,
+  { sharedQueue, sharedPollMs, sharedLostAfterMs, sharedTimeoutMs }: ServerOptions,
   parts: Pick<SharedParts, "queue" | "files" | "plotters" | "log"> & {
     readonly store: Store;
     readonly notices: Notices;
@@ -267,12 +278,12 @@ async function openShared(
 ): Promise<SharedQueue | null> {
   if (sharedQueue === undefined) return null;
   const { store, notices, log } = parts;
-  const kept = store.setting("server-id");
-  const serverId = typeof kept === "string" ? kept : randomUUID();
-  if (serverId !== kept) store.saveSetting("server-id", serverId);
+  const storedId = store.setting("server-id");
+  const serverId = typeof storedId === "string" ? storedId : randomUUID();
+  if (serverId !== storedId) store.saveSetting("server-id", serverId);
   return new SharedQueue({
     ...parts,
-    shared: await SharedStore.open(sharedQueue, log, sharedPatienceMs),
+    shared: await SharedStore.open(sharedQueue, log, sharedTimeoutMs),
     serverId,
     serverName: hostname(),
     notice: (message) => notices.add(message),

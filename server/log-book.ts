@@ -1,13 +1,14 @@
 /**
- * What the server has said, in the data folder, so that a user can send it: two files of at most 1 MB. Whoever
- * writes a line keeps secrets out of it; what slips through in a known form is blacked out when it is read.
+ * The server's log in the data folder, for bug reports: two files of at most 1 MB each. Callers must keep
+ * secrets out of the log. As a second safeguard, secrets of a known form are masked when the log is read for
+ * a report.
  */
 import { appendFileSync, readFileSync, renameSync, statSync } from "node:fs";
 import { arch, homedir, release } from "node:os";
 import { join } from "node:path";
 import type { Job, Plotter } from "../src/schema/index.js";
 
-const MOST_BYTES = 1_000_000;
+const MAX_BYTES = 1_000_000;
 
 export class LogBook {
   readonly #path: string;
@@ -21,21 +22,21 @@ export class LogBook {
   write(line: string): void {
     const text = `${new Date().toISOString()} ${line.replace(/\s*\n\s*/g, " | ")}\n`;
     try {
-      if (this.#bytes > MOST_BYTES) {
+      if (this.#bytes > MAX_BYTES) {
         renameSync(this.#path, `${this.#path}.1`);
         this.#bytes = 0;
       }
       appendFileSync(this.#path, text, { mode: 0o600 });
       this.#bytes += Buffer.byteLength(text);
     } catch {
-      // A full disk must not stop a plot; the line has gone to the terminal too.
+      // A full disk must not stop a plot. The line is also printed to the terminal.
     }
   }
 }
 
 const logPath = (dataDir: string): string => join(dataDir, "server.log");
 
-/** Everything written, oldest first; "" when there is nothing. */
+/** The whole log, oldest line first; "" if there is none. */
 export function readLog(dataDir: string): string {
   return [`${logPath(dataDir)}.1`, logPath(dataDir)].map(readOrNothing).join("");
 }
@@ -47,7 +48,9 @@ export interface LogBundle {
   readonly plotters?: readonly { readonly plotter: Plotter; readonly log: string }[];
 }
 
-/** One text to be sent to whoever helps: versions, how things stand, what the server said, what the boards said. */
+/**
+ * One text for a bug report: versions, state of plotters and jobs, the server's log, the logs of the boards.
+ */
 export function bundleText({ version, serverLog, jobs = [], plotters = [] }: LogBundle): string {
   const counts = new Map<string, number>();
   for (const { state } of jobs) counts.set(state, (counts.get(state) ?? 0) + 1);
@@ -68,7 +71,7 @@ export function bundleText({ version, serverLog, jobs = [], plotters = [] }: Log
   return withoutSecrets(text);
 }
 
-/** Pairing links, keys, cookies and passwords in addresses, whoever has written them; and who the user is. */
+/** Masks pairing tokens, keys, cookies, passwords in addresses, and the user's home folder. */
 export function withoutSecrets(text: string): string {
   return text
     .replace(/\b(token|secret|password|key)=[^\s&"']+/gi, "$1=…")

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-/** The bin: reads the arguments, runs the command, sets the exit code; nothing else. */
+/** The executable: reads the arguments, runs the command and sets the exit code. */
 import { processIo } from "./cli/io.js";
 import { runCli } from "./cli/program.js";
 import { packageVersion } from "./package-files.js";

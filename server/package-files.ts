@@ -1,4 +1,4 @@
-/** Files that come with the package, found from the sources (server/) and when built (dist/server/). */
+/** Paths of files in the package, found both from the sources (server/) and from the build (dist/server/). */
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,6 +1,6 @@
 /**
- * The plotters that a server has, kept in its database: added, renamed, given another device and removed while
- * it runs. Stored before anybody hears of it.
+ * The plotters of a server, stored in its database. They can be added, changed and removed while it runs.
+ * Every change is stored before it is announced.
  */
 import { PlotwrightError } from "../src/index.js";
 import type { Device, NewPlotter, Plotter, PlotterPatch, ServerEvent } from "../src/schema/index.js";
@@ -12,17 +12,20 @@ export interface RegistryParts {
   readonly store: Pick<Store, "plotters" | "savePlotter" | "removePlotter">;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
-  /** Throws `bad-setting` for the id of a machine that there is not. */
+  /** Throws `bad-setting` for an unknown machine id. */
   readonly mustBeMachine?: (id: string) => void;
   readonly findBoards: () => Promise<readonly FoundBoard[]>;
   readonly announce: (event: ServerEvent) => void;
-  /** Id of the plotter that a new server has. */
+  /** Id of the plotter that a new server starts with. */
   readonly firstId: string;
-  /** Device of the first plotter for this run; left out: the stored one, "auto" at the first start. */
+  /**
+   * Device of the first plotter for this run only; default: the stored one, which is "auto" on the first
+   * start.
+   */
   readonly firstDevice?: string | undefined;
 }
 
-/** Jobs that are not history; they keep their plotter. */
+/** How jobs that have not ended use a plotter. */
 export interface PlotterUse {
   readonly isBusy: (plotterId: string) => boolean;
   readonly liveJobCount: (plotterId: string) => number;
@@ -32,7 +35,7 @@ export class PlotterRegistry {
   readonly #parts: RegistryParts;
   readonly #rows = new Map<string, PlotterRow>();
   readonly #ports = new Map<string, ManagedPlotter>();
-  /** Connections are closed and opened one after the other. */
+  /** Patches and removals run one after the other. */
   #turn: Promise<unknown> = Promise.resolve();
   #isClosed = false;
 
@@ -46,11 +49,11 @@ export class PlotterRegistry {
       const device = index === 0 ? (parts.firstDevice ?? row.device) : row.device;
       this.#rows.set(row.id, { ...row, device });
     });
-    // All are known before the first looks for a board, so that "auto" leaves the others theirs.
+    // Open only after all rows are known, so that a plotter with "auto" does not take the board of another.
     for (const row of this.#rows.values()) this.#open(row);
   }
 
-  /** By id, as they are now; stays up to date. */
+  /** The plotters by id. The map stays up to date. */
   get ports(): ReadonlyMap<string, PlotterPort> {
     return this.#ports;
   }
@@ -68,7 +71,7 @@ export class PlotterRegistry {
     }));
   }
 
-  /** Throws `conflict` for a name or device that another one has. */
+  /** Throws `conflict` if another plotter has the name or device. */
   add({ name, device, machine = null }: NewPlotter): Plotter {
     this.#mustBeFree(name, device, null);
     if (machine !== null) this.#parts.mustBeMachine?.(machine);
@@ -80,7 +83,9 @@ export class PlotterRegistry {
     return port.snapshot();
   }
 
-  /** Another device makes it connect anew; neither that nor the machine changes under a job (`busy`). */
+  /**
+   * A new device makes it reconnect. Throws `busy` for a new device or machine while a job is being plotted.
+   */
   patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
     return this.#inTurn(() => this.#patch(id, patch, use));
   }
@@ -93,12 +98,13 @@ export class PlotterRegistry {
     const isMoved = device !== row.device;
     const isOther = machine !== row.machine;
     if ((isMoved || isOther) && use.isBusy(id)) {
-      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
+      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
     }
     const next = { id, name, device, machine };
-    // A device given for this run only is not kept for the next.
-    const kept = patch.device ?? this.#parts.store.plotters().find((one) => one.id === id)?.device ?? device;
-    this.#parts.store.savePlotter({ ...next, device: kept });
+    // A device that was set for this run only is not stored.
+    const storedDevice =
+      patch.device ?? this.#parts.store.plotters().find((one) => one.id === id)?.device ?? device;
+    this.#parts.store.savePlotter({ ...next, device: storedDevice });
     this.#rows.set(id, next);
     if (isMoved) {
       await port.close();
@@ -111,7 +117,7 @@ export class PlotterRegistry {
     return this.#find(id).port.snapshot();
   }
 
-  /** Throws `conflict` while it has jobs that are not history, and for the last one. */
+  /** Throws `conflict` while it has jobs that have not ended, and for the last plotter. */
   remove(id: string, use: PlotterUse): Promise<void> {
     return this.#inTurn(() => this.#remove(id, use));
   }
@@ -166,15 +172,18 @@ export class PlotterRegistry {
   #mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {
     const others = [...this.#rows.values()].filter(({ id }) => id !== exceptId);
     if (name !== null && others.some((row) => row.name?.toLowerCase() === name.toLowerCase())) {
-      throw new PlotwrightError("conflict", `There is a plotter "${name}" already. Choose another name.`);
+      throw new PlotwrightError("conflict", `There is already a plotter "${name}". Choose another name.`);
     }
     const owner = device === null ? undefined : this.#ownerOf(device, exceptId);
     if (owner !== undefined) {
-      throw new PlotwrightError("conflict", `"${owner.name ?? owner.id}" has ${device ?? ""} already.`);
+      throw new PlotwrightError(
+        "conflict",
+        `"${owner.name ?? owner.id}" already uses ${device ?? ""}. Choose another device.`,
+      );
     }
   }
 
-  /** Any number may be "virtual" or "auto"; a port has one owner, by choice or because it is at it now. */
+  /** The plotter that is set to this port or connected to it. "virtual" and "auto" may be used by many. */
   #ownerOf(device: string, exceptId: string | null): PlotterRow | undefined {
     if (device === "virtual" || device === "auto") return undefined;
     return [...this.#rows.values()].find(
@@ -183,7 +192,7 @@ export class PlotterRegistry {
     );
   }
 
-  /** Readable in links and scripts, and never that of a plotter before it: history refers to those. */
+  /** Readable in links and scripts, and never reused, since jobs in the history refer to removed plotters. */
   #newId(name: string): string {
     const word = name
       .toLowerCase()

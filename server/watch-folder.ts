@@ -1,12 +1,13 @@
 /**
- * A folder whose drawings become queued jobs: once each, by name and content, also over restarts. A drawing is
- * taken when its size has stood still, so that one that is still being copied or exported is left alone.
+ * A folder whose drawings become queued jobs. Each drawing, by name and content, is queued once, also across
+ * restarts. A drawing is taken when its size no longer changes, so that a file still being copied or exported
+ * is left alone.
  *
- * Its settings: those of the newest job, without what was meant for that drawing alone (its place, its layers).
- * `NAME.settings.json` beside the drawing, or `settings.json` for the whole folder, goes before them; either may
- * be whole settings or only a part, such as { "pen": … }.
+ * The settings are those of the newest job, without the parts specific to that drawing (placement and
+ * layers). `NAME.settings.json` beside the drawing, or `settings.json` for the whole folder, overrides them.
+ * Either file may contain complete settings or only a part, such as { "pen": … }.
  *
- * A drawing that can't be plotted is named in the log and in a notice, and not tried again.
+ * A drawing that can't be plotted is reported in the log and in a notice, and not tried again.
  */
 import { createHash } from "node:crypto";
 import { createReadStream } from "node:fs";
@@ -32,10 +33,10 @@ export interface WatchParts {
   readonly files: DrawingFiles;
   readonly store: Pick<Store, "isSeen" | "saveSeen">;
   readonly notices: Pick<Notices, "add">;
-  /** Puts in the profile of a machine of the user's own. */
+  /** Adds the profile when the settings name a custom machine. */
   readonly withMachine: (settings: PlotSettings) => PlotSettings;
   readonly log: (line: string) => void;
-  /** How long a file's size has to stand still; 2 s unless told. */
+  /** How long a file's size must stay the same; default 2 s. */
   readonly stableMs?: number;
 }
 
@@ -45,16 +46,16 @@ export class WatchFolder {
   readonly #parts: WatchParts;
   readonly #watcher: FSWatcher;
   readonly #abort = new AbortController();
-  /** One after the other, in the order in which they came. */
+  /** Files are handled one after the other, in the order of their events. */
   #last: Promise<void> = Promise.resolve();
 
-  /** Throws `bad-setting` when there is no such folder. */
+  /** Throws `bad-setting` if there is no such folder. */
   static async open(dir: string, parts: WatchParts): Promise<WatchFolder> {
     const found = await stat(dir).catch(() => null);
     if (found === null || !found.isDirectory()) {
       throw new PlotwrightError(
         "bad-setting",
-        `The folder ${dir} to be watched is not there. Make it first.`,
+        `The folder ${dir} can't be watched, because it does not exist. Create it first.`,
       );
     }
     return new WatchFolder(dir, parts);
@@ -78,7 +79,7 @@ export class WatchFolder {
     this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
   }
 
-  /** Resolves when all that was in the folder at the start has been looked at. */
+  /** Resolves when all files reported so far have been handled. */
   async settled(): Promise<void> {
     await this.#last;
   }
@@ -89,7 +90,7 @@ export class WatchFolder {
     await this.#last;
   }
 
-  /** Rejects only when it can't even write down what was wrong. */
+  /** Rejects only if the error itself can't be stored. */
   async #take(path: string): Promise<void> {
     if (this.#abort.signal.aborted) return;
     const name = basename(path);
@@ -106,7 +107,7 @@ export class WatchFolder {
       if (isGone || this.#abort.signal.aborted) return;
       const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
       log(message);
-      // Before the notice: after a crash between the two it is told again rather than never.
+      // The notice comes before saveSeen: after a crash between the two it is shown twice rather than never.
       notices.add(message);
       if (sha256 !== null) store.saveSeen({ name, sha256 });
     }
@@ -127,7 +128,7 @@ export class WatchFolder {
   }
 }
 
-/** A file of settings beside the drawings is none of them. */
+/** Settings files end in .json, which drawings may too, so they are excluded. */
 const isDrawing = (path: string): boolean =>
   isDrawingName(path) && !basename(path).startsWith(".") && !/(^|\.)settings\.json$/.test(basename(path));
 

@@ -1,4 +1,4 @@
-/** Express put together: guards first, then the API, then the page. */
+/** Assembles the express app: guards first, then the API, then the page. */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
 import { queueSettingsSchema, type Pairing, type Snapshot } from "../../src/schema/index.js";
@@ -8,12 +8,12 @@ import { lane } from "../planning/lane.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { Access } from "../security/access.js";
-import type { Baton } from "../security/baton.js";
+import type { OperatorLock } from "../security/operator-lock.js";
 import type { Notices } from "../queue/notices.js";
 import type { PlotterRegistry } from "../plotter-registry.js";
 import type { SharedQueue } from "../shared/shared-queue.js";
 import type { Webhooks } from "../webhooks/webhooks.js";
-import { Browsers, requireBaton } from "./browser.js";
+import { Browsers, requireOperator } from "./browser.js";
 import { errorResponder, notFound, parseWith } from "./errors.js";
 import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
 import type { EventHub } from "./events.js";
@@ -23,7 +23,6 @@ import { jobsRoutes } from "./jobs-routes.js";
 import { machinesRoutes } from "./machines-routes.js";
 import { openApiText } from "./openapi.js";
 import { plottersRoutes } from "./plotters-routes.js";
-import { plotterListRoutes } from "./plotter-list-routes.js";
 import { sharedRoutes } from "./shared-routes.js";
 import { samplesRoutes } from "./samples.js";
 import { studioRoutes } from "./studio-routes.js";
@@ -34,24 +33,24 @@ export interface AppParts {
   readonly files: DrawingFiles;
   readonly registry: PlotterRegistry;
   readonly hub: EventHub;
-  readonly baton: Baton;
+  readonly operatorLock: OperatorLock;
   readonly webhooks: Webhooks;
   readonly notices: Notices;
-  /** With other servers; null without. */
+  /** The queue shared with other servers; null without one. */
   readonly shared: SharedQueue | null;
   /** Links that pair a device. */
   readonly pairing: () => Promise<Pairing>;
-  /** What the server has said so far. */
+  /** The server's log so far. */
   readonly serverLog: () => string;
-  /** Plotters of the user's own. */
+  /** Built-in and custom machine profiles. */
   readonly machines: MachineFiles;
   readonly allowedHosts: readonly string[];
-  /** The name that mDNS gives this server, which it answers to; null while it has none. */
+  /** The server's mDNS name, which it accepts as Host; null while it has none. */
   readonly localName: () => string | null;
   /** Folders with the built page and with the samples. */
   readonly webDir: string;
   readonly samplesDir: string;
-  /** Sessions and keys; asked only of those who do not come from this computer. */
+  /** Sessions and keys; normally required only of clients on other computers. */
   readonly access: Access;
   readonly log: (line: string) => void;
 }
@@ -69,7 +68,7 @@ export function createApp(parts: AppParts): Express {
   app.use(pairRoutes(access, log));
   app.use(browsers.routes());
   app.use("/api", requireRole(access, isRunning, log));
-  app.use("/api", requireBaton(browsers, parts.baton, isRunning));
+  app.use("/api", requireOperator(browsers, parts.operatorLock, isRunning));
   app.use("/api/v1", apiRoutes(parts, browsers));
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
@@ -78,7 +77,7 @@ export function createApp(parts: AppParts): Express {
   return app;
 }
 
-/** The API in its parts: where each stands below /api/v1, and its routes. */
+/** The routers of the API, each with its path below /api/v1. */
 export function apiMounts(
   parts: AppParts,
   browsers = new Browsers(parts.access),
@@ -88,11 +87,10 @@ export function apiMounts(
   return [
     ["", stateRoutes(parts, browsers)],
     ["", studioRoutes({ ...parts, plotters, browsers })],
-    ["", plotterListRoutes(registry, queue, parts.log)],
+    ["", plottersRoutes(registry, queue, parts.log)],
     ["/access", accessRoutes(parts.access)],
     ["/jobs", jobsRoutes(queue, parts.files, parts.machines)],
     ["/machines", machinesRoutes(parts.machines)],
-    ["/plotters", plottersRoutes(plotters, queue)],
     ["/plotters", handMovesRoutes(handMoveParts(parts))],
     ["/shared-jobs", sharedRoutes(parts.shared)],
     ["/samples", samplesRoutes(parts.samplesDir)],
@@ -120,14 +118,14 @@ function apiRoutes(parts: AppParts, browsers: Browsers): Router {
 }
 
 function stateRoutes(parts: AppParts, browsers: Browsers): Router {
-  const { queue, registry, baton } = parts;
+  const { queue, registry, operatorLock } = parts;
   const router = Router();
   const snapshot = (): Snapshot => ({
     version: parts.version,
     plotters: registry.list(),
     queue: queue.settings(),
     queues: queue.allSettings(),
-    operator: baton.operator,
+    operator: operatorLock.operator,
     serverNotices: parts.notices.list(),
     localName: parts.localName(),
     jobs: queue.list(),
@@ -140,7 +138,7 @@ function stateRoutes(parts: AppParts, browsers: Browsers): Router {
   });
   router.get("/events", (request, response) => {
     const browser = browsers.of(request);
-    if (browser !== null) request.on("close", baton.streamOpened(browser.id));
+    if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
     parts.hub.open(request, response, snapshot);
   });
   router.get("/me", (request, response) => {
@@ -156,7 +154,7 @@ function stateRoutes(parts: AppParts, browsers: Browsers): Router {
   return router;
 }
 
-/** Built files carry a hash in their name and never change; the page itself is asked for each time. */
+/** Built files have a hash in their name and never change; the page itself is revalidated on each load. */
 function pageRoutes(webDir: string): Router {
   const router = Router();
   router.use(
@@ -173,8 +171,8 @@ function pageRoutes(webDir: string): Router {
 }
 
 /**
- * Scripts, workers and connections from here only; nothing may frame the page. No upgrade to https and no
- * HSTS: the server speaks plain http on loopback, and would lock its own users out.
+ * Scripts, workers and connections only from this server; no site may frame the page. No upgrade to https and
+ * no HSTS: the server uses plain http on loopback, and either would lock its own users out.
  */
 function securityHeaders(): express.RequestHandler {
   return helmet({
@@ -185,9 +183,9 @@ function securityHeaders(): express.RequestHandler {
         scriptSrc: ["'self'"],
         scriptSrcAttr: ["'none'"],
         styleSrc: ["'self'"],
-        // React's style={…} becomes properties, which need no exception; attributes in markup would.
+        // For style attributes in markup. React's style={…} sets properties and would not need this.
         styleSrcAttr: ["'unsafe-inline'"],
-        // The picture of a camera may come from anywhere; pictures run nothing.
+        // A camera image may come from any address; images can't run code.
         imgSrc: ["'self'", "data:", "blob:", "http:", "https:"],
         workerSrc: ["'self'", "blob:"],
         connectSrc: ["'self'"],

@@ -1,4 +1,7 @@
-/** Lets a request in by where it comes from or by what it carries, and holds watchers to watching. */
+/**
+ * Authenticates requests by their address, session or key, and enforces roles. Also pairing and access
+ * routes.
+ */
 import type { IncomingMessage } from "node:http";
 import express, { Router, type Request, type RequestHandler } from "express";
 import { rateLimit } from "express-rate-limit";
@@ -12,9 +15,9 @@ const SESSION_DAYS = 90;
 const LOOPBACK = /^(::1|(::ffff:)?127(\.\d{1,3}){3})$/;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 
-/** Requests a minute from one address of the network; a page needs about one a second at most. */
-const MOST_REQUESTS = 600;
-const MOST_PAIRINGS = 10;
+/** Requests per minute from one address of the network; a page makes at most about one per second. */
+const MAX_REQUESTS = 600;
+const MAX_PAIRINGS = 10;
 
 export function roleOf(request: IncomingMessage, access: Access): Role | null {
   if (isTrusted(request, access)) return "operate";
@@ -22,7 +25,9 @@ export function roleOf(request: IncomingMessage, access: Access): Role | null {
   return secret === null ? null : access.roleOf(secret);
 }
 
-/** For everything under /api: some role, and "operate" for whatever changes something. */
+/**
+ * For everything under /api: requires a role, and the role "operate" for everything that changes something.
+ */
 export function requireRole(
   access: Access,
   isRunning: IsRunning,
@@ -40,8 +45,8 @@ export function requireRole(
     throw new PlotwrightError(
       "not-allowed",
       role === null
-        ? "Pair this device first: open the link (or the QR code) that the server shows where it runs."
-        : "This device may watch, not operate.",
+        ? "Pair this device first: open the link or scan the QR code that the server shows on its own computer."
+        : "This device may only watch. To operate, pair it with the link for operating.",
     );
   };
 }
@@ -49,21 +54,21 @@ export function requireRole(
 /** Whether a job is on a plotter now. */
 export type IsRunning = (jobId: string) => boolean;
 
-/** Whoever stands nearest to a plot that goes wrong must be able to stop it. `path` below /api. */
+/** Stopping a plot needs no operator role: whoever is closest must be able to do it. `path` is below /api. */
 export function isStop({ method, path }: Request, isRunning: IsRunning): boolean {
   const match = /^\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/.exec(path);
-  // To cancel what only waits in the queue is no stop.
+  // Cancelling a job that is only queued is not a stop.
   return method === "POST" && match !== null && (match[2] !== "cancel" || isRunning(match[1] ?? ""));
 }
 
-/** Keys, links with secrets in them and logs are for operators. */
+/** Access keys, webhooks and logs may contain secrets, so only operators may read them. */
 const maySee = ({ method, path }: Request): boolean =>
   SAFE_METHODS.has(method) && !/^\/v1\/(access|webhooks|logs)(\/|$)/i.test(path);
 
-/** GET /pair?token=…: a session cookie, then on to the page. */
+/** GET /pair?token=…: sets a session cookie, then forwards to the page. */
 export function pairRoutes(access: Access, log: (line: string) => void): Router {
   const router = Router();
-  router.get("/pair", limitBy(MOST_PAIRINGS, access), (request, response) => {
+  router.get("/pair", limitBy(MAX_PAIRINGS, access), (request, response) => {
     const { token } = request.query;
     const name = request.headers["user-agent"] ?? "browser";
     try {
@@ -80,7 +85,7 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
       log(`refused pairing of ${request.socket.remoteAddress ?? "?"}`);
       throw error;
     }
-    // Not a redirect: a cookie that is Strict is not sent with one that another site began.
+    // Not a redirect: browsers do not send a Strict cookie after a redirect that another site started.
     response.set("Cache-Control", "no-store").set("Referrer-Policy", "no-referrer");
     response
       .type("html")
@@ -107,13 +112,13 @@ export function accessRoutes(access: Access): Router {
   return router;
 }
 
-/** For addresses of the network; this computer is not limited. */
-export const limitRequests = (access: Access): RequestHandler => limitBy(MOST_REQUESTS, access);
+/** Limits requests from the network; this computer is not limited. */
+export const limitRequests = (access: Access): RequestHandler => limitBy(MAX_REQUESTS, access);
 
-function limitBy(most: number, access: Access): RequestHandler {
+function limitBy(limit: number, access: Access): RequestHandler {
   return rateLimit({
     windowMs: 60_000,
-    limit: most,
+    limit,
     standardHeaders: "draft-8",
     legacyHeaders: false,
     skip: (request) => isTrusted(request, access),
@@ -125,7 +130,7 @@ function limitBy(most: number, access: Access): RequestHandler {
   });
 }
 
-/** On this computer, and this computer's users are not asked who they are. */
+/** Whether the request comes from this computer and this computer needs no pairing. */
 export const isTrusted = (request: IncomingMessage, access: Access): boolean =>
   isTrustedAddress(request.socket.remoteAddress, access);
 

@@ -1,15 +1,15 @@
 /**
- * Which browser a request comes from, for the baton (server/security/baton.ts). It is no proof of anything:
- * what a caller may do at all is decided before, by its session, its key, or its address.
+ * Which browser a request comes from, for the operator lock (server/security/operator-lock.ts). This is not
+ * access control: what a caller may do at all is decided earlier, by its session, its key or its address.
  *
- * A paired browser is its session; one on this computer gets a cookie of its own. Others see of either only a
- * hash or the session's id. Scripts send neither and are nobody.
+ * A paired browser is identified by its session; one on this computer by a separate cookie. Other clients see
+ * only the session's id or a hash of the cookie. Scripts send neither and have no identity.
  */
 import { createHash, randomBytes } from "node:crypto";
 import { Router, type Request } from "express";
 import type { Operator } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
-import type { Baton } from "../security/baton.js";
+import type { OperatorLock } from "../security/operator-lock.js";
 import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
 
 const BROWSER_COOKIE = "plotwright_browser";
@@ -18,7 +18,7 @@ const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 
 export class Browsers {
   readonly #access: Access;
-  /** Those whose cookie goes out with the answer to this very request. */
+  /** Requests of browsers that get their cookie with this answer. */
   readonly #fresh = new WeakMap<Request, string>();
 
   constructor(access: Access) {
@@ -37,7 +37,7 @@ export class Browsers {
     return { id: createHash("sha256").update(secret).digest("hex").slice(0, 16), name };
   }
 
-  /** Gives every browser its cookie, with the page or whatever it asks for first. */
+  /** Sets the cookie of every new browser with the answer to its first request. */
   routes(): Router {
     const router = Router();
     router.use((request, response, next) => {
@@ -59,13 +59,17 @@ export class Browsers {
   }
 }
 
-/** For everything under /api: browsers change things only with the baton; stopping is for everybody. */
-export function requireBaton(browsers: Browsers, baton: Baton, isRunning: IsRunning): Router {
+/** For everything under /api: a browser needs the operator lock to change anything, except to stop a plot. */
+export function requireOperator(
+  browsers: Browsers,
+  operatorLock: OperatorLock,
+  isRunning: IsRunning,
+): Router {
   const router = Router();
   router.use((request, _response, next) => {
     const isFree = SAFE_METHODS.has(request.method) || isStop(request, isRunning);
     const browser = isFree || request.path === "/v1/operator/take" ? null : browsers.of(request);
-    if (browser !== null) baton.act(browser);
+    if (browser !== null) operatorLock.act(browser);
     next();
   });
   return router;
@@ -87,7 +91,7 @@ const SYSTEMS: readonly (readonly [RegExp, string])[] = [
   [/Linux/, "Linux"],
 ];
 
-/** "Firefox on Android (192.168.1.20)": enough to know whose screen it is. */
+/** "Firefox on Android (192.168.1.20)": enough for people to recognize the device. */
 function browserName(request: Request): string {
   const agent = request.headers["user-agent"] ?? "";
   const find = (table: typeof BROWSERS, other: string): string =>

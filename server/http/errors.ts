@@ -1,10 +1,10 @@
-/** Every failure as `{ error: { code, message } }` with the status of ERROR_TABLE. */
+/** Answers every error as `{ error: { code, message } }` with its status in ERROR_TABLE. */
 import type { ErrorRequestHandler, RequestHandler } from "express";
 import type { ZodType } from "zod";
 import { ERROR_TABLE, PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { isDiskFault } from "../queue/disk-fault.js";
 
-/** Parses a request's body or query; throws `bad-setting` that names the first field at fault. */
+/** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */
 export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
   const result = schema.safeParse(value);
   if (result.success) return result.data;
@@ -19,7 +19,7 @@ export const notFound: RequestHandler = (request) => {
 
 export function errorResponder(log: (line: string) => void): ErrorRequestHandler {
   return (error: unknown, request, response, next) => {
-    // The client has gone in the middle of its request: there is nobody to answer, and nothing to mend.
+    // The client disconnected during its request: there is nobody to answer.
     if (request.destroyed && !request.complete) return;
     const { code, message, status } = describe(error);
     if (code === "internal" || code === "disk-full")
@@ -29,7 +29,7 @@ export function errorResponder(log: (line: string) => void): ErrorRequestHandler
       next(error);
       return;
     }
-    // The rest of a refused upload is let run past: a client reads the answer only when it has sent all.
+    // Read and discard the rest of a refused upload: clients read the answer only after sending everything.
     request.resume();
     response.status(status).json({ error: { code, message } });
   };
@@ -43,17 +43,21 @@ function describe(error: unknown): { code: ErrorCode; message: string; status: n
     const message = "The server's disk is full or can't be written to. Make room, then try again.";
     return { code: "disk-full", message, status: ERROR_TABLE["disk-full"].httpStatus };
   }
-  // What express and its body parser throw: a status, and a type such as "entity.parse.failed".
+  // Errors of express and its body parser have a status and a type such as "entity.parse.failed".
   const { status, type } = error as { status?: unknown; type?: unknown };
   if (status === 413) {
-    return { code: "too-large", message: "The request is larger than this server takes.", status };
+    return { code: "too-large", message: "The request is larger than this server accepts.", status };
   }
   if (typeof status === "number" && status >= 400 && status < 500) {
     const message =
       type === "entity.parse.failed" ? "The request is not valid JSON." : "The request is not understood.";
     return { code: "bad-setting", message, status };
   }
-  return { code: "internal", message: "The server failed at this. Its log says more.", status: 500 };
+  return {
+    code: "internal",
+    message: "An internal error occurred. The server's log has the details.",
+    status: 500,
+  };
 }
 
 const detail = (error: unknown): string =>

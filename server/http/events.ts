@@ -1,12 +1,12 @@
 /**
- * The live event stream (server-sent events): a snapshot first, then what changes. Every browser gets the
- * same events in the same order. One that does not read is cut off; it comes back and gets a new snapshot.
+ * The live event stream (server-sent events): a snapshot first, then every change. All browsers get the same
+ * events in the same order. One that does not read is disconnected; it reconnects and gets a new snapshot.
  */
 import type { Request, Response } from "express";
 import type { ServerEvent, Snapshot } from "../../src/schema/index.js";
 
 const HEARTBEAT_MS = 15_000;
-/** Progress is shown, not counted: the newest of each plotter is sent at this pace. */
+/** Interval for progress events; only the newest of each plotter is sent. */
 const PROGRESS_MS = 100;
 const MAX_UNSENT_BYTES = 4_000_000;
 
@@ -35,7 +35,7 @@ export class EventHub {
       this.#progressTimer ??= setTimeout(() => this.#sendProgress(), PROGRESS_MS);
       return;
     }
-    // A job's end must not be followed by progress from before it.
+    // Pending progress goes first, so that a job's end is not followed by older progress.
     if (event.type === "job") this.#sendProgress();
     this.#write(line(event));
   }
@@ -51,7 +51,7 @@ export class EventHub {
     request.on("close", () => this.#clients.delete(response));
   }
 
-  /** Ends every stream; those who may, come back at once. */
+  /** Ends every stream; clients that still have access reconnect at once. */
   dropAll(): void {
     for (const client of this.#clients) client.end();
     this.#clients.clear();

@@ -1,4 +1,4 @@
-/** The plotter of a path, for whoever looks at it and for whoever moves it. */
+/** Finds the plotter of a request, for routes that read it and routes that move it. */
 import { PlotwrightError } from "../../src/index.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
@@ -12,11 +12,11 @@ export function findPlotter(plotters: Plotters, id: string): PlotterPort {
   return plotter;
 }
 
-/** Throws `not-found`, or `busy` while a job is on it. */
+/** Throws `not-found`, or `busy` while it is plotting a job. */
 export function findFreePlotter(plotters: Plotters, queue: JobQueue, id: string): PlotterPort {
   const plotter = findPlotter(plotters, id);
   if (queue.isPlotterBusy(id)) {
-    throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait for its end.");
+    throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
   }
   return plotter;
 }

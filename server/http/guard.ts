@@ -1,17 +1,17 @@
 /**
- * Who may speak to the server at all, before any route.
+ * Checks the headers of every request before any route.
  *
- * Host: a page elsewhere can point its own name at 127.0.0.1 (DNS rebinding) and then is "same origin" with
- * us, but it can't choose the Host header: it says that name. An address typed as digits can't be rebound,
- * so addresses are let through, and of names only localhost and those given.
+ * Host: another site can point its own name at 127.0.0.1 (DNS rebinding) and is then "same origin" with this
+ * server. But it can't choose the Host header, which contains that name. A numeric address can't be rebound.
+ * So addresses are accepted, and of all names only localhost and the configured ones.
  *
- * Origin: browsers add it to every cross-site post and event stream; it must name the host it was sent to.
+ * Origin: browsers add it to every cross-site POST and event stream. It must match the host of the request.
  */
 import type { RequestHandler } from "express";
 import { isIP } from "node:net";
 import { PlotwrightError } from "../../src/index.js";
 
-/** Paths that try to climb out of a folder, however they are written, name nothing here. */
+/** Refuses paths that contain "..", in any encoding. */
 export function guardPaths(log: (line: string) => void): RequestHandler {
   return (request, _response, next) => {
     const path = request.url.split("?", 1)[0] ?? "";
@@ -52,24 +52,24 @@ export function guardHosts(
       !(isIP(host) > 0 || names.has(host) || host === localName() || host.endsWith(".localhost"))
     ) {
       refuse(
-        `this server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or name it with --allow-host.`,
+        `this server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or allow the name with --allow-host.`,
       );
     }
     const { origin } = request.headers;
     if (origin !== undefined && !isSameOrigin(origin, request.headers.host ?? "")) {
-      refuse(`A page of ${origin} may not use this server.`);
+      refuse(`Pages of ${origin} may not use this server.`);
     }
     if (origin === undefined && isForeign(request.headers["sec-fetch-site"]) && isApi(request.path)) {
-      refuse("A page of another site may not use this server.");
+      refuse("Pages of other sites may not use this server.");
     }
     next();
   };
 }
 
-/** Express finds its routes in capitals too. */
+/** Case-insensitive, because express also matches routes in upper case. */
 const isApi = (path: string): boolean => path.toLowerCase().startsWith("/api/");
 
-/** Host header without port and brackets; null when it is not one. */
+/** The Host header without port and brackets; null if it is invalid. */
 function hostName(header: string | undefined): string | null {
   const match = /^(?:\[([0-9a-fA-F:.]+)\]|([A-Za-z0-9._-]+))(?::\d{1,5})?$/.exec(header ?? "");
   return (match?.[1] ?? match?.[2])?.toLowerCase() ?? null;

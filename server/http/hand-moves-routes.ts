@@ -1,4 +1,4 @@
-/** /api/v1/plotters/:id/…: moves by hand and the board's console, while no job is plotting. */
+/** /api/v1/plotters/:id/…: manual moves and the board's console, while no job is plotting. */
 import express, { Router, type Request } from "express";
 import type { ZodType } from "zod";
 import {
@@ -23,7 +23,7 @@ export interface HandMoveParts {
   readonly queue: JobQueue;
   /** The box of a job's drawing as its settings place it on the machine. */
   readonly jobBoxMm: (jobId: string) => Promise<BoxMm>;
-  /** Puts the profile in where settings name a machine of the user's own. */
+  /** Adds the profile when the settings name a custom machine. */
   readonly withMachine: (settings: PlotSettings) => PlotSettings;
 }
 
@@ -93,5 +93,5 @@ const MOVES: Readonly<Record<string, WantedOf>> = {
   },
 };
 
-/** A move that needs nothing may be asked for without a body. */
+/** The body may be missing for moves without required fields. */
 const bodyOf = <T>(request: Request, schema: ZodType<T>): T => parseWith(schema, request.body ?? {});

@@ -17,7 +17,7 @@ import {
   type Job,
 } from "../../src/schema/index.js";
 import type { MachineFiles } from "../machines/machine-files.js";
-import type { Asker } from "../planning/lane.js";
+import type { Requester } from "../planning/lane.js";
 import { MAX_PARSED_BYTES } from "../planning/unpack.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
@@ -32,10 +32,10 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     else next();
   });
   router.post("/", async (request, response) => {
-    const asker = askerOf(request, response);
+    const requester = requesterOf(request, response);
     const job = await (request.is("json") !== false
-      ? addFromJson(request, asker)
-      : addFromFile(request, asker));
+      ? addFromJson(request, requester)
+      : addFromFile(request, requester));
     response.status(201).location(`/api/v1/jobs/${job.id}`).json(job);
   });
 
@@ -43,7 +43,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     response.json(queue.get(request.params.id));
   });
 
-  // As an attachment of plain text: a browser must never run what is in an uploaded SVG.
+  // Sent as a plain-text attachment: a browser must never run scripts of an uploaded SVG.
   router.get("/:id/drawing", (request, response, next) => {
     const { id } = request.params;
     response.attachment(fileName(queue.get(id).name));
@@ -56,8 +56,8 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   router.patch("/:id", small, async (request, response) => {
     const { settings, ...patch } = parseWith(jobPatchSchema, request.body);
     const whole = settings === undefined ? {} : { settings: machines.withMachine(settings) };
-    const asker = askerOf(request, response);
-    response.json(await queue.patch(request.params.id, { ...patch, ...whole }, asker));
+    const requester = requesterOf(request, response);
+    response.json(await queue.patch(request.params.id, { ...patch, ...whole }, requester));
   });
 
   router.post("/:id/move", small, (request, response) => {
@@ -77,7 +77,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
     });
   }
 
-  // Just after its start the server is still looking for its boards.
+  // Shortly after its start the server is still looking for boards, so wait for that.
   const onBoard: Readonly<Record<string, (id: string) => Job | Promise<Job>>> = {
     start: (id) => queue.start(id),
     recover: (id) => queue.recover(id),
@@ -116,19 +116,19 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
 
   return router;
 
-  async function addFromJson(request: Request, asker: Asker): Promise<Job> {
+  async function addFromJson(request: Request, requester: Requester): Promise<Job> {
     if (isSmall(request)) {
       const { drawing, copies, ...rest } = parseWith(newJobSchema, request.body);
       const settings = machines.withMachine(rest.settings);
       const stored = await files.add([Buffer.from(drawing, "utf8")]);
-      const first = await queue.add({ ...rest, settings, drawing: stored }, asker);
+      const first = await queue.add({ ...rest, settings, drawing: stored }, requester);
       return withCopies(first, copies);
     }
     const { drawing, rest } = await files.addFromJson(bytesOf(request));
     try {
       const { copies, ...wanted } = parseWith(newJobSchema.omit({ drawing: true }), rest);
       const settings = machines.withMachine(wanted.settings);
-      return withCopies(await queue.add({ ...wanted, settings, drawing }, asker), copies);
+      return withCopies(await queue.add({ ...wanted, settings, drawing }, requester), copies);
     } catch (error) {
       await files.remove(drawing.id);
       throw error;
@@ -141,7 +141,7 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   }
 
   /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */
-  async function addFromFile(request: Request, asker: Asker): Promise<Job> {
+  async function addFromFile(request: Request, requester: Requester): Promise<Job> {
     const { name, settings, plotterId } = request.query;
     const wanted = {
       name:
@@ -159,18 +159,18 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
       await files.remove(drawing.id);
       throw new PlotwrightError("bad-file", "The file is empty. Send the SVG as the request's body.");
     }
-    return queue.add({ ...wanted, drawing }, asker);
+    return queue.add({ ...wanted, drawing }, requester);
   }
 }
 
-/** Parsed here at once; a larger one goes to disk and is taken apart in a thread. */
+/** Small bodies are parsed here; larger ones are written to disk and parsed in a worker thread. */
 function isSmall(request: Request): boolean {
   const bytes = request.headers["content-length"];
   return bytes !== undefined && Number(bytes) <= MAX_PARSED_BYTES;
 }
 
-/** Who does not wait for the answer wants no plan any more. */
-function askerOf(request: Request, response: Response): Asker {
+/** Identifies the client; planning is aborted when it disconnects before the answer. */
+function requesterOf(request: Request, response: Response): Requester {
   const gone = new AbortController();
   response.on("close", () => {
     if (!response.writableFinished) gone.abort();
@@ -178,7 +178,7 @@ function askerOf(request: Request, response: Response): Asker {
   return { client: request.socket.remoteAddress, signal: gone.signal };
 }
 
-/** Leaves the connection open when reading stops early, so that the refusal can still be answered. */
+/** Leaves the connection open when reading stops early, so that an error can still be sent. */
 const bytesOf = (request: Request): AsyncIterable<Uint8Array> =>
   request.iterator({ destroyOnReturn: false }) as AsyncIterable<Uint8Array>;
 
@@ -190,7 +190,7 @@ function asJson(value: unknown): unknown {
   }
 }
 
-/** A name that every system can save under. */
+/** A file name that is valid on every system. */
 function fileName(name: string): string {
   const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
   return isDrawingName(safe) ? safe : `${safe}.svg`;

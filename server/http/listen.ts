@@ -1,4 +1,4 @@
-/** The port: plain or TLS, and what can keep it from being opened. */
+/** The HTTP server, plain or TLS: its limits, and the errors when its port can't be opened. */
 import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
 import { createServer as createHttpsServer } from "node:https";
 import type { AddressInfo } from "node:net";
@@ -6,7 +6,7 @@ import type { Duplex } from "node:stream";
 import { PlotwrightError } from "../../src/index.js";
 import type { Access } from "../security/access.js";
 import { isTrustedAddress, roleOf } from "./auth.js";
-import { ConnectionPlaces } from "./connection-places.js";
+import { ConnectionLimits } from "./connection-limits.js";
 
 /** PEM texts. */
 export interface TlsFiles {
@@ -15,9 +15,9 @@ export interface TlsFiles {
 }
 
 /**
- * Slow uploads are cut off: headers within 20 s, the whole within 10 minutes. A connection is kept for the next request
- * longer than a computer stops a program for that it has no time for: a program that wakes after that ends what it
- * kept too long before it reads, and the request that had come meanwhile would be lost.
+ * Slow uploads are cut off: headers must arrive within 20 s, the whole request within 10 minutes. The
+ * keep-alive time is longer than the system may suspend this process. Otherwise, on waking, the process would
+ * close an idle connection before reading from it, and a request that arrived meanwhile would be lost.
  */
 const TIMES = {
   headersTimeout: 20_000,
@@ -25,9 +25,11 @@ const TIMES = {
   keepAliveTimeout: 75_000,
   connectionsCheckingInterval: 10_000,
 };
-const MOST_CONNECTIONS = 1_000;
+const MAX_CONNECTIONS = 1_000;
 
-/** Says so and hangs up: what the other side leaves half open would keep the server from closing its port. */
+/**
+ * Answers and closes the socket. A connection left half open by the client would keep the port from closing.
+ */
 function hangUp(socket: Duplex, status: string): void {
   socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n`, () => socket.destroy());
 }
@@ -40,10 +42,10 @@ export function httpServer(
   log: (line: string) => void,
   times: Partial<typeof TIMES> = {},
 ): Server {
-  const places = new ConnectionPlaces((address) => isTrustedAddress(address, access));
+  const limits = new ConnectionLimits((address) => isTrustedAddress(address, access));
   const listener: RequestListener = (request, response) => {
-    if (roleOf(request, access) !== null) places.isKnown(request);
-    // A stranger's connection ends with its answer, so that nobody can collect connections by being refused.
+    if (roleOf(request, access) !== null) limits.identified(request);
+    // Connections of unknown clients end with the answer, so that nobody can pile up refused connections.
     else response.setHeader("Connection", "close");
     app(request, response);
   };
@@ -51,16 +53,17 @@ export function httpServer(
     tls === undefined
       ? createHttpServer({ ...TIMES, ...times }, listener)
       : secureServer(tls, listener, times);
-  server.maxConnections = MOST_CONNECTIONS;
-  server.on("connection", (socket) => places.opened(socket));
-  // Nothing here speaks another protocol: whoever asks for one (a WebSocket, of another site perhaps) is refused.
+  server.maxConnections = MAX_CONNECTIONS;
+  server.on("connection", (socket) => limits.opened(socket));
+  // The server supports no other protocol: refuse all upgrades (such as WebSockets, perhaps from another
+  // site).
   server.on("upgrade", (request, socket) => {
     log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);
     hangUp(socket, "403 Forbidden");
   });
   server.on("clientError", (error: NodeJS.ErrnoException, socket) => {
     const isSlow = error.code === "ERR_HTTP_REQUEST_TIMEOUT";
-    if (isSlow) log("refused a request that came too slowly");
+    if (isSlow) log("refused a request that arrived too slowly");
     if (socket.writable && error.code !== "ECONNRESET") {
       hangUp(socket, isSlow ? "408 Request Timeout" : "400 Bad Request");
     } else socket.destroy();
@@ -74,7 +77,7 @@ function secureServer(tls: TlsFiles, app: RequestListener, times: Partial<typeof
   } catch (cause) {
     throw new PlotwrightError(
       "bad-setting",
-      `The certificate or its key can't be used (${(cause as Error).message}). Give PEM files with --cert and --key.`,
+      `The certificate or its key can't be used (${(cause as Error).message}). Pass PEM files with --cert and --key.`,
       { cause },
     );
   }
@@ -98,7 +101,7 @@ function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): 
   return new PlotwrightError("bad-setting", `Can't listen on ${host}:${port} (${cause.message}).`, { cause });
 }
 
-/** Where this computer reaches it. */
+/** The URL of the server on this computer. */
 export function urlOf(http: Server, isTls: boolean): string {
   const { address, port, family } = http.address() as AddressInfo;
   const isAny = address === "::" || address === "0.0.0.0";

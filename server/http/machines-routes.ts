@@ -1,4 +1,4 @@
-/** /api/v1/machines: plotters as data, those that come with plotwright and the user's own. */
+/** /api/v1/machines: machine profiles, both built-in and custom. */
 import express, { Router } from "express";
 import { PlotwrightError } from "../../src/index.js";
 import { machineProfileSchema } from "../../src/schema/index.js";
@@ -18,7 +18,7 @@ export function machinesRoutes(machines: MachineFiles): Router {
     if (machine.id !== request.params.id) {
       throw new PlotwrightError(
         "bad-setting",
-        `id: it is ${machine.id}, but the path says ${request.params.id}.`,
+        `id: it is ${machine.id} in the profile, but ${request.params.id} in the path.`,
       );
     }
     response.json(machines.save(machine));

@@ -1,4 +1,4 @@
-/** The interface as an OpenAPI 3.1 document, made from the schemas that check it. A test holds it to the routes. */
+/** The API as an OpenAPI 3.1 document, generated from the zod schemas. A test compares it with the routes. */
 import { z, type ZodType } from "zod";
 import {
   accessEntrySchema,
@@ -31,7 +31,7 @@ import { STUDIO_ROUTES } from "./studio-api.js";
 
 export interface ApiRoute {
   readonly method: "get" | "post" | "put" | "patch" | "delete";
-  /** Below /api/v1, with express's :names. */
+  /** Below /api/v1, with :names as in express. */
   readonly path: string;
   readonly about: string;
   readonly body?: ZodType;
@@ -53,59 +53,68 @@ const jobAction = (name: string, about: string, body?: ZodType): ApiRoute =>
   route("post", `/jobs/:id/${name}`, about, jobSchema, body === undefined ? {} : { body });
 
 export const API_ROUTES: readonly ApiRoute[] = [
-  route("get", "/state", "Everything at once", snapshotSchema),
-  route("get", "/events", "What changes, a snapshot first", "events"),
-  route("get", "/me", "What the caller may do", meSchema),
-  route("get", "/openapi.json", "This document", z.looseObject({})),
-  route("get", "/queue", "How the queue runs", queueSettingsSchema),
-  route("patch", "/queue", "Changes how the queue runs", queueSettingsSchema, { body: queueSettingsSchema }),
-  route("post", "/jobs", "Adds a job: JSON, or the file as the body with ?name=", jobSchema, {
+  route("get", "/state", "Returns the whole state of the server", snapshotSchema),
+  route("get", "/events", "Streams a snapshot, then every change", "events"),
+  route("get", "/me", "Returns the role and identity of the caller", meSchema),
+  route("get", "/openapi.json", "Returns this document", z.looseObject({})),
+  route("get", "/queue", "Returns the queue settings of the first plotter", queueSettingsSchema),
+  route("patch", "/queue", "Changes the queue settings of the first plotter", queueSettingsSchema, {
+    body: queueSettingsSchema,
+  }),
+  route("post", "/jobs", "Adds a job from JSON, or from the file itself as the body with ?name=", jobSchema, {
     body: newJobSchema,
     status: 201,
   }),
-  route("get", "/jobs/:id", "One job", jobSchema),
-  route("get", "/jobs/:id/drawing", "The uploaded file", "text"),
-  route("patch", "/jobs/:id", "Changes a job", jobSchema, { body: jobPatchSchema }),
-  route("post", "/jobs/:id/move", "Changes its place in the queue", okSchema, { body: moveJobSchema }),
-  jobAction("start", "Begins to plot"),
-  jobAction("pause", "Comes to rest and lifts the pen"),
-  jobAction("resume", "Goes on"),
-  jobAction("cancel", "Lifts the pen and goes home"),
+  route("get", "/jobs/:id", "Returns a job", jobSchema),
+  route("get", "/jobs/:id/drawing", "Returns the uploaded file", "text"),
+  route("patch", "/jobs/:id", "Changes name, settings or plotter of a job", jobSchema, {
+    body: jobPatchSchema,
+  }),
+  route("post", "/jobs/:id/move", "Moves a job in the queue", okSchema, { body: moveJobSchema }),
+  jobAction("start", "Starts plotting"),
+  jobAction("pause", "Slows down to a stop and lifts the pen"),
+  jobAction("resume", "Resumes a paused job"),
+  jobAction("cancel", "Cancels a job: the pen lifts and goes home"),
   jobAction("requeue", "Queues an ended job again"),
-  jobAction("recover", "Takes an interrupted job up, held"),
-  jobAction("emergency-stop", "Stops at once"),
-  jobAction("change", "Heights and speeds on the way", jobChangeSchema),
-  jobAction("place", "Moves the place of a held job", movePlaceSchema),
-  jobAction("check-place", "Walks to the place with the pen up"),
-  route("post", "/jobs/:id/duplicate", "Queues a copy", jobSchema, { status: 201 }),
+  jobAction("recover", "Continues an interrupted job, paused at first"),
+  jobAction("emergency-stop", "Stops at once, without slowing down"),
+  jobAction("change", "Changes pen heights and speeds while plotting", jobChangeSchema),
+  jobAction("place", "Moves the place from which a paused job resumes", movePlaceSchema),
+  jobAction("check-place", "Moves to the place where a paused job resumes, with the pen up"),
+  route("post", "/jobs/:id/duplicate", "Queues a copy of a job", jobSchema, { status: 201 }),
   route("delete", "/jobs/:id", "Removes a job", okSchema),
-  route("get", "/plotters/:id", "One plotter", plotterSchema),
-  route("get", "/plotters/:id/log", "Commands and replies", "text"),
-  route("post", "/plotters/:id/pen", "Lifts or drops the pen", plotterSchema, { body: penRequestSchema }),
-  route("post", "/plotters/:id/motors-off", "Lets the carriage be moved by hand", plotterSchema),
+  route("get", "/plotters/:id", "Returns a plotter", plotterSchema),
+  route("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text"),
+  route("post", "/plotters/:id/pen", "Raises or lowers the pen", plotterSchema, { body: penRequestSchema }),
+  route(
+    "post",
+    "/plotters/:id/motors-off",
+    "Switches the motors off, so that the carriage can be pushed by hand",
+    plotterSchema,
+  ),
   handMove(
     "home",
-    "Lifts the pen and walks home, to the switches where there are some",
+    "Raises the pen and moves home, to the limit switches if the machine has them",
     handMoveRequestSchema,
   ),
-  handMove("walk", "Pen up, to a place in mm from home", walkRequestSchema),
-  handMove("jog", "Pen up, by so many mm", jogRequestSchema),
-  handMove("set-home", "Where the carriage stands is home", handMoveRequestSchema),
-  handMove("cycle-pen", "Pen down and up again", handMoveRequestSchema),
-  handMove("frame", "Around a job's drawing or a box with the pen up, and back", frameRequestSchema),
-  handMove("test-patch", "Draws a small pattern where the carriage stands", handMoveRequestSchema),
-  handMove("square", "Draws a square to be measured", squareRequestSchema),
-  handMove("servo", "A raw servo position", servoRequestSchema),
-  route("post", "/plotters/:id/command", "One line to the board", commandAnswerSchema, {
+  handMove("walk", "Moves to a position in mm from home, pen up", walkRequestSchema),
+  handMove("jog", "Moves by a distance in mm, pen up", jogRequestSchema),
+  handMove("set-home", "Makes the current position home", handMoveRequestSchema),
+  handMove("cycle-pen", "Lowers the pen and raises it again", handMoveRequestSchema),
+  handMove("frame", "Moves around a job's drawing or a box and back, pen up", frameRequestSchema),
+  handMove("test-patch", "Draws a small test pattern at the current position", handMoveRequestSchema),
+  handMove("square", "Draws a square for measuring", squareRequestSchema),
+  handMove("servo", "Sets a raw servo position", servoRequestSchema),
+  route("post", "/plotters/:id/command", "Sends one line to the board", commandAnswerSchema, {
     body: commandRequestSchema,
   }),
-  route("get", "/machines", "Plotters as data", machineListSchema),
-  route("put", "/machines/:id", "Keeps a machine of your own", machineProfileSchema, {
+  route("get", "/machines", "Lists the machine profiles", machineListSchema),
+  route("put", "/machines/:id", "Stores a custom machine profile", machineProfileSchema, {
     body: machineProfileSchema,
   }),
-  route("delete", "/machines/:id", "Removes one", okSchema),
-  route("get", "/access", "Sessions and keys", z.object({ entries: z.array(accessEntrySchema) })),
-  route("post", "/access/keys", "Makes a key", z.object({ entry: accessEntrySchema, secret: z.string() }), {
+  route("delete", "/machines/:id", "Removes a custom machine profile", okSchema),
+  route("get", "/access", "Lists sessions and keys", z.object({ entries: z.array(accessEntrySchema) })),
+  route("post", "/access/keys", "Creates a key", z.object({ entry: accessEntrySchema, secret: z.string() }), {
     body: newKeySchema,
     status: 201,
   }),
@@ -113,16 +122,16 @@ export const API_ROUTES: readonly ApiRoute[] = [
   route(
     "get",
     "/samples",
-    "Drawings that come with plotwright",
+    "Lists the sample drawings",
     z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) }),
   ),
-  route("get", "/samples/:name", "One of them", "text"),
+  route("get", "/samples/:name", "Returns a sample drawing", "text"),
   ...STUDIO_ROUTES,
 ];
 
 /**
- * As JSON. Made once, route by route: all at once it would take so long that a plot under way, which the same
- * thread streams to the board, would run dry.
+ * The document as JSON. It is generated once, route by route: this thread also streams to the board, and
+ * generating everything in one go would take so long that a running plot would underrun.
  */
 export function openApiText(version: string): Promise<string> {
   text ??= makeText(version);
@@ -133,9 +142,9 @@ let text: Promise<string> | null = null;
 
 async function makeText(version: string): Promise<string> {
   const paths: Record<string, Record<string, object>> = {};
-  for (const one of API_ROUTES) {
-    const path = `/api/v1${one.path.replace(/:(\w+)/g, "{$1}")}`;
-    paths[path] = { ...paths[path], [one.method]: operation(one) };
+  for (const apiRoute of API_ROUTES) {
+    const path = `/api/v1${apiRoute.path.replace(/:(\w+)/g, "{$1}")}`;
+    paths[path] = { ...paths[path], [apiRoute.method]: operation(apiRoute) };
     await new Promise((resolve) => setImmediate(resolve));
   }
   return JSON.stringify({ openapi: "3.1.0", info: { title: "plotwright", version }, paths });
@@ -161,7 +170,7 @@ function operation({ path, about, body, answer, status = 200 }: ApiRoute): objec
     responses: {
       [status]: { description: about, content: contentOf(answer) },
       default: {
-        description: "What went wrong",
+        description: "The error",
         content: { "application/json": { schema: jsonSchema(apiErrorSchema, "output") } },
       },
     },

@@ -1,35 +1,82 @@
-/** /api/v1/plotters: a plotter, its log, its pen and motors; moves are in hand-moves-routes.ts. */
+/**
+ * /api/v1/plotters and /devices: plotters, their queues, pens, motors and logs; moves are in
+ * hand-moves-routes.ts.
+ */
 import express, { Router } from "express";
-import { penRequestSchema } from "../../src/schema/index.js";
+import {
+  newPlotterSchema,
+  penRequestSchema,
+  plotterPatchSchema,
+  queueSettingsSchema,
+} from "../../src/schema/index.js";
+import type { PlotterRegistry, PlotterUse } from "../plotter-registry.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { PlotterPort } from "../queue/plotter-port.js";
 import { parseWith } from "./errors.js";
 import { findFreePlotter, findPlotter } from "./find-plotter.js";
 
-export function plottersRoutes(plotters: ReadonlyMap<string, PlotterPort>, queue: JobQueue): Router {
+export function plottersRoutes(
+  registry: PlotterRegistry,
+  queue: JobQueue,
+  log: (line: string) => void,
+): Router {
   const router = Router();
-  router.use(express.json({ limit: "100kb" }));
+  const small = express.json({ limit: "10kb" });
+  const find = (id: string): PlotterPort => findPlotter(registry.ports, id);
+  const findFree = (id: string): PlotterPort => findFreePlotter(registry.ports, queue, id);
+  const use: PlotterUse = {
+    isBusy: (id) => queue.isPlotterBusy(id),
+    liveJobCount: (id) => queue.liveJobCount(id),
+  };
 
-  const find = (id: string): PlotterPort => findPlotter(plotters, id);
-  const findFree = (id: string): PlotterPort => findFreePlotter(plotters, queue, id);
+  router.get("/devices", async (_request, response) => {
+    response.json({ devices: await registry.devices() });
+  });
 
-  router.get("/:id", (request, response) => {
+  router.post("/plotters", small, (request, response) => {
+    const plotter = registry.add(parseWith(newPlotterSchema, request.body));
+    log(`plotter "${plotter.name}" added`);
+    response.status(201).location(`/api/v1/plotters/${plotter.id}`).json(plotter);
+  });
+
+  router.get("/plotters/:id", (request, response) => {
     response.json(find(request.params.id).snapshot());
   });
 
-  router.get("/:id/log", (request, response) => {
+  router.patch("/plotters/:id", small, async (request, response) => {
+    const patch = parseWith(plotterPatchSchema, request.body);
+    response.json(await registry.patch(request.params.id, patch, use));
+  });
+
+  router.delete("/plotters/:id", async (request, response) => {
+    await registry.remove(request.params.id, use);
+    log(`plotter ${request.params.id} removed`);
+    response.json({ ok: true });
+  });
+
+  router.get("/plotters/:id/queue", (request, response) => {
+    const { id } = find(request.params.id);
+    response.json(queue.settings(id));
+  });
+
+  router.patch("/plotters/:id/queue", small, (request, response) => {
+    const settings = parseWith(queueSettingsSchema, request.body);
+    response.json(queue.saveSettings(settings, request.params.id));
+  });
+
+  router.get("/plotters/:id/log", (request, response) => {
     const plotter = find(request.params.id);
     response.attachment(`plotwright-${plotter.id}.log`).type("text/plain; charset=utf-8").send(plotter.log());
   });
 
-  router.post("/:id/pen", async (request, response) => {
+  router.post("/plotters/:id/pen", small, async (request, response) => {
     const { up, heightPct } = parseWith(penRequestSchema, request.body);
     const plotter = findFree(request.params.id);
     await plotter.pen(up, heightPct);
     response.json(plotter.snapshot());
   });
 
-  router.post("/:id/motors-off", async (request, response) => {
+  router.post("/plotters/:id/motors-off", async (request, response) => {
     const plotter = findFree(request.params.id);
     await plotter.motorsOff();
     response.json(plotter.snapshot());

@@ -13,7 +13,7 @@ export function samplesRoutes(dir: string): Router {
     response.json({ samples: (await names()).map((name) => ({ name, title: titleOf(name) })) });
   });
 
-  // Only names from the listing are opened, so no name leads out of the folder.
+  // Only names in the listing are opened, so no name can refer to a file outside the folder.
   router.get("/:name", async (request, response) => {
     const { name } = request.params;
     if (!(await names()).includes(name)) {

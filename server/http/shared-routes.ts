@@ -1,4 +1,4 @@
-/** /api/v1/shared-jobs: the queue that several servers have in common. */
+/** /api/v1/shared-jobs: the queue that several servers share. */
 import express, { Router } from "express";
 import { PlotwrightError } from "../../src/index.js";
 import { newSharedJobSchema } from "../../src/schema/index.js";
@@ -11,10 +11,10 @@ export function sharedRoutes(shared: SharedQueue | null): Router {
     if (shared !== null) return shared;
     throw new PlotwrightError(
       "not-found",
-      "This server has no shared queue: it begins with serve --shared-queue.",
+      "This server has no shared queue. Start it with serve --shared-queue to use one.",
     );
   };
-  // Before a body is read: it may be large.
+  // Check before the body is read, since it may be large.
   router.use((_request, _response, next) => {
     present();
     next();

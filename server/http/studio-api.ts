@@ -1,4 +1,4 @@
-/** The part of the OpenAPI document on plotters, operator, webhooks and what else a studio needs. */
+/** The OpenAPI routes for the operator, plotters, webhooks, notices, pairing, shared jobs and logs. */
 import { z } from "zod";
 import {
   deviceSchema,
@@ -21,13 +21,13 @@ export const STUDIO_ROUTES: readonly ApiRoute[] = [
   {
     method: "post",
     path: "/operator/take",
-    about: "The calling browser becomes the operator",
+    about: "Makes the calling browser the operator",
     answer: z.object({ operator: operatorSchema }),
   },
   {
     method: "get",
     path: "/devices",
-    about: "Boards that are plugged in",
+    about: "Lists the boards that are plugged in",
     answer: z.object({ devices: z.array(deviceSchema) }),
   },
   {
@@ -41,51 +41,56 @@ export const STUDIO_ROUTES: readonly ApiRoute[] = [
   {
     method: "patch",
     path: "/plotters/:id",
-    about: "Renames it, gives it another device or machine",
+    about: "Changes name, device or machine of a plotter",
     body: plotterPatchSchema,
     answer: plotterSchema,
   },
   { method: "delete", path: "/plotters/:id", about: "Removes a plotter without jobs", answer: okSchema },
-  { method: "get", path: "/plotters/:id/queue", about: "How its queue runs", answer: queueSettingsSchema },
+  {
+    method: "get",
+    path: "/plotters/:id/queue",
+    about: "Returns the queue settings of a plotter",
+    answer: queueSettingsSchema,
+  },
   {
     method: "patch",
     path: "/plotters/:id/queue",
-    about: "Changes how its queue runs",
+    about: "Changes the queue settings of a plotter",
     body: queueSettingsSchema,
     answer: queueSettingsSchema,
   },
   {
     method: "get",
     path: "/webhooks",
-    about: "Whom the server tells",
+    about: "Lists the webhooks",
     answer: z.object({ webhooks: z.array(webhookSchema) }),
   },
   {
     method: "post",
     path: "/webhooks",
-    about: "Adds one; its secret is shown once",
+    about: "Adds a webhook; its secret is returned only here",
     body: newWebhookSchema,
     answer: z.object({ webhook: webhookSchema, secret: z.string() }),
     status: 201,
   },
-  { method: "delete", path: "/webhooks/:id", about: "Removes one", answer: okSchema },
-  { method: "delete", path: "/notices/:id", about: "Marks a notice as read", answer: okSchema },
+  { method: "delete", path: "/webhooks/:id", about: "Removes a webhook", answer: okSchema },
+  { method: "delete", path: "/notices/:id", about: "Dismisses a notice", answer: okSchema },
   {
     method: "post",
     path: "/pairing",
-    about: "Links that pair a device; from this computer only",
+    about: "Returns the links that pair a device; only on the server's computer",
     answer: pairingSchema,
   },
   {
     method: "get",
     path: "/shared-jobs",
-    about: "Jobs that several servers share, newest first",
+    about: "Lists the jobs of the shared queue, newest first",
     answer: z.object({ jobs: z.array(sharedJobSchema) }),
   },
   {
     method: "post",
     path: "/shared-jobs",
-    about: "Adds one, for a plotter by name or a machine",
+    about: "Adds a job to the shared queue, for a plotter's name or a machine",
     body: newSharedJobSchema,
     answer: z.object({ id: z.string() }),
     status: 201,
@@ -93,9 +98,15 @@ export const STUDIO_ROUTES: readonly ApiRoute[] = [
   {
     method: "post",
     path: "/shared-jobs/:id/give-back",
-    about: "Lets another server have what one that has gone took and did not begin",
+    about:
+      "Gives back a job that an unreachable server took but did not start, so that another server can take it",
     answer: okSchema,
   },
-  { method: "delete", path: "/shared-jobs/:id", about: "Withdraws one that still waits", answer: okSchema },
-  { method: "get", path: "/logs", about: "What happened, to be sent to whoever helps", answer: "text" },
+  {
+    method: "delete",
+    path: "/shared-jobs/:id",
+    about: "Withdraws a job that no server has taken",
+    answer: okSchema,
+  },
+  { method: "get", path: "/logs", about: "Returns all logs as one text, for a bug report", answer: "text" },
 ];

@@ -7,7 +7,7 @@ import type { PlotterPort } from "../queue/plotter-port.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { Notices } from "../queue/notices.js";
 import type { Access } from "../security/access.js";
-import type { Baton } from "../security/baton.js";
+import type { OperatorLock } from "../security/operator-lock.js";
 import type { Webhooks } from "../webhooks/webhooks.js";
 import { isTrusted } from "./auth.js";
 import type { Browsers } from "./browser.js";
@@ -16,7 +16,7 @@ import { parseWith } from "./errors.js";
 export interface StudioParts {
   readonly version: string;
   readonly access: Access;
-  readonly baton: Baton;
+  readonly operatorLock: OperatorLock;
   readonly browsers: Browsers;
   readonly webhooks: Webhooks;
   readonly notices: Notices;
@@ -28,16 +28,16 @@ export interface StudioParts {
 }
 
 export function studioRoutes(parts: StudioParts): Router {
-  const { access, baton, browsers, webhooks, notices, log } = parts;
+  const { access, operatorLock, browsers, webhooks, notices, log } = parts;
   const router = Router();
   const small = express.json({ limit: "10kb" });
 
   router.post("/operator/take", (request, response) => {
     const browser = browsers.of(request);
     if (browser === null) {
-      throw new PlotwrightError("bad-setting", "Only browsers take turns; scripts may act at any time.");
+      throw new PlotwrightError("bad-setting", "Only a browser can take over; scripts may act at any time.");
     }
-    response.json({ operator: baton.take(browser) });
+    response.json({ operator: operatorLock.take(browser) });
   });
 
   router.get("/webhooks", (_request, response) => {
@@ -58,13 +58,13 @@ export function studioRoutes(parts: StudioParts): Router {
     response.json({ ok: true });
   });
 
-  // The links open the server to whoever has them: only whoever sits at it may see them.
+  // Anyone with such a link gets access, so only users at this computer may see them.
   router.post("/pairing", async (request, response) => {
     if (!isTrusted(request, access)) {
       log(`refused pairing links to ${request.socket.remoteAddress ?? "?"}`);
       throw new PlotwrightError(
         "not-allowed",
-        "Pairing links are shown only on the computer that the server runs on, or in its terminal.",
+        "Pairing links are shown only on the computer where the server runs, and in its terminal.",
       );
     }
     response.json(await parts.pairing());

@@ -1,6 +1,6 @@
 /**
- * Plotters of the user's own, one JSON file each in the data folder. A file that does not parse is named and
- * skipped: it may have been made by hand.
+ * Custom machine profiles, one JSON file each in the data folder. An invalid file is skipped with a warning:
+ * it may have been written by hand.
  */
 import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -10,18 +10,19 @@ import { machineProfileSchema, type ListedMachine, type PlotSettings } from "../
 export class MachineFiles {
   readonly #dir: string;
   readonly #own = new Map<string, MachineProfile>();
-  /** What is wrong with files that were skipped. */
+  /** Why files were skipped. */
   readonly warnings: readonly string[];
 
-  /** @param dataDir need not exist: then there are no machines of the user's own yet */
+  /** @param dataDir may be missing; then there are no custom machines yet */
   constructor(dataDir: string) {
     this.#dir = join(dataDir, "machines");
     const warnings: string[] = [];
     for (const name of fileNames(this.#dir)) {
       try {
         const machine = readMachineFile(join(this.#dir, name));
-        if (name !== `${machine.id}.json`) throw new Error(`its id is ${machine.id}, which is not its name`);
-        if (isBuiltIn(machine.id)) throw new Error("a machine that comes with plotwright has its id");
+        if (name !== `${machine.id}.json`)
+          throw new Error(`its id is ${machine.id}, but the file name must be the id`);
+        if (isBuiltIn(machine.id)) throw new Error("its id belongs to a built-in machine");
         this.#own.set(machine.id, machine);
       } catch (error) {
         warnings.push(`${join(this.#dir, name)} is skipped: ${(error as Error).message}`);
@@ -30,7 +31,7 @@ export class MachineFiles {
     this.warnings = warnings;
   }
 
-  /** Those that come with plotwright first. */
+  /** Built-in machines first. */
   list(): ListedMachine[] {
     const own = [...this.#own.values()].sort((a, b) => a.name.localeCompare(b.name));
     return [
@@ -39,26 +40,26 @@ export class MachineFiles {
     ];
   }
 
-  /** On disk before it is known. Throws `conflict` for the id of one that comes with plotwright. */
+  /** Stores the profile before it is used. Throws `conflict` for the id of a built-in machine. */
   save(machine: MachineProfile): MachineProfile {
     mustBeOwn(machine.id);
     mkdirSync(this.#dir, { recursive: true, mode: 0o700 });
     const path = join(this.#dir, `${machine.id}.json`);
-    // Renamed into place, so that a file is there whole or not at all.
+    // Written under another name and renamed, so that the file is never incomplete.
     writeFileSync(`${path}.new`, `${JSON.stringify(machine, null, 2)}\n`, { flush: true });
     renameSync(`${path}.new`, path);
     this.#own.set(machine.id, machine);
     return machine;
   }
 
-  /** Jobs that use it keep their copy. Throws `not-found`. */
+  /** Jobs that use the machine keep their copy. Throws `not-found`. */
   remove(id: string): void {
     mustBeOwn(id);
     if (!this.#own.delete(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
     rmSync(join(this.#dir, `${id}.json`), { force: true });
   }
 
-  /** The settings with the profile in them, where they name a machine of the user's own without it. */
+  /** Adds the profile to settings that name a custom machine without containing its profile. */
   withMachine(settings: PlotSettings): PlotSettings {
     const own = this.#own.get(settings.machine);
     if (own === undefined || settings.customMachine?.id === settings.machine) return settings;
@@ -69,7 +70,7 @@ export class MachineFiles {
 /** Throws an error that says what is wrong with the file. */
 const readMachineFile = (path: string): MachineProfile => machineOfText(readFileSync(path, "utf8"));
 
-/** Throws what is wrong with it. */
+/** Parses a machine profile; throws an error that says what is wrong with it. */
 export function machineOfText(text: string): MachineProfile {
   const result = machineProfileSchema.safeParse(JSON.parse(text));
   if (result.success) return result.data;
@@ -93,6 +94,6 @@ function mustBeOwn(id: string): void {
   if (!isBuiltIn(id)) return;
   throw new PlotwrightError(
     "conflict",
-    `${id} comes with plotwright and stays as it is: save yours under another id.`,
+    `${id} is a built-in machine and can't be changed. Save yours under another id.`,
   );
 }

@@ -1,33 +1,33 @@
 /**
- * A worker thread whose work has limits: one that takes too long, or more memory than it may have, is ended, and its
- * starter told. Work on a file from outside can't be trusted to come to an end.
+ * A worker thread with limits: it is terminated when it takes too long or needs too much memory, and its
+ * listener is called. This is needed because work on an untrusted file may never end.
  */
 import type { Worker } from "node:worker_threads";
 import { PlotwrightError } from "../../src/index.js";
 import { startWorker } from "./worker-entry.js";
 
-const LOOK_EACH_MS = 200;
+const MEMORY_CHECK_MS = 200;
 
 export interface TimeLimit {
   readonly s: number;
-  /** What to say when it has passed. */
+  /** The error when the time has passed. */
   readonly error: PlotwrightError;
 }
 
 export interface ThreadStart {
-  /** Of its file, which stands beside its starter. */
+  /** Name of the worker's file, which is in the folder of the starting module. */
   readonly name: string;
   readonly starterUrl: string;
   readonly workerData: unknown;
-  /** JavaScript heap that it may have. */
+  /** Limit of the JavaScript heap. */
   readonly heapMb: number;
-  /** By which the process may grow while it works. */
+  /** How much the whole process may grow while the thread works. */
   readonly growthMb: number;
 }
 
 export interface ThreadListener<Message> {
   message(message: Message): void;
-  /** Once: nothing comes any more. */
+  /** Called once, at the end; no message follows. */
   ended(reason: Error): void;
 }
 
@@ -46,14 +46,14 @@ export class BoundedThread<Message> {
     this.#worker = startWorker(name, starterUrl, {
       workerData,
       resourceLimits: { maxOldGenerationSizeMb: heapMb },
-      // What a library prints about a damaged file must not get between a command's results.
+      // A library may print about a damaged file; that must not mix with the output of a command.
       stdout: true,
     });
     this.#worker.stdout.resume();
-    const mostBytes = process.memoryUsage.rss() + growthMb * 1e6;
+    const maxBytes = process.memoryUsage.rss() + growthMb * 1e6;
     this.#memoryTimer = setInterval(() => {
-      if (process.memoryUsage.rss() > mostBytes) void this.stop(tooLarge());
-    }, LOOK_EACH_MS);
+      if (process.memoryUsage.rss() > maxBytes) void this.stop(tooLarge());
+    }, MEMORY_CHECK_MS);
     this.#worker.on("message", (message: Message) => {
       if (!this.#isEnded) listener.message(message);
     });
@@ -65,7 +65,9 @@ export class BoundedThread<Message> {
     this.#worker.postMessage(message);
   }
 
-  /** What is done from now on may take that long; null: nothing is being done. Replaces the limit before. */
+  /**
+   * Sets the time limit for the work from now on, in place of the last limit; null while the thread is idle.
+   */
   allow(limit: TimeLimit | null): void {
     clearTimeout(this.#timer);
     if (limit !== null && !this.#isEnded) {
@@ -97,6 +99,6 @@ function endOf(error: Error): PlotwrightError {
 const tooLarge = (cause?: Error): PlotwrightError =>
   new PlotwrightError(
     "too-large",
-    "The drawing needs more memory than there is for planning. Simplify it, or plot it in parts.",
+    "Planning this drawing needs more memory than is available. Simplify it, or plot it in parts.",
     { cause },
   );

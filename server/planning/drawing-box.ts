@@ -1,9 +1,9 @@
-/** Where a drawing lies on the machine: the box of its strokes, as its settings place them. */
+/** The bounding box of a drawing's strokes on the machine, as placed by its settings. */
 import { machineOf } from "../../src/index.js";
 import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "./planner.js";
 
-/** Throws what import and prepare throw; a drawing without strokes is `bad-file`. */
+/** Throws the errors of import and prepare; `bad-file` for a drawing without strokes. */
 export async function drawingBoxMm(
   path: string,
   settings: PlotSettings,

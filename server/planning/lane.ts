@@ -1,22 +1,25 @@
-/** Work that waits for its turn: a few places, and each client has one of them at most, so that none takes them all. */
+/**
+ * Runs work on a limited number of slots. Each client may use one slot at a time, so that none can block the
+ * others.
+ */
 import { PlotwrightError } from "../../src/index.js";
 
-/** Who wants something planned. */
-export interface Asker {
-  /** Jobs of one client wait for each other; left out: the server itself. */
+/** The client that requests planning. */
+export interface Requester {
+  /** Requests of one client run one after the other; default: the server itself. */
   readonly client?: string | undefined;
-  /** Aborted when nobody waits for the result any more. */
+  /** Aborted when nobody waits for the result any longer. */
   readonly signal?: AbortSignal | undefined;
 }
 
-export type Lane = <T>(asker: Asker, work: () => Promise<T>) => Promise<T>;
+export type Lane = <T>(requester: Requester, work: () => Promise<T>) => Promise<T>;
 
-export function lane(places: number): Lane {
+export function lane(slots: number): Lane {
   const running: string[] = [];
   const waiting: { readonly client: string; readonly begin: () => void }[] = [];
 
   function beginNext(): void {
-    if (running.length >= places) return;
+    if (running.length >= slots) return;
     const at = waiting.findIndex(({ client }) => !running.includes(client));
     const next = waiting[at];
     if (next === undefined) return;

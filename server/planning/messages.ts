@@ -1,21 +1,21 @@
-/** What passes between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
+/** Messages between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 
-/** Given to the worker when it starts: it prepares the drawing at once and answers "ready". */
+/** Passed to the worker when it starts. It prepares the drawing at once and answers "ready". */
 export interface WorkerInput {
-  /** The drawing's file, read by the worker so that its text never passes the main thread. */
+  /** The drawing's file. The worker reads it, so that its text never passes through the main thread. */
   readonly path: string;
   readonly settings: PlotSettings;
   readonly machine: MachineProfile;
-  /** Names of the layers to draw, where not all of them. */
+  /** Names of the layers to draw; default: all. */
   readonly only?: readonly string[] | undefined;
 }
 
 export type ToWorker =
   | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }
-  /** firmware: of the board that it is for; null: not known. */
+  /** `firmware` of the board that will plot it; null: unknown. */
   | { readonly type: "measure"; readonly id: number; readonly firmware: string | null };
 
 export type FromWorker =
@@ -29,10 +29,10 @@ export type FromWorker =
       readonly stats: JobStats;
       readonly warnings: readonly string[];
     }
-  /** id null: the drawing itself could not be prepared. */
+  /** `id` null: the drawing itself could not be prepared. */
   | ({ readonly type: "failed"; readonly id: number | null } & Fault);
 
-/** An error as it passes between threads. */
+/** An error as sent between threads. */
 export interface Fault {
   readonly code: ErrorCode;
   readonly message: string;

@@ -1,8 +1,8 @@
-/** `--only NAME…`: which layers that leaves out. */
+/** `--only NAME…`: hides all other layers. */
 import { PlotwrightError, prepare, type Drawing } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
-/** Settings with every layer hidden that is not named (by name or id, in any case of letters). */
+/** The settings with every layer hidden that is not in `only` (by name or id, case-insensitive). */
 export function withOnlyLayers(
   drawing: Drawing,
   settings: PlotSettings,
@@ -26,7 +26,7 @@ export function withOnlyLayers(
   }
   const idsOf = (isOn: boolean): string[] =>
     layers.filter((layer) => isWanted(layer) === isOn).map((layer) => layer.id);
-  // Who names a layer wants it, whatever its own name says.
+  // A layer named here is drawn even if a code in its own name hides it.
   const prepareSettings = { ...settings.prepare, hiddenLayers: idsOf(false), shownLayers: idsOf(true) };
   return { ...settings, prepare: prepareSettings };
 }

@@ -1,4 +1,7 @@
-/** The planner's thread: prepares one drawing, then plans it as often as asked. No zod in here. */
+/**
+ * The planner's thread: prepares one drawing, then plans it on request. Must not import zod, so that it
+ * starts fast.
+ */
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
 import {
   importDrawing,
@@ -23,7 +26,7 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
   port.postMessage(message, transfer);
 
 try {
-  // The format is told from the content.
+  // Without a file name the format is detected from the content.
   const drawing = importDrawing("", readDrawing(input.path));
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);
@@ -47,7 +50,10 @@ function answer(prepared: Prepared, warnings: readonly string[], message: ToWork
   }
 }
 
-/** Compiled too, though only figures are wanted: what the board can't do shows here, not in the middle of a plot. */
+/**
+ * Compiles too, although only the figures are needed: so anything the board can't do shows now, not during
+ * the plot.
+ */
 function measure(
   prepared: Prepared,
   warnings: readonly string[],
@@ -67,7 +73,7 @@ function measure(
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 
-/** Every array's memory, once each: columns may share one. */
+/** The buffer of every array, once each: columns may share a buffer. */
 function buffersOf(value: object): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
   const visit = (part: unknown): void => {

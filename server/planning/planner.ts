@@ -1,8 +1,8 @@
 /**
- * A prepared drawing in a worker thread, ready to be planned from any place: planning a large drawing takes
+ * A prepared drawing in a worker thread, ready to be planned from any place. Planning a large drawing takes
  * seconds, and the thread that streams to the board must not wait for it.
  *
- * A drawing that needs more time or memory than the worker may have ends the worker, not the server.
+ * A drawing that needs too much time or memory ends the worker, not the server.
  */
 import { PlotwrightError, type StrokeSet } from "../../src/index.js";
 import type { JobStats } from "../../src/schema/index.js";
@@ -18,7 +18,7 @@ import {
 } from "./planning-limits.js";
 
 export interface PlannerInput extends WorkerInput {
-  /** Where they are not the usual ones. */
+  /** Default PLANNING_LIMITS. */
   readonly limits?: PlanningLimits;
 }
 
@@ -34,7 +34,7 @@ interface Waiting {
 
 export class WorkerPlanner implements PlotPlanner {
   readonly strokes: StrokeSet;
-  /** What of the file is not drawn. */
+  /** What the file contains that is not drawn, and other warnings. */
   readonly warnings: readonly string[];
   readonly #thread: PlannerThread;
 
@@ -44,7 +44,7 @@ export class WorkerPlanner implements PlotPlanner {
     this.warnings = warnings;
   }
 
-  /** Reads and prepares the drawing; throws what import and prepare throw, or `cancelled`. */
+  /** Reads and prepares the drawing; throws the errors of import and prepare, or `cancelled`. */
   static async open(input: PlannerInput, signal?: AbortSignal): Promise<WorkerPlanner> {
     const thread = new PlannerThread(input);
     const stop = (): void => void thread.stop(cancelled());
@@ -61,7 +61,10 @@ export class WorkerPlanner implements PlotPlanner {
     return answer.plot;
   }
 
-  /** Plans the whole from home, for a board of this firmware if it is known, and keeps only its figures. */
+  /**
+   * Plans the whole drawing from home, for a board with this firmware (null: unknown), and returns only its
+   * figures.
+   */
   async measure(firmware: string | null): Promise<Measured> {
     const answer = await this.#thread.ask((id) => ({ type: "measure", id, firmware }));
     if (answer.type !== "measured") throw new Error(`The planner answered ${answer.type} to measure`);
@@ -73,7 +76,7 @@ export class WorkerPlanner implements PlotPlanner {
   }
 }
 
-/** What a job would be: its figures and warnings. Throws what import, prepare and plan throw. */
+/** The figures and warnings of a job with this drawing. Throws the errors of import, prepare and plan. */
 export async function measureDrawing(
   input: PlannerInput,
   firmware: string | null,
@@ -87,7 +90,7 @@ export async function measureDrawing(
   }
 }
 
-/** The worker and the questions that wait for its answers. */
+/** The worker and the requests that wait for its answers. */
 class PlannerThread {
   readonly #thread: BoundedThread<FromWorker>;
   readonly #limits: PlanningLimits;
@@ -99,7 +102,7 @@ class PlannerThread {
   constructor({ limits = PLANNING_LIMITS, ...input }: PlannerInput) {
     this.#limits = limits;
     this.#ready = this.#wait(null);
-    // Whoever opened it may have gone before it is ready; ready() still rejects for those who ask.
+    // Avoids an unhandled rejection when nobody calls ready(); ready() itself still rejects.
     this.#ready.catch(() => undefined);
     const { heapMb, growthMb } = limits;
     const start = { name: "plan-worker", starterUrl: import.meta.url, workerData: input, heapMb, growthMb };

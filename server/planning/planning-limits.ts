@@ -1,6 +1,7 @@
 /**
- * How long each step of planning may take, and how much memory. Files of 25 MB are read in 2 s on a desk machine, a million segments planned in
- * as much; the limits leave room for far larger ones on a small computer, and end what would never end.
+ * Limits of time and memory for each step of planning. On a desktop computer a 25 MB file is read in 2 s, and
+ * a million segments are planned in the same time. The limits leave room for far larger drawings on a small
+ * computer, and end work that would never finish.
  */
 import { totalmem } from "node:os";
 import { PlotwrightError, type PrepareSettings } from "../../src/index.js";
@@ -8,13 +9,13 @@ import type { TimeLimit } from "./bounded-thread.js";
 
 export interface PlanningLimits {
   readonly importS: number;
-  /** Without the time that the user gives to the search for an order. */
+  /** Excluding the time that the user allows for the search for a stroke order. */
   readonly prepareS: number;
   /** Planning and compiling. */
   readonly planS: number;
-  /** Of JavaScript heap; typed arrays come on top of it. */
+  /** Limit of the JavaScript heap, which does not include typed arrays. */
   readonly heapMb: number;
-  /** By which the whole process may grow meanwhile: nothing less can be measured of a thread's typed arrays. */
+  /** How much the whole process may grow. The typed arrays of a single thread can't be measured. */
   readonly growthMb: number;
 }
 
@@ -22,15 +23,21 @@ export const PLANNING_LIMITS: PlanningLimits = {
   importS: 120,
   prepareS: 300,
   planS: 300,
-  // A part of a small computer's memory: the thread must end before the system ends the server.
+  // Only a part of a small computer's memory: the thread must be ended before the system ends the server.
   heapMb: Math.round(Math.min(1_024, Math.max(256, totalmem() / 4e6))),
   growthMb: Math.min(1_500, totalmem() / 2e6),
 };
 
-/** For what is planned for its user alone, or was planned before and is on the plotter now: it must not fail for others. */
+/**
+ * For the plot that is on the plotter, or for a user's own command: it must not fail because others use
+ * memory.
+ */
 export const OWN_PLANNING_LIMITS: PlanningLimits = { ...PLANNING_LIMITS, growthMb: Infinity };
 
-/** The search counts its work, not its time: a small computer takes this many times longer for it than a desk machine. */
+/**
+ * The search is limited by work, not by time: a small computer takes up to this many times longer than a
+ * desktop.
+ */
 const SLOWEST_SEARCH = 5;
 
 export const importLimit = ({ importS }: PlanningLimits): TimeLimit => ({

@@ -1,4 +1,4 @@
-/** Planning for the queue: by a stored drawing's id, on a few threads at a time. */
+/** Planning for the queue: takes the id of a stored drawing and uses a few threads at a time. */
 import { stat } from "node:fs/promises";
 import { machineOf } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
@@ -8,15 +8,18 @@ import { lane } from "./lane.js";
 import { OWN_PLANNING_LIMITS } from "./planning-limits.js";
 import { WorkerPlanner, measureDrawing } from "./planner.js";
 
-/** Uploads measured at once in each lane; the board's own planner never waits behind them. */
-const PLACES = 2;
-/** What is larger, or may be searched for longer, waits in a lane of its own: the others never wait behind it. */
+/** Uploads measured at the same time in each lane. The planner of a running plot does not wait for them. */
+const SLOTS = 2;
+/**
+ * Larger files, and longer searches for an order, use a separate lane, so that short work never waits for
+ * them.
+ */
 const LARGE_BYTES = 5_000_000;
 const LONG_ORDER_S = 30;
 
 export function createPlanning(files: DrawingFiles): Planning {
-  const shortWork = lane(PLACES);
-  const longWork = lane(PLACES);
+  const shortWork = lane(SLOTS);
+  const longWork = lane(SLOTS);
   const input = (drawing: string, settings: PlotSettings) => ({
     path: files.path(drawing),
     settings,
@@ -25,10 +28,10 @@ export function createPlanning(files: DrawingFiles): Planning {
   const isLong = async (path: string, { order, orderS }: PlotSettings["prepare"]): Promise<boolean> =>
     (order === "best" && orderS > LONG_ORDER_S) || (await stat(path)).size > LARGE_BYTES;
   return {
-    measure: async (drawing, settings, firmware, asker = {}) => {
+    measure: async (drawing, settings, firmware, requester = {}) => {
       const wanted = input(drawing, settings);
       const turn = (await isLong(wanted.path, settings.prepare)) ? longWork : shortWork;
-      return turn(asker, () => measureDrawing(wanted, firmware, asker.signal));
+      return turn(requester, () => measureDrawing(wanted, firmware, requester.signal));
     },
     open: (drawing, settings, signal) =>
       WorkerPlanner.open({ ...input(drawing, settings), limits: OWN_PLANNING_LIMITS }, signal),

@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../src/index.js";
 import { textOfBytes } from "../../src/internal.js";
 
-/** The file's text; throws `bad-file` that says why it can't be read. */
+/** The file's text; throws `bad-file` with the reason if it can't be read. */
 export function readDrawing(file: string): string {
   try {
     return textOfBytes(readFileSync(file));

@@ -1,8 +1,8 @@
-/** The plan of a job, as the worker makes it. The machine comes in as data (a profile), so own machines need no look-up. */
+/** Plans a job in the worker. The machine is passed as a profile, so custom machines need no lookup here. */
 import { planJob, type MachineProfile, type Prepared } from "../../src/index.js";
 import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
 
-/** The plan of a request with its commands, as it crosses threads. */
+/** The trajectory and commands for a request, in a form that can be sent between threads. */
 export function planAndCompile(
   prepared: Pick<Prepared, "strokes">,
   { settings, ...options }: PlanRequest,

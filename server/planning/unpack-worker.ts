@@ -1,4 +1,4 @@
-/** See unpack.ts. */
+/** The worker of unpack.ts. */
 import { openSync, readFileSync, closeSync, fsyncSync, writeSync } from "node:fs";
 import { parentPort, workerData } from "node:worker_threads";
 import type { UnpackInput, Unpacked } from "./unpack.js";
@@ -36,7 +36,7 @@ function unpack({ path, drawingPath, maxRestChars }: UnpackInput): Unpacked {
   return { rest, drawingBytes: bytes.length };
 }
 
-/** Null where it is nested deeper than can be written. */
+/** Null if the value is nested too deeply to be written as JSON. */
 function textOf(value: unknown): string | null {
   try {
     return JSON.stringify(value);

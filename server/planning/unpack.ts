@@ -1,12 +1,12 @@
 /**
- * A large JSON upload, taken apart in a thread of its own: reading 100 MB of JSON takes so long that a board
- * which is plotting would run dry meanwhile.
+ * Parses a large JSON upload in a separate thread. Parsing 100 MB of JSON takes so long that the stream to a
+ * plotting board would underrun.
  */
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { BoundedThread } from "./bounded-thread.js";
 import { PLANNING_LIMITS } from "./planning-limits.js";
 
-/** What is parsed in the main thread at once; the most that comes back to it besides the drawing. */
+/** Bodies up to this size are parsed in the main thread. Also the limit of an upload without its drawing. */
 export const MAX_PARSED_BYTES = 200_000;
 const UNPACK_S = 60;
 
@@ -18,7 +18,7 @@ export interface UnpackInput {
   readonly maxRestChars: number;
 }
 
-/** rest: the other members, as JSON. */
+/** `rest`: the other members, as JSON text. */
 export type Unpacked =
   | { readonly rest: string; readonly drawingBytes: number }
   | { readonly code: ErrorCode; readonly fault: string };

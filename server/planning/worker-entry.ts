@@ -1,7 +1,7 @@
 /**
- * Starts the worker thread whose file stands beside its starter: compiled (.js), or the source (.ts).
- * A source is bundled first, once in a process: threads that compile each of its modules anew would begin in
- * seconds. The bundle lies below node_modules, so that it finds the packages that it imports.
+ * Starts the worker thread whose file is in the folder of the starting module, compiled (.js) or as source
+ * (.ts). A source file is bundled first, once per process: if every thread compiled all modules itself, it
+ * would take seconds to start. The bundle is stored below node_modules, so that it can import packages.
  */
 import { createHash, randomBytes } from "node:crypto";
 import { existsSync, mkdirSync, renameSync, writeFileSync } from "node:fs";
@@ -38,7 +38,7 @@ function bundleOf(name: string, starterUrl: string): URL {
     `${name}-${createHash("sha256").update(contents).digest("hex").slice(0, 16)}.mjs`,
   );
   if (!existsSync(path)) {
-    // Renamed into place: other processes may be at it too.
+    // Written under another name and renamed, since other processes may write the same bundle.
     mkdirSync(folder, { recursive: true });
     const draft = `${path}.${randomBytes(4).toString("hex")}`;
     writeFileSync(draft, contents);

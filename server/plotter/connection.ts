@@ -15,7 +15,7 @@ import { openSerial } from "../serial/serial-transport.js";
 export interface ConnectOptions {
   /** "auto": the first EiBotBoard on USB, else the virtual board. "virtual", or a serial port's path. */
   readonly device: string;
-  /** "auto" passes over these. */
+  /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
   /** "auto" with no board on USB: true for the virtual board, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
@@ -44,7 +44,10 @@ export interface Connection {
   readonly virtualBoard: VirtualBoard | null;
 }
 
-/** Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, in words for the user. */
+/**
+ * Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, and a message for the
+ * user.
+ */
 export async function connect(options: ConnectOptions): Promise<Connection> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
   if (path === null && !options.virtualIfNone) throw unplugged();
@@ -98,14 +101,11 @@ async function nameOf(session: BoardSession): Promise<string | null> {
   return name === "" ? null : name;
 }
 
-/** The same failure, saying where. */
+/** Adds the device to the message of an error. */
 function atDevice(error: unknown, device: string): unknown {
   if (!(error instanceof PlotwrightError)) return error;
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 
 const unplugged = (): PlotwrightError =>
-  new PlotwrightError(
-    "no-board",
-    "The plotter is not plugged in any more: check its USB cable and its power.",
-  );
+  new PlotwrightError("no-board", "The plotter is no longer plugged in: check its USB cable and its power.");

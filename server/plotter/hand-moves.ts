@@ -9,21 +9,21 @@ import { testPatch } from "./health.js";
 import { seekHome } from "./homing.js";
 
 export type HandMove =
-  /** To a place, mm from home. */
+  /** To a position, mm from home. */
   | { readonly kind: "walk"; readonly xMm: number; readonly yMm: number }
-  /** By so many mm; beyond home too, since that is how home is found. */
+  /** By a distance in mm. May go beyond home, since this is how the user finds home. */
   | { readonly kind: "jog"; readonly dxMm: number; readonly dyMm: number }
-  /** To the switches where the machine has some, else to where home was set. */
+  /** To the limit switches if the machine has them, otherwise to the set home. */
   | { readonly kind: "home" }
-  /** Where the carriage stands is home from now on. */
+  /** Makes the current position home. */
   | { readonly kind: "set-home" }
-  /** Down and up again, to look at the heights. */
+  /** Lowers the pen and lifts it again, to check the heights. */
   | { readonly kind: "cycle-pen" }
-  /** Around a box with the pen up, and back. */
+  /** Moves around a box with the pen up, and back. */
   | { readonly kind: "frame"; readonly boxMm: BoxMm }
-  /** Draws a small pattern from where the carriage stands, and comes back. */
+  /** Draws a small pattern at the current position, and comes back. */
   | { readonly kind: "test-patch" }
-  /** Draws a square from where the carriage stands, to be measured, and comes back. */
+  /** Draws a square for measuring at the current position, and comes back. */
   | { readonly kind: "square"; readonly sizeMm: number }
   /** A raw servo position, 1/12 µs. */
   | { readonly kind: "servo"; readonly pos: number };
@@ -101,7 +101,7 @@ async function standing(carriage: Carriage, settings: PlotSettings): Promise<{ x
   return carriage.place(machine)!;
 }
 
-/** Rounding of a place that was read from motor steps, mm. */
+/** Tolerance for positions read from motor steps, mm. */
 const SAME_MM = 0.05;
 
 function mustReach(machine: MachineProfile, x: number, y: number): void {

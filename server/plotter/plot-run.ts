@@ -39,14 +39,14 @@ import type {
 } from "./types.js";
 import { Waiters } from "./waiters.js";
 
-/** Between two reports of progress, and two journal entries, seconds of ours. */
+/** Time between two progress reports, and between two journal entries, in real seconds. */
 const PROGRESS_S = 0.06;
 const JOURNAL_S = 0.25;
-/** Between the last journal entry and the end of what the board had got, at most, seconds of ours. */
+/** Max time between the last journal entry and the end of what was sent to the board, in real seconds. */
 const LEFT_S = 1.5;
-/** Between two journal entries, at most, and what is sent in that time. */
+/** Max time between two journal entries, including what is sent in that time. */
 const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
-/** Beyond what is in flight, time for a change to be planned in, seconds of ours; more when planning has taken more. */
+/** Time to plan a change, beyond what is in flight, in real seconds; longer if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
 
@@ -57,12 +57,12 @@ type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 
 export class CarriageRun implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
-  /** Where the plot goes on from while held, and where it began. */
+  /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: Place | null;
 
   private wish: Wish = "run";
   private held = false;
-  /** What it is held for by itself. */
+  /** What the plot waits for, if it was not held by the user. */
   private wait: PlotWait | null = null;
   private readonly stream: RunStream;
   private readonly progress = new RunProgress();
@@ -70,13 +70,13 @@ export class CarriageRun implements LivePlotRun {
   private readonly stops: PenStops;
   private readonly strokes: StrokeSet;
   private failure: PlotwrightError | null = null;
-  /** What of the plot follows the part that is being drawn. */
+  /** Planned time of the plot after the part being drawn. */
   private afterPartS = 0;
-  /** Times of the whole plot, where it is not drawn in one go. */
+  /** Times of the whole plot, if it is drawn in several parts. */
   private whole: Promise<PlaceTimes> | null = null;
   private planningS = 0;
   private changing: Promise<void> | null = null;
-  /** Walks to the hold point; nothing else may move before they are over. */
+  /** Moves to the hold point; nothing else may move until they have finished. */
   private walking: Promise<void> = Promise.resolve();
   private journalDueS = -Infinity;
   private stopTicking: () => void = () => undefined;
@@ -111,7 +111,7 @@ export class CarriageRun implements LivePlotRun {
         throw error;
       },
     );
-    // Whoever started the run listens to `finished`; a run whose starter has gone must not end the process.
+    // Callers await `finished`. If nobody does, its rejection must not end the process.
     this.finished.catch(() => undefined);
   }
 
@@ -124,7 +124,7 @@ export class CarriageRun implements LivePlotRun {
     if (this.progress.latest) listener(this.progress.latest);
   }
 
-  /** A stop before the first stroke may have come before anybody could listen. */
+  /** A stop before the first stroke may come before the listener is added, so it is reported here. */
   onHeld(listener: HeldListener): void {
     this.heldListeners.push(listener);
     if (this.held && this.wait) listener(true, this.wait);
@@ -153,7 +153,7 @@ export class CarriageRun implements LivePlotRun {
     return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
-  /** The board can no longer do what it is told: nothing more is written, `finished` rejects. */
+  /** The board no longer follows commands: nothing more is sent, and `finished` rejects. */
   fail(error: PlotwrightError): void {
     this.failure ??= error;
     this.stream.fail(error);
@@ -162,7 +162,7 @@ export class CarriageRun implements LivePlotRun {
 
   async change(change: PlotChange): Promise<void> {
     this.settings.change(change);
-    // One after the other; the last one plans with everything that was asked for.
+    // Changes run one after the other; the last one plans with all requested changes.
     const before = this.changing ?? Promise.resolve();
     this.changing = before.catch(() => undefined).then(() => this.changeInMotion());
     await this.changing;
@@ -186,7 +186,7 @@ export class CarriageRun implements LivePlotRun {
     await walk;
   }
 
-  /** Where the plot that goes on was broken off, by the board's own counters where it has kept them. */
+  /** Where an interrupted plot stopped, from the board's step counters if it still has them. */
   private placeLeft(from: Place): Place {
     const { left, connection } = this.carriage;
     const at = this.carriage.place(machineOf(this.settings.current));
@@ -242,10 +242,10 @@ export class CarriageRun implements LivePlotRun {
     }
   }
 
-  /** What was broken off may have left the pen on the paper. */
+  /** Lifts the pen, which an interrupted plot may have left on the paper. */
   private async liftWhatWasLeft(): Promise<void> {
     if (!this.start.from) return;
-    // While the user looks at pen and paper there is time to plan.
+    // Plan now, while the user checks pen and paper.
     this.timesOfWhole().catch(() => undefined);
     if (this.carriage.boardState && this.carriage.penUp !== true) {
       await this.carriage.movePen(true, this.settings.current);
@@ -290,7 +290,7 @@ export class CarriageRun implements LivePlotRun {
     return plot;
   }
 
-  /** Progress is of the whole plot, though only a part of it is drawn at a time. */
+  /** Times of the whole plot, since progress refers to the whole even if only a part is being drawn. */
   private timesOfWhole(): Promise<PlaceTimes> {
     const request = {
       from: null,
@@ -309,7 +309,7 @@ export class CarriageRun implements LivePlotRun {
     return this.whole;
   }
 
-  /** Plans what is left with the new settings, and goes over to it at a place that the board has not got yet. */
+  /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
   private async changeInMotion(): Promise<void> {
     const { speed, boardClock } = this.carriage.connection;
     for (let tries = 0; this.wish === "run" && tries < CHANGE_TRIES;) {
@@ -347,7 +347,7 @@ export class CarriageRun implements LivePlotRun {
     }
   }
 
-  /** All was drawn when somebody stopped it. */
+  /** Handles a stop after everything was drawn, on the way home. */
   private async endedOnItsWayHome(): Promise<PlotOutcome> {
     const { kind } = await this.goHome();
     return { kind: this.wish === "cancel" ? kind : "done" };
@@ -357,7 +357,7 @@ export class CarriageRun implements LivePlotRun {
     try {
       await this.carriage.walk(0, 0, this.settings.current);
     } catch (error) {
-      // Stopped at once on its way: it stays where it is.
+      // An emergency stop on the way home: the carriage stays where it is.
       if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
     }
     return { kind: "cancelled" };
@@ -371,7 +371,7 @@ export class CarriageRun implements LivePlotRun {
   }
 
   private streamBegun(): void {
-    // A wish from the time before there was a stream.
+    // A request that came before the stream existed.
     if (this.wish !== "run") this.stream.slowToRest();
     this.stopTicking = this.tick();
   }
@@ -410,7 +410,7 @@ export class CarriageRun implements LivePlotRun {
     this.start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
   }
 
-  /** Before anything has been streamed. */
+  /** The progress before anything has been streamed. */
   private standing(): Omit<JournalEntry, "place"> {
     const { x, y } = this.carriage.place(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
     return { xMm: x, yMm: y, penUp: this.carriage.penUp ?? true, elapsedS: 0 };

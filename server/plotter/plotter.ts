@@ -1,10 +1,10 @@
 /**
- * One plotter as the queue, the command line and an embedding program see it: connects, plots, moves by hand,
- * and always says in `state` how it stands and what to do when something is wrong.
+ * One plotter, as used by the queue, the command line and embedding programs: connects, plots and makes
+ * manual moves. `state` always shows its condition and, after an error, what to do.
  *
  *   absent ──connect──> connecting ──> idle <──> busy
  *      ^                    │            │         │
- *      └── nothing there ───┴── fault <──┴─────────┘   (tried again every 2 s while a device path is known)
+ *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
  */
 import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
 import {
@@ -23,17 +23,21 @@ import { CarriageRun } from "./plot-run.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
-  /** "auto" (an EiBotBoard where one is plugged in, else the virtual board), "virtual", or a serial port's path. */
+  /**
+   * "auto" (an EiBotBoard if one is plugged in, else the virtual board), "virtual", or a serial port's path.
+   */
   readonly device: string;
-  /** "auto" where no board is plugged in: the virtual board unless false. */
+  /** Whether "auto" uses the virtual board if no board is plugged in. Default true. */
   readonly virtualIfNone?: boolean | undefined;
-  /** Ports that "auto" leaves to others. */
+  /** Whether "auto" must skip a port, because another plotter uses it. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
-  /** How many times faster than real time a virtual board runs; the one behind `device` too. Default 1. */
+  /**
+   * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
+   */
   readonly virtualSpeed?: number | undefined;
-  /** Firmware that the built-in virtual board shows. Default 2.8.1. */
+  /** Firmware version that the built-in virtual board reports. Default 2.8.1. */
   readonly firmware?: string | undefined;
-  /** Used for moves by hand before the first job. */
+  /** Settings for manual moves before the first job. */
   readonly settings?: PlotSettings | undefined;
   readonly clock?: Clock | undefined;
 }
@@ -57,7 +61,7 @@ export class PlotterDriver {
   private run: CarriageRun | null = null;
   private movingByHand = false;
   private closed = false;
-  /** Once a real board was there, the virtual one never takes its place. */
+  /** After a real board was connected, the virtual board is never used in its place. */
   private hadSerial = false;
   private powerIsLow = false;
   private lastSupplyLow = false;
@@ -88,7 +92,7 @@ export class PlotterDriver {
     return this.current;
   }
 
-  /** The built-in virtual board while it is what is driven: the line that it draws, its faults on request. */
+  /** The built-in virtual board while it is in use: gives access to the drawn line and simulated faults. */
   get virtualBoard(): VirtualBoard | null {
     return this.connection?.virtualBoard ?? null;
   }
@@ -97,23 +101,23 @@ export class PlotterDriver {
     this.listeners.push(listener);
   }
 
-  /** Connects. Never rejects: what is wrong stands in `state`, and is thrown by whatever needs the board. */
+  /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
   start(): Promise<void> {
     this.tell({ connection: "connecting", message: null });
     return this.startConnecting();
   }
 
-  /** Resolves when it is known whether the board is there: at once, but while it is connecting. */
+  /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
   async settled(): Promise<void> {
     await this.connecting;
   }
 
-  /** Commands and replies of the present connection, as text to be downloaded. */
+  /** Commands and replies of the current connection, as text to download. */
   log(): string {
     return this.connection?.session.log.text() ?? "";
   }
 
-  /** Begins a plot. Rejects with `busy`, or with what keeps the board from being there. */
+  /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
     await this.connecting;
     const carriage = this.idleCarriage();
@@ -132,7 +136,7 @@ export class PlotterDriver {
     return run;
   }
 
-  /** Machine, speeds and heights of moves by hand from now on. Home stays: it is a place of the motors. */
+  /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
   use(settings: PlotSettings): void {
     machineOf(settings);
     this.settings = settings;
@@ -148,8 +152,8 @@ export class PlotterDriver {
   }
 
   /**
-   * Any move by hand, with the machine, speeds and heights of `settings`; left out, those of the last job or move.
-   * Rejects with `busy` while it plots, `out-of-bounds` beyond the machine.
+   * Makes a manual move with the machine, speeds and heights of `settings`; default: those of the last job or
+   * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
   async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
     machineOf(settings);
@@ -159,32 +163,32 @@ export class PlotterDriver {
     });
   }
 
-  /** Lifts the pen and walks to the switches where the machine has some, else to where home was set. */
+  /** Lifts the pen and moves to the limit switches if the machine has them, otherwise to the set home. */
   home(settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "home" }, settings);
   }
 
-  /** Where the carriage stands is home from now on. */
+  /** Makes the current position home. */
   setHome(settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "set-home" }, settings);
   }
 
-  /** Pen up, to a place in mm from home. */
+  /** Moves to a position in mm from home, pen up. */
   walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "walk", xMm, yMm }, settings);
   }
 
-  /** Pen up, by so many mm; beyond home too, since that is how home is found. */
+  /** Moves by a distance in mm, pen up. May go beyond home, since this is how the user finds home. */
   jog(dxMm: number, dyMm: number, settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "jog", dxMm, dyMm }, settings);
   }
 
-  /** Down and up again, to look at the heights. */
+  /** Lowers the pen and lifts it again, to check the heights. */
   cyclePen(settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "cycle-pen" }, settings);
   }
 
-  /** Walks around a rectangle with the pen up, and back to where the carriage was. mm from home. */
+  /** Moves around a rectangle (mm from home) with the pen up, and back to the previous position. */
   traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number, settings?: PlotSettings): Promise<void> {
     const boxMm = {
       xMm: Math.min(x0Mm, x1Mm),
@@ -195,22 +199,22 @@ export class PlotterDriver {
     return this.move({ kind: "frame", boxMm }, settings);
   }
 
-  /** Draws a small pattern from where the carriage stands, with the given settings, and comes back. */
+  /** Draws a small pattern at the current position with the given settings, and comes back. */
   drawTestPatch(settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "test-patch" }, settings);
   }
 
-  /** Draws a square from where the carriage stands, whose measured size tells the steps for one mm. */
+  /** Draws a square at the current position; its measured size gives the motor steps per mm. */
   drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "square", sizeMm }, settings);
   }
 
-  /** One line to the board, with all that it answers. Rejects with `bad-setting` for what would end the talk. */
+  /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
   async command(line: string): Promise<CommandAnswer> {
     return this.byHand((carriage) => sendLine(carriage, line));
   }
 
-  /** In the middle of a move or a plot it stops at once and lifts the pen first. */
+  /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
   async close(): Promise<void> {
     this.closed = true;
     this.cancelRetry?.();
@@ -300,7 +304,7 @@ export class PlotterDriver {
     this.carriage = null;
     this.connection?.session.close().catch(() => undefined);
     this.connection = null;
-    // One that is held hears nothing of its board.
+    // A held run does not notice the lost board by itself.
     this.run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
     this.tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
@@ -320,7 +324,9 @@ export class PlotterDriver {
     if (line === "QC") this.supplyRead(isPowerLow(line, reply));
   }
 
-  /** Twice in a row: a second program's answers may make one of ours be taken for another. */
+  /**
+   * Reacts only to two low readings in a row: with a second program on the port, an answer may be mistaken.
+   */
   private supplyRead(isLow: boolean): void {
     if (isLow && this.lastSupplyLow) this.powerLost();
     this.lastSupplyLow = isLow;
@@ -376,10 +382,10 @@ export class PlotterDriver {
   /** To be taken at once: between asking and taking, another one could ask. */
   private idleCarriage(): Carriage {
     if (this.run) {
-      throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait for its end.");
+      throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
     }
     if (this.movingByHand) {
-      throw new PlotwrightError("busy", "The plotter is still moving: wait until it rests.");
+      throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
     if (!this.carriage) throw this.trouble ?? notStarted();
     if (this.powerIsLow) throw powerLow();
@@ -399,7 +405,7 @@ export class PlotterDriver {
     });
   }
 
-  /** While plotting, the run's listeners carry the place to the pages; here it only is kept up to date. */
+  /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
   private movedTo(xMm: number, yMm: number, penUp: boolean): void {
     // A run that ends with the connection still tells where it was; nobody knows where the carriage is then.
     if (this.carriage) this.current = { ...this.current, xMm, yMm, penUp };
@@ -417,7 +423,7 @@ const notStarted = (): PlotwrightError =>
   new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
 
 const closedError = (): PlotwrightError =>
-  new PlotwrightError("disconnected", "The plotter was closed: start it again to go on.");
+  new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");
 
 const internal = (cause: unknown): PlotwrightError =>
-  new PlotwrightError("internal", "Connecting to the board failed for a reason of our own.", { cause });
+  new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });

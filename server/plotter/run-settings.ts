@@ -29,7 +29,7 @@ export class RunSettings {
     this.speedPct = speedPct ?? this.speedPct;
   }
 
-  /** What is to be planned with: the speeds by the percentage. */
+  /** The settings for planning, with the speeds scaled by the percentage. */
   get planned(): PlotSettings {
     const share = this.speedPct / 100;
     if (share === 1) return this.current;

@@ -1,6 +1,7 @@
 /**
- * Between the queue (which job, which drawing) and the driver (which board): a job's planner goes in,
- * a run comes out. The driver never plans; the planner (a worker thread) never sees the board.
+ * The interface between the queue (which knows jobs and drawings) and the driver (which knows the board). The
+ * driver is given a planner and returns a run. It never plans; the planner (a worker thread) never accesses
+ * the board.
  */
 import type {
   BoardState,
@@ -19,20 +20,20 @@ export interface PlannedPlot {
 }
 
 export interface PlanRequest {
-  /** Where in the drawing to begin; null for its beginning. */
+  /** Where in the drawing to start; null: at its beginning. */
   readonly from: Place | null;
-  /** Stroke before which to stop and go home; null for the end of the drawing. */
+  /** Stroke before which to stop and go home; null: at the end of the drawing. */
   readonly until: number | null;
-  /** Where the carriage is, mm from home. */
+  /** Position of the carriage, mm from home. */
   readonly startXMm: number;
   readonly startYMm: number;
-  /** May differ from the job's first ones: changed while held. */
+  /** May differ from the job's original settings, because they can change while the plot is held. */
   readonly settings: PlotSettings;
   readonly firmware: string;
   readonly board: BoardState;
 }
 
-/** One prepared drawing, living in a worker thread, ready to be planned from any place. */
+/** A prepared drawing in a worker thread, ready to be planned from any place. */
 export interface PlotPlanner {
   readonly strokes: StrokeSet;
   plan(request: PlanRequest): Promise<PlannedPlot>;
@@ -53,46 +54,54 @@ export interface PlotProgress {
 
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };
 
-/** A plot under way. `finished` rejects with a PlotwrightError when the board fails. */
+/** A running plot. `finished` rejects with a PlotwrightError when the board fails. */
 export interface PlotRun {
   readonly finished: Promise<PlotOutcome>;
   onProgress(listener: (progress: PlotProgress) => void): void;
-  /** `wait`: the stop that it has made by itself; none where somebody asked for the hold. */
+  /** `wait`: what the plot waits for if it stopped by itself; none if the hold was requested. */
   onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void;
-  /** Resolves when the pen is up and the carriage rests. */
+  /** Resolves when the pen is up and the carriage has stopped. */
   pause(): Promise<void>;
   resume(): Promise<void>;
-  /** Lifts, goes home; `finished` then resolves with "cancelled". */
+  /** Lifts the pen and goes home; `finished` then resolves with "cancelled". */
   cancel(): Promise<void>;
 }
 
-/** What may be changed while a plot runs or is held; what is not named stays. */
+/** Changes to a plot that is running or held; omitted fields stay the same. */
 export interface PlotChange {
   readonly pen?: PenSettings | undefined;
   readonly motion?: MotionSettings | undefined;
-  /** Of the motion's speeds, drawing and travelling; accelerations stay. 100 = as set. */
+  /** Percent of the drawing and travel speeds in the settings; accelerations stay the same. */
   readonly speedPct?: number | undefined;
 }
 
-/** Everything that can be asked of a plot under way. */
+/** All operations on a running plot. */
 export interface LivePlotRun extends PlotRun {
-  /** Stops at once, without slowing down (ES), then reads back where the motors are; the plot is held. */
+  /** Stops at once, without slowing down (ES), then reads back the motor positions; the plot is then held. */
   emergencyStop(): Promise<void>;
-  /** Takes effect within a second while running, at the hold point while held, by planning only what is left. */
+  /**
+   * Re-plans the rest of the drawing. Takes effect within a second while running, at the hold point while
+   * held.
+   */
   change(change: PlotChange): Promise<void>;
-  /** While held: where the plot goes on from. */
+  /** While held: the place from which the plot will resume. */
   readonly holdPlace: Place | null;
-  /** While held: moves the hold point along the drawing, forward or back; mm run on into the next stroke. */
+  /**
+   * While held: moves the hold point along the drawing, forward or back; mm may continue into the next
+   * stroke.
+   */
   moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place;
-  /** While held: walks to the hold point with the pen up, to look whether it is the right one. */
+  /** While held: moves to the hold point with the pen up, so that the user can check it. */
   checkHoldPlace(): Promise<void>;
 }
 
-/** Where a plot has come to, kept on disk by whoever gives a journal in: enough to go on after a crash. */
+/**
+ * How far a plot has got. The owner of the journal stores it, so that the plot can continue after a crash.
+ */
 export interface JournalEntry {
-  /** The first place not drawn yet, at most half a second old. */
+  /** The first place not yet drawn, at most half a second old. */
   readonly place: Place;
-  /** While it draws: the first place that the board has not been given yet. It will draw up to there by itself. */
+  /** While drawing: the end of what was sent to the board, which the board draws even if the server stops. */
   readonly sent?: Place | undefined;
   readonly xMm: number;
   readonly yMm: number;
@@ -105,11 +114,11 @@ export interface PlotJournal {
 }
 
 export interface PlotStart {
-  /** Where in the drawing to begin: after a crash, the journal's place. Default: its beginning. */
+  /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
   readonly from?: Place | null | undefined;
-  /** The same entry's `sent`. */
+  /** `sent` of the same journal entry. */
   readonly sent?: Place | undefined;
-  /** Begins held, with nothing moved: default where `from` is given, so that the user has the word. */
+  /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;
 }

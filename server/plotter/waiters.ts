@@ -1,4 +1,4 @@
-/** Promises that settle when a condition has come true, or when what they wait on has ended. */
+/** Promises that settle when a condition becomes true, or when the source of the condition ends. */
 export class Waiters {
   private waiting: { until: () => boolean; resolve: () => void; reject: (error: Error) => void }[] = [];
   private ended: Error | true | null = null;
@@ -10,13 +10,13 @@ export class Waiters {
     });
   }
 
-  /** Nothing more will change: everything that waits resolves, or rejects with an error. */
+  /** Nothing more will change: all waiting promises resolve, or reject with an error. */
   end(how: Error | true): void {
     this.ended = how;
     this.check();
   }
 
-  /** Something has changed. */
+  /** Call after a change: settles the promises whose condition is now true. */
   check(): void {
     const waiting = this.waiting;
     this.waiting = waiting.filter(({ until, resolve, reject }) => {

@@ -1,9 +1,9 @@
 /**
  * One server per data folder.
  *
- * The lock is a file with the owner's process id and the time that process began. Node has no flock(), so a
- * killed owner leaves the file behind: it is stale when no process has that id, or when the process with
- * that id began at another time (ids are reused, and are always small in a container).
+ * The lock is a file with the owner's process id and the start time of that process. Node has no flock(), so
+ * a killed owner leaves the file behind. The file is stale when no process has that id, or when the process
+ * with that id started at another time (ids are reused, and are always small in a container).
  */
 import { linkSync, readFileSync, renameSync, rmSync, unlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -12,11 +12,11 @@ import { PlotwrightError } from "../../src/index.js";
 
 interface Owner {
   readonly pid: number;
-  /** Clock ticks since boot plus boot id on Linux; "" where it can't be known. */
+  /** Start time: clock ticks since boot plus boot id on Linux; "" where it is not available. */
   readonly began: string;
 }
 
-/** Takes the lock or throws `conflict`; the returned function gives it back. */
+/** Takes the lock or throws `conflict`; the returned function releases it. */
 export function lockDataDir(dir: string): () => void {
   const path = join(dir, "server.lock");
   const mine: Owner = { pid: process.pid, began: processBegan(process.pid) };
@@ -36,7 +36,7 @@ export function lockDataDir(dir: string): () => void {
       if (tryLink(draft, path)) return () => release(path, mine);
       const owner = readOwner(path);
       if (owner !== null && isAlive(owner)) throw inUse(dir, owner.pid);
-      // Renamed first, so that of two servers that find it stale only one takes it away.
+      // Rename it first, so that only one of two servers that find it stale removes it.
       try {
         renameSync(path, `${draft}.stale`);
         unlinkSync(`${draft}.stale`);
@@ -50,7 +50,7 @@ export function lockDataDir(dir: string): () => void {
   }
 }
 
-/** link() makes the name and fails if it is there, in one step, with the content already complete. */
+/** link() creates the name, or fails if it exists, in one step, and the content is already complete. */
 function tryLink(from: string, to: string): boolean {
   try {
     linkSync(from, to);
@@ -83,13 +83,13 @@ function isAlive(owner: Owner): boolean {
   try {
     process.kill(owner.pid, 0);
   } catch (error) {
-    // EPERM: it lives, under another user.
+    // EPERM: the process is alive and belongs to another user.
     if ((error as NodeJS.ErrnoException).code !== "EPERM") return false;
   }
   return owner.began === "" || owner.began === processBegan(owner.pid);
 }
 
-/** Field 22 of /proc/PID/stat; the name in field 2 may hold spaces, so count from its closing bracket. */
+/** Field 22 of /proc/PID/stat. The name in field 2 may contain spaces, so count from its closing bracket. */
 function processBegan(pid: number): string {
   try {
     const stat = readFileSync(`/proc/${pid}/stat`, "utf8");

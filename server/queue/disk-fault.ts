@@ -1,9 +1,9 @@
-/** A disk that takes no more: what the user is told, and which errors mean it. */
+/** A full or unwritable disk: the message for the user, and the errors that mean it. */
 
 export const DISK_FULL =
-  "The server's disk is full or can't be written to. Make room: what has happened is kept in memory and stored then.";
+  "The server's disk is full or can't be written to. Make room on it: the changes are in memory and are stored as soon as there is room.";
 
-/** SQLite says "disk I/O error" too when a write finds no room. */
+/** SQLite also reports "disk I/O error" when a write finds no space. */
 export function isDiskFault(error: unknown): boolean {
   if (!(error instanceof Error)) return false;
   const { code } = error as NodeJS.ErrnoException;

@@ -1,6 +1,6 @@
 /**
- * Uploaded drawings on disk, one file for each upload; copies of a job share it.
- * A file is complete and flushed before its name exists; a database row refers to it only after that.
+ * Uploaded drawings on disk, one file per upload. Copies of a job share the file.
+ * A file gets its final name only when it is complete and flushed; database rows refer to it only after that.
  */
 import { randomBytes } from "node:crypto";
 import { existsSync } from "node:fs";
@@ -16,7 +16,7 @@ export interface StoredDrawing {
 
 export class DrawingFiles {
   readonly #dir: string;
-  /** Where drawings are kept that no job names. */
+  /** Folder for drawings that belong to no job. */
   readonly unclaimedDir: string;
   readonly #maxBytes: number;
 
@@ -31,7 +31,9 @@ export class DrawingFiles {
     return join(this.#dir, `${id}.svg`);
   }
 
-  /** Writes a stream to disk as it comes in; throws `too-large` past the limit and leaves nothing behind. */
+  /**
+   * Writes a stream to disk as it arrives. Throws `too-large` past the limit, and then leaves no file behind.
+   */
   async add(chunks: AsyncIterable<Uint8Array> | Iterable<Uint8Array>): Promise<StoredDrawing> {
     const id = newId();
     const draft = join(this.#dir, `incoming-${id}`);
@@ -57,7 +59,7 @@ export class DrawingFiles {
     }
   }
 
-  /** The same for a JSON object with the drawing's text in it: gives back the rest of the object too. */
+  /** The same for a JSON object that contains the drawing's text; also returns the rest of the object. */
   async addFromJson(
     chunks: AsyncIterable<Uint8Array>,
   ): Promise<{ readonly drawing: StoredDrawing; readonly rest: unknown }> {
@@ -83,9 +85,9 @@ export class DrawingFiles {
   }
 
   /**
-   * Removes uploads that were cut off, and moves complete drawings that no job names out of the way; returns how many.
-   * They are not deleted: the database that should name them may have been damaged, or be an older copy. Drawings that
-   * are named again come back.
+   * Removes incomplete uploads and moves complete drawings that belong to no job to `unclaimedDir`; returns
+   * how many were moved. They are not deleted, because the database that should refer to them may be damaged
+   * or an older copy. Moved drawings that a job refers to again are moved back.
    */
   async sweep(isUsed: (id: string) => boolean): Promise<number> {
     let movedCount = 0;
@@ -111,11 +113,11 @@ const newId = (): string => randomBytes(16).toString("hex");
 function tooLarge(maxBytes: number): PlotwrightError {
   return new PlotwrightError(
     "too-large",
-    `The file is larger than ${Math.round(maxBytes / 1e6)} MB, the most this server takes. Simplify the drawing, or start the server with a larger --max-upload-mb.`,
+    `The file is larger than ${Math.round(maxBytes / 1e6)} MB, the limit of this server. Simplify the drawing, or start the server with a larger --max-upload-mb.`,
   );
 }
 
-/** A renamed file survives a power cut only when its folder is flushed too; not every system allows that. */
+/** A renamed file survives a power cut only if its folder is flushed too, which not every system supports. */
 async function syncFolder(dir: string): Promise<void> {
   try {
     const folder = await open(dir, "r");
@@ -125,6 +127,6 @@ async function syncFolder(dir: string): Promise<void> {
       await folder.close();
     }
   } catch {
-    // Windows opens no folders; there the rename itself is journaled.
+    // Windows can't open folders; its file system journals the rename itself.
   }
 }

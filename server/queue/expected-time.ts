@@ -1,27 +1,27 @@
 /**
- * How long a plot is likely to take: the plan's time times what this plotter's ended plots took in relation
- * to theirs. The plan knows motion to the step; what it leaves out (a slow servo, a busy computer, the board's
- * own pauses) is much the same from plot to plot on one machine.
+ * How long a plot is likely to take: the planned time multiplied by the ratio of real to planned time of this
+ * plotter's finished plots. The plan covers all motion exactly; what it leaves out (a slow servo, a busy
+ * computer, pauses of the board) varies little between plots on one machine.
  *
- * The middle one of the ratios, so that one odd plot counts for nothing. Ratios beyond 0.5 … 2 are of another
- * kind (a virtual board run faster than time, speeds changed on the way) and are left out.
+ * The median ratio is used, so a single unusual plot has no effect. Ratios outside 0.5 … 2 have other causes
+ * (a virtual board that runs faster than real time, speeds changed while plotting) and are ignored.
  */
 import type { Job } from "../../src/schema/index.js";
 
-const MOST_PLOTS = 20;
-const LEAST_S = 5;
-const LEAST_RATIO = 0.5;
-const MOST_RATIO = 2;
+const MAX_PLOTS = 20;
+const MIN_S = 5;
+const MIN_RATIO = 0.5;
+const MAX_RATIO = 2;
 
-/** Real seconds for one planned second; 1 without history. `jobs`: newest history first. */
+/** Real seconds per planned second; 1 without history. `jobs` must have the newest history first. */
 export function timeRatio(jobs: readonly Job[], plotterId: string): number {
   const ratios: number[] = [];
-  for (const { state, plotterId: on, plottedS, stats, speedPct } of jobs) {
-    if (on !== plotterId || state !== "done" || plottedS === null || stats === null) continue;
-    if (speedPct !== 100 || stats.durationS < LEAST_S) continue;
+  for (const { state, plotterId: jobPlotterId, plottedS, stats, speedPct } of jobs) {
+    if (jobPlotterId !== plotterId || state !== "done" || plottedS === null || stats === null) continue;
+    if (speedPct !== 100 || stats.durationS < MIN_S) continue;
     const ratio = plottedS / stats.durationS;
-    if (ratio >= LEAST_RATIO && ratio <= MOST_RATIO) ratios.push(ratio);
-    if (ratios.length === MOST_PLOTS) break;
+    if (ratio >= MIN_RATIO && ratio <= MAX_RATIO) ratios.push(ratio);
+    if (ratios.length === MAX_PLOTS) break;
   }
   if (ratios.length === 0) return 1;
   ratios.sort((a, b) => a - b);

@@ -1,14 +1,14 @@
 /**
- * What may happen to a job, as one pure function: (job, event) -> job, or a `conflict`.
+ * The state machine of a job, as one pure function: (job, event) -> job; throws `conflict`.
  *
  *   queued ──start──> plotting ──finish──> done
- *                       │  ^ └──fail──> failed ──requeue──> queued (so from done, cancelled, interrupted)
+ *                       │  ^ └──fail──> failed ──requeue──> queued (also from done, cancelled, interrupted)
  *                  hold v  │ release
- *                      paused ──cancel──> cancelled      (cancel works in every state that is no end)
+ *                      paused ──cancel──> cancelled      (cancel works in every state that is not an end)
  *
- *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves before it is resumed
+ *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves until it is resumed
  *
- * Nothing here knows of disks, boards or sockets; the queue applies, stores and announces.
+ * This file knows nothing of disks, boards or sockets; the queue applies, stores and announces the result.
  */
 import { PlotwrightError } from "../../src/index.js";
 import type { Job, JobPlace, JobState } from "../../src/schema/index.js";
@@ -24,7 +24,7 @@ export type JobEvent =
   | { readonly type: "cancel" }
   | { readonly type: "requeue" };
 
-/** From which states each event may come, and to which it leads. */
+/** The states in which each event is allowed, and the state it leads to. */
 export const TRANSITIONS: Readonly<
   Record<JobEvent["type"], { readonly from: readonly JobState[]; readonly to: JobState }>
 > = {
@@ -39,7 +39,9 @@ export const TRANSITIONS: Readonly<
   requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued" },
 };
 
-/** The job after the event, at the given time (ISO 8601); throws `conflict` when it can't happen now. */
+/**
+ * The job after the event, at the given time (ISO 8601); throws `conflict` if the event is not allowed now.
+ */
 export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
   const { from, to } = TRANSITIONS[event.type];
   if (!from.includes(job.state)) throw cannot(job, event.type);
@@ -83,7 +85,7 @@ const VERBS: Readonly<Record<JobEvent["type"], string>> = {
   finish: "finished",
   fail: "failed",
   interrupt: "interrupted",
-  recover: "taken up again",
+  recover: "continued",
   cancel: "cancelled",
   requeue: "queued again",
 };

@@ -1,4 +1,4 @@
-/** The queue: what may be done with jobs, whichever plotter they are for. Every change is on disk before it is announced. */
+/** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
 import { firmwareLimitsMotion, PlotwrightError } from "../../src/index.js";
 import {
   ENDED_STATES,
@@ -9,9 +9,9 @@ import {
   type MovePlace,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import type { Asker } from "../planning/lane.js";
+import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
-import { JobBook } from "./job-book.js";
+import { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
 import { PlotRuns, plotterOf } from "./plot-runs.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
@@ -19,32 +19,32 @@ import { queuedJob } from "./queued-job.js";
 
 export class JobQueue {
   readonly #parts: QueueParts;
-  readonly #book: JobBook;
+  readonly #jobs: JobList;
   readonly #runs: PlotRuns;
-  /** By job, while it is asked whether it may begin. */
+  /** Starts in progress, by job id. */
   readonly #beginning = new Map<string, Promise<Job | string>>();
 
-  /** Loads what is on disk; a job that was plotting when the server ended becomes interrupted. */
+  /** Loads the stored jobs; a job that was plotting when the server ended becomes interrupted. */
   constructor(parts: QueueParts) {
     this.#parts = parts;
-    this.#book = new JobBook(parts);
-    this.#runs = new PlotRuns(parts, this.#book, (job) => this.#done(job));
+    this.#jobs = new JobList(parts);
+    this.#runs = new PlotRuns(parts, this.#jobs, (job) => this.#done(job));
   }
 
   /** Queue order first, then history, newest first. */
   list(): Job[] {
-    return this.#book.list();
+    return this.#jobs.list();
   }
 
   /** Throws `not-found`. */
   get(id: string): Job {
-    return this.#book.get(id);
+    return this.#jobs.get(id);
   }
 
-  /** Of one plotter, the first unless told. */
+  /** The settings of one plotter; default: the first one. */
   settings(plotterId = this.#firstPlotter()): QueueSettings {
-    const kept = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
-    return kept.success ? kept.data : { runOn: false };
+    const stored = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
+    return stored.success ? stored.data : { runOn: false };
   }
 
   allSettings(): Record<string, QueueSettings> {
@@ -59,48 +59,53 @@ export class JobQueue {
     return settings;
   }
 
-  /** A queued copy, with the same drawing and settings: behind a queued job, else last. */
+  /** Adds a queued copy with the same drawing and settings: directly after a queued job, otherwise last. */
   duplicate(id: string): Job {
     const job = this.get(id);
-    const waiting = this.#book.order().filter((one) => this.get(one).state === "queued");
+    const waiting = this.#jobs.order().filter((one) => this.get(one).state === "queued");
     const behind = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
     const copy = this.#fresh({ ...job, plotterId: this.#presentPlotter(job) });
-    return this.#book.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId: behind });
+    return this.#jobs.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId: behind });
   }
 
-  /** Plans the drawing to know it can be plotted, then appends it. Throws what planning throws, and
-   *  then the drawing is gone. */
-  async add(wanted: NewQueueJob, asker: Asker = {}): Promise<Job> {
+  /**
+   * Plans the drawing to check that it can be plotted, then appends it. If planning throws, the drawing is
+   * removed.
+   */
+  async add(wanted: NewQueueJob, requester: Requester = {}): Promise<Job> {
     try {
-      return await this.#add(wanted, asker);
+      return await this.#add(wanted, requester);
     } catch (error) {
       await this.#parts.files.remove(wanted.drawing.id);
       throw error;
     }
   }
 
-  async #add(wanted: NewQueueJob, asker: Asker): Promise<Job> {
+  async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const firmware = this.#firmwareOf(plotterId);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, asker);
-    // It may have been removed meanwhile.
+    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
+    // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
-    return this.#book.insert(
+    return this.#jobs.insert(
       this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] }),
       drawing,
       { watched, sharedId },
     );
   }
 
-  /** A name at any time; settings and plotter only while queued, and only such settings that can be planned. */
-  async patch(id: string, patch: JobPatch, asker: Asker = {}): Promise<Job> {
+  /**
+   * The name can change at any time; settings and plotter only while queued. Throws if the settings can't be
+   * planned.
+   */
+  async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
-    if (plotterId !== undefined) this.#book.mustBeQueued(id, "Its plotter");
-    if (settings !== undefined) this.#book.mustBeQueued(id, "Its settings");
+    if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
+    if (settings !== undefined) this.#jobs.mustBeQueued(id, "Its settings");
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
-    const planned = await this.#measuredAnew(id, patch, asker);
-    // It may have been removed meanwhile.
+    const planned = await this.#remeasured(id, patch, requester);
+    // The plotter may have been removed meanwhile.
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
     const job = {
       ...this.get(id),
@@ -108,43 +113,47 @@ export class JobQueue {
       ...(name === undefined ? {} : { name }),
       ...(plotterId === undefined ? {} : { plotterId }),
     };
-    return this.#book.save(job.state === "queued" ? { ...job, expectedS: this.#expectedS(job) } : job);
+    return this.#jobs.save(job.state === "queued" ? { ...job, expectedS: this.#expectedS(job) } : job);
   }
 
-  /** What a change of settings or of the board changes in a job's figures. */
-  async #measuredAnew(id: string, { settings, plotterId }: JobPatch, asker: Asker): Promise<Partial<Job>> {
+  /** The figures of a job after a change of its settings or plotter; empty when they stay the same. */
+  async #remeasured(
+    id: string,
+    { settings, plotterId }: JobPatch,
+    requester: Requester,
+  ): Promise<Partial<Job>> {
     const job = this.get(id);
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId);
-    const movesOtherwise =
+    const motionDiffers =
       firmwareLimitsMotion(firmware) !== firmwareLimitsMotion(this.#firmwareOf(job.plotterId));
-    if (settings === undefined && !movesOtherwise) return {};
+    if (settings === undefined && !motionDiffers) return {};
     const wanted = settings ?? job.settings;
     const drawing = this.#parts.store.drawingOf(id);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, asker);
-    this.#book.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
+    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
+    this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
-  /** Null while its board is not known. */
+  /** Null while the board is unknown. */
   #firmwareOf(plotterId: string): string | null {
     return this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null;
   }
 
   move(id: string, beforeId: string | null): void {
-    this.#book.mustBeQueued(id, "Its place");
+    this.#jobs.mustBeQueued(id, "Its place");
     this.#parts.store.moveJob(id, beforeId);
-    this.#book.announceOrder();
+    this.#jobs.announceOrder();
   }
 
-  /** An ended job goes to the end of the queue again, with the same settings. */
+  /** Puts an ended job at the end of the queue again, with the same settings. */
   requeue(id: string): Job {
     const job = this.get(id);
     const { stats } = job;
     const plotterId = this.#presentPlotter(job);
-    // Refuses first: a job of the queue must not lose its place.
+    // Check first: a job that is already queued must not lose its place in the queue.
     applyJobEvent(job, { type: "requeue" }, this.#parts.nowIso());
     this.#parts.store.moveJob(id, null);
-    return this.#book.apply(
+    return this.#jobs.apply(
       id,
       { type: "requeue" },
       {
@@ -160,7 +169,7 @@ export class JobQueue {
     if (job.state === "plotting" || job.state === "paused") {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
     }
-    const unused = this.#book.remove(id);
+    const unused = this.#jobs.remove(id);
     if (unused !== null) await this.#parts.files.remove(unused);
   }
 
@@ -170,14 +179,14 @@ export class JobQueue {
     return this.#parts.files.path(this.#parts.store.drawingOf(id));
   }
 
-  /** Whether it is on a plotter now; false for one that there is not. */
+  /** Whether the job is on a plotter now; false for an unknown id. */
   isRunning(id: string): boolean {
-    if (!this.#book.has(id)) return false;
+    if (!this.#jobs.has(id)) return false;
     const { state } = this.get(id);
     return state === "plotting" || state === "paused";
   }
 
-  /** Jobs of a plotter that are not history. */
+  /** Number of a plotter's jobs that have not ended. */
   liveJobCount(plotterId: string): number {
     return this.list().filter((job) => job.plotterId === plotterId && !ENDED_STATES.includes(job.state))
       .length;
@@ -188,8 +197,9 @@ export class JobQueue {
   }
 
   /**
-   * A job that servers share begins only once it is certain that no other one has it. Rejects with `busy` while its
-   * plotter plots another job, with `conflict` for what another server has or may have.
+   * A job of the shared queue starts only once it is certain that no other server has it. Rejects with `busy`
+   * while its plotter is plotting another job, and with `conflict` when another server has or may have the
+   * job.
    */
   async start(id: string): Promise<Job> {
     const started = await this.#begin(id);
@@ -201,7 +211,10 @@ export class JobQueue {
     return this.#runs.recover(id);
   }
 
-  /** Resolves when it is known whether the board of a job's plotter is there, which takes a moment after a start. */
+  /**
+   * Resolves when it is known whether the job's plotter is connected, which takes a moment after the server
+   * starts.
+   */
   async plotterSettled(id: string): Promise<void> {
     await plotterOf(this.#parts, this.get(id).plotterId).settled();
   }
@@ -234,12 +247,12 @@ export class JobQueue {
     return this.#runs.cancel(id);
   }
 
-  /** Stops what is plotting (the pen lifts and goes home) and waits for it; the jobs are interrupted then. */
+  /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
   close(): Promise<void> {
     return this.#runs.close();
   }
 
-  /** The job, or why another server may have it. Asked for twice at once, it is the same start. */
+  /** Returns the job, or why it must not start here. Two calls at the same time share one start. */
   #begin(id: string): Promise<Job | string> {
     const running = this.#beginning.get(id);
     if (running !== undefined) return running;
@@ -257,7 +270,7 @@ export class JobQueue {
     try {
       return this.#runs.start(id);
     } catch (error) {
-      // Whatever came between: the plotter was taken, the job removed.
+      // During the claim the plotter may have become busy, or the job may have been removed.
       await claims.release(id);
       throw error;
     }
@@ -265,13 +278,13 @@ export class JobQueue {
 
   #done(job: Job): void {
     const { plotterId } = job;
-    this.#book.expectAnew(plotterId, timeRatio(this.list(), plotterId));
+    this.#jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
     if (this.settings(plotterId).runOn && !this.#runs.isClosing) void this.#startNext(plotterId);
   }
 
   /**
-   * The next job of that plotter, when the operator lets the queue run on. What another server may have is left, and
-   * the one behind it begins.
+   * Starts the next queued job of a plotter whose queue runs on by itself. A job that another server may have
+   * is skipped, and the one after it starts.
    */
   async #startNext(plotterId: string): Promise<void> {
     const waiting = this.list().filter((job) => job.plotterId === plotterId && job.state === "queued");
@@ -287,9 +300,9 @@ export class JobQueue {
     }
   }
 
-  /** Of a job that may be gone by now, as may the disk. */
+  /** Does nothing if the job was removed meanwhile or the server is closing. */
   #note(id: string, message: string): void {
-    if (!this.#runs.isClosing && this.#book.has(id)) this.#book.note(id, message);
+    if (!this.#runs.isClosing && this.#jobs.has(id)) this.#jobs.note(id, message);
   }
 
   #fresh(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
@@ -300,7 +313,7 @@ export class JobQueue {
     return expectedS(stats, timeRatio(this.list(), plotterId));
   }
 
-  /** History may be of a plotter that is no more. */
+  /** The job's plotter, or the first one if that plotter was removed. */
   #presentPlotter({ plotterId }: Job): string {
     return this.#parts.plotters.has(plotterId) ? plotterId : this.#firstPlotter();
   }

@@ -1,4 +1,6 @@
-/** The database's shape, one step per version; `PRAGMA user_version` says how many have been taken. */
+/**
+ * The database schema, one migration per version; `PRAGMA user_version` is the number of migrations applied.
+ */
 import type { Database } from "node-sqlite3-wasm";
 import { PlotwrightError } from "../../src/index.js";
 
@@ -10,7 +12,7 @@ const MIGRATIONS: readonly string[] = [
    CREATE TABLE jobs (
      id         TEXT PRIMARY KEY,
      plotter_id TEXT NOT NULL,
-     position   INTEGER NOT NULL,     -- order of what is not ended; of no meaning for history
+     position   INTEGER NOT NULL,     -- order of jobs that have not ended; meaningless for history
      state      TEXT NOT NULL,
      drawing    TEXT NOT NULL REFERENCES drawings (id),
      name       TEXT NOT NULL,
@@ -34,7 +36,7 @@ const MIGRATIONS: readonly string[] = [
    ALTER TABLE jobs ADD COLUMN speed_pct REAL NOT NULL DEFAULT 100;
    CREATE TABLE journal (
      job_id     TEXT PRIMARY KEY REFERENCES jobs (id) ON DELETE CASCADE,
-     entry      TEXT NOT NULL         -- JSON: how far the pen has come
+     entry      TEXT NOT NULL         -- JSON: how far the pen has got
    );`,
   `ALTER TABLE jobs ADD COLUMN plotted_s REAL;`,
   `ALTER TABLE jobs ADD COLUMN expected_s REAL;
@@ -42,7 +44,7 @@ const MIGRATIONS: readonly string[] = [
    CREATE TABLE plotters (
      id         TEXT PRIMARY KEY,
      position   INTEGER NOT NULL,
-     name       TEXT,                 -- null: named after what it is
+     name       TEXT,                 -- null: the name is derived from the device
      device     TEXT NOT NULL,
      machine    TEXT
    );`,
@@ -65,15 +67,15 @@ const MIGRATIONS: readonly string[] = [
      try_count  INTEGER NOT NULL,
      next_at_ms INTEGER NOT NULL
    );
-   CREATE TABLE watched (             -- files of the watched folder that have been seen to
+   CREATE TABLE watched (             -- files of the watched folder that have been handled
      name       TEXT NOT NULL,
      sha256     TEXT NOT NULL,
      PRIMARY KEY (name, sha256)
    );`,
-  `CREATE TABLE shared (               -- jobs of the shared queue that have come in
+  `CREATE TABLE shared (               -- jobs taken from the shared queue
      id         TEXT PRIMARY KEY
    );`,
-  `-- job_id: null for those from before it was kept. is_told: the others know that it has begun.
+  `-- job_id: null in rows older than this column. is_told: the other servers know that it has begun.
    ALTER TABLE shared ADD COLUMN job_id TEXT;
    ALTER TABLE shared ADD COLUMN is_told INTEGER NOT NULL DEFAULT 0;`,
 ];
@@ -84,7 +86,7 @@ export function migrate(db: Database, path: string): void {
   if (version > MIGRATIONS.length) {
     throw new PlotwrightError(
       "bad-setting",
-      `The database ${path} was made by a newer plotwright (version ${version}, this one knows ${MIGRATIONS.length}). Update plotwright, or choose another folder with --data.`,
+      `The database ${path} was made by a newer plotwright (version ${version}; this one supports up to ${MIGRATIONS.length}). Update plotwright, or choose another folder with --data.`,
     );
   }
   for (let step = version; step < MIGRATIONS.length; step++) {

@@ -1,4 +1,4 @@
-/** What went wrong with nobody asking, kept until somebody has read it. */
+/** Problems that no request could report, stored until a user dismisses them. */
 import { randomUUID } from "node:crypto";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
@@ -12,7 +12,7 @@ export interface NoticeParts {
 }
 
 const SETTING = "notices";
-const MOST = 50;
+const MAX_NOTICES = 50;
 
 export class Notices {
   readonly #parts: NoticeParts;
@@ -20,8 +20,8 @@ export class Notices {
 
   constructor(parts: NoticeParts) {
     this.#parts = parts;
-    const kept = z.array(noticeSchema).safeParse(parts.store.setting(SETTING));
-    this.#list = kept.success ? kept.data : [];
+    const stored = z.array(noticeSchema).safeParse(parts.store.setting(SETTING));
+    this.#list = stored.success ? stored.data : [];
   }
 
   /** Oldest first. */
@@ -31,11 +31,11 @@ export class Notices {
 
   add(message: string): void {
     const notice = { id: randomUUID(), at: this.#parts.nowIso(), message };
-    const list = [...this.#list, notice].slice(-MOST);
+    const list = [...this.#list, notice].slice(-MAX_NOTICES);
     try {
       this.#save(list);
     } catch {
-      // On a full disk it is still shown, until the server ends.
+      // On a full disk the notice is still shown, until the server ends.
       this.#list = list;
     }
     this.#parts.announce({ type: "notice", notice });

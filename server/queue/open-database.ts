@@ -1,9 +1,9 @@
 /**
  * Opens the server's database and checks it.
  *
- * After each good check a copy is kept beside it. When the database is damaged or empty, that copy takes its place, and
- * the damaged file is kept under another name. Without a good copy the server does not start: an empty queue in place
- * of the user's jobs would be a loss that nobody is told of.
+ * After each successful check it is copied to a backup file beside it. When the database is damaged or empty,
+ * the backup replaces it and the damaged file is kept under another name. Without a good backup the server
+ * does not start: an empty queue would silently lose the user's jobs.
  */
 import {
   closeSync,
@@ -23,21 +23,21 @@ import { migrate } from "./migrations.js";
 
 export interface OpenedDatabase {
   readonly db: Database;
-  /** What was put right, for the user; null when nothing had to be. */
+  /** What was repaired, as a message for the user; null when nothing was. */
   readonly repair: string | null;
-  /** Why there is no copy of the database as it is now; null when there is one. */
+  /** Why the current database could not be backed up; null when it was. */
   readonly copyFault: string | null;
 }
 
-/** Faults of the disk or its rights: the database itself may be as it should, so it is not replaced. */
+/** Errors of the disk or its permissions. The database itself may be intact, so it is not replaced. */
 const NOT_DAMAGE = /unable to open|readonly|disk I\/O|is full|is locked/;
 
 const pathOf = (dataDir: string): string => join(dataDir, "plotwright.db");
 const copyOf = (dataDir: string): string => `${pathOf(dataDir)}.backup`;
 
 /**
- * `read` reads whatever the server will need and throws when it can't. Throws `bad-setting` with what to do when the
- * database can't be used.
+ * `read` reads everything the server will need and throws if it can't. Throws `bad-setting`, with what to do,
+ * when the database can't be used.
  */
 export function openDatabase(dataDir: string, read: (db: Database) => void): OpenedDatabase {
   const isFirst = isEmpty(pathOf(dataDir)) && !existsSync(copyOf(dataDir));
@@ -55,7 +55,7 @@ export function openDatabase(dataDir: string, read: (db: Database) => void): Ope
   }
 }
 
-/** Puts the copy in place of the database. */
+/** Replaces the database with its backup. */
 function restored(dataDir: string, read: (db: Database) => void, damage: Error): OpenedDatabase {
   const [path, copy] = [pathOf(dataDir), copyOf(dataDir)];
   if (!existsSync(copy)) throw cannotRepair(dataDir, damage, "there is no copy of it");
@@ -64,10 +64,10 @@ function restored(dataDir: string, read: (db: Database) => void, damage: Error):
   try {
     copyWhole(copy, path);
     const db = openChecked(dataDir, read);
-    const repair = `The database ${path} could not be used: ${damage.message}. The copy from ${copiedAt} has taken its place. Look through the queue before you plot: what was added or plotted after that time is not in it. Drawings of jobs that are missing are in ${join(dataDir, "unclaimed-drawings")}.`;
+    const repair = `The database ${path} could not be used: ${damage.message}. It was replaced with the copy from ${copiedAt}. Check the queue before you plot: anything added or plotted after that time is missing. The drawings of missing jobs are in ${join(dataDir, "unclaimed-drawings")}.`;
     return withCopy(dataDir, db, kept === null ? repair : `${repair} The damaged file is kept as ${kept}.`);
   } catch (error) {
-    // As it was found: the user is to see the damaged file where it was.
+    // Restore the original state: the user should find the damaged file where it was.
     removeDatabase(dataDir);
     if (kept !== null) renameAll(kept, path);
     if (error instanceof PlotwrightError) throw error;
@@ -77,11 +77,12 @@ function restored(dataDir: string, read: (db: Database) => void, damage: Error):
 
 function openChecked(dataDir: string, read: (db: Database) => void): Database {
   const path = pathOf(dataDir);
-  // A killed server leaves SQLite's lock behind; the data folder's own lock says that no other server runs.
+  // A killed server leaves SQLite's lock behind. The lock of the data folder already ensures that no other
+  // server runs.
   rmSync(`${path}.lock`, { recursive: true, force: true });
   const db = new sqlite.Database(path);
   try {
-    // No other process may open it, so WAL needs no shared memory (which this build does not have).
+    // With exclusive locking WAL needs no shared memory, which this build of SQLite does not have.
     db.exec("PRAGMA locking_mode = EXCLUSIVE");
     db.exec("PRAGMA journal_mode = WAL");
     db.exec("PRAGMA synchronous = FULL");
@@ -95,13 +96,16 @@ function openChecked(dataDir: string, read: (db: Database) => void): Database {
   }
 }
 
-/** integrity_check also compares tables with their indexes, which quick_check does not; the database is small. */
+/**
+ * integrity_check also compares tables with their indexes, unlike quick_check; the database is small enough
+ * for it.
+ */
 function mustBeWhole(db: Database): void {
   const [first] = db.all("PRAGMA integrity_check(1)");
   const result = String(first?.["integrity_check"]);
   if (result !== "ok") throw new Error(`it is damaged (${result.replaceAll(/\s+/g, " ")})`);
   if (db.get("PRAGMA foreign_key_check") !== null) {
-    throw new Error("it is damaged (a row refers to one that is not there)");
+    throw new Error("it is damaged (a row refers to a missing row)");
   }
 }
 
@@ -110,14 +114,14 @@ function mustBeReadable(db: Database, read: (db: Database) => void): void {
     read(db);
   } catch (cause) {
     const [reason = ""] = cause instanceof Error ? cause.message.split("\n") : [];
-    throw new Error(`it holds what can't be read (${reason.slice(0, 120)})`, { cause });
+    throw new Error(`some of its content can't be read (${reason.slice(0, 120)})`, { cause });
   }
 }
 
-/** Not being able to copy must not keep the server from starting: the last copy stays then. */
+/** Makes the backup. If that fails the server still starts, and the previous backup stays. */
 function withCopy(dataDir: string, db: Database, repair: string | null): OpenedDatabase {
   try {
-    // All of it in the one file that is copied.
+    // Move the write-ahead log into the database file, since only that file is copied.
     db.exec("PRAGMA wal_checkpoint(TRUNCATE)");
     copyWhole(pathOf(dataDir), copyOf(dataDir));
     return { db, repair, copyFault: null };
@@ -126,7 +130,7 @@ function withCopy(dataDir: string, db: Database, repair: string | null): OpenedD
   }
 }
 
-/** On disk completely before it has its name. */
+/** The copy is completely on disk before it gets its name. */
 function copyWhole(from: string, to: string): void {
   const draft = `${to}.draft`;
   try {
@@ -146,10 +150,10 @@ function copyWhole(from: string, to: string): void {
 
 const isEmpty = (path: string): boolean => !existsSync(path) || statSync(path).size === 0;
 
-/** The database and its write-ahead log, which belong together. */
+/** Suffixes of the database and its write-ahead log, which belong together. */
 const PARTS = ["", "-wal"] as const;
 
-/** Keeps what is there under another name; returns that name, or null when nothing was there. */
+/** Renames the existing database and returns the new name; null when there is none or it is empty. */
 function setAside(dataDir: string): string | null {
   const path = pathOf(dataDir);
   const stamp = new Date().toISOString().replaceAll(/[:.]/g, "-");
@@ -173,7 +177,7 @@ function removeDatabase(dataDir: string): void {
 function cannotOpen(dataDir: string, cause: unknown): PlotwrightError {
   return new PlotwrightError(
     "bad-setting",
-    `The database ${pathOf(dataDir)} can't be opened (${(cause as Error).message}). See to the disk and the rights to that folder, or choose another folder with --data.`,
+    `The database ${pathOf(dataDir)} can't be opened (${(cause as Error).message}). Check the disk and the permissions of that folder, or choose another folder with --data.`,
     { cause },
   );
 }
@@ -181,7 +185,7 @@ function cannotOpen(dataDir: string, cause: unknown): PlotwrightError {
 function cannotRepair(dataDir: string, damage: Error, why: string): PlotwrightError {
   return new PlotwrightError(
     "bad-setting",
-    `The database ${pathOf(dataDir)} can't be opened (${damage.message}), and ${why}. Nothing was changed: your drawings are in ${join(dataDir, "drawings")}. Put a good copy of the database in its place; or move it and ${copyOf(dataDir)} elsewhere to begin with an empty queue, and add the drawings again; or choose another folder with --data.`,
+    `The database ${pathOf(dataDir)} can't be opened (${damage.message}), and ${why}. Nothing was changed: your drawings are in ${join(dataDir, "drawings")}. Replace the database with a good copy; or move it and ${copyOf(dataDir)} elsewhere to start with an empty queue, and add the drawings again; or choose another folder with --data.`,
     { cause: damage },
   );
 }

@@ -1,6 +1,6 @@
 /**
- * What is being plotted: one run for each plotter, side by side. Carries what the runs report into the jobs,
- * and what is asked of a job that is on a plotter to its run.
+ * The plots that are running, at most one per plotter. Applies the reports of the runs to their jobs, and
+ * passes requests for a running job to its run.
  */
 import { z } from "zod";
 import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
@@ -14,17 +14,20 @@ import {
 } from "../../src/schema/index.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
 import { isDiskFault } from "./disk-fault.js";
-import type { JobBook } from "./job-book.js";
+import type { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "./plotter-port.js";
 import type { QueueParts } from "./queue-parts.js";
-import { MovingTimer } from "./queued-job.js";
+import { MotionTimer } from "./queued-job.js";
 import { Runner, type RunEnd } from "./runner.js";
 
 export const SERVER_STOPPED =
-  "The server stopped while this was plotting. Check pen and paper, then go on from where it was.";
+  "The server stopped while this was plotting. Check pen and paper, then continue from where it was.";
 
-/** The board's faults, after which a plot can go on from where it was; others would only come again. */
+/**
+ * Errors of the board, after which a plot can continue from where it was. Other errors would only occur
+ * again.
+ */
 const INTERRUPTIONS: readonly ErrorCode[] = [
   "no-board",
   "disconnected",
@@ -37,24 +40,27 @@ const INTERRUPTIONS: readonly ErrorCode[] = [
 interface Running {
   readonly jobId: string;
   readonly runner: Runner;
-  readonly timer: MovingTimer;
+  readonly timer: MotionTimer;
 }
 
 export class PlotRuns {
   readonly #parts: QueueParts;
-  readonly #book: JobBook;
+  readonly #jobs: JobList;
   readonly #done: (job: Job) => void;
-  /** By plotter. */
+  /** By plotter id. */
   readonly #running = new Map<string, Running>();
   #closing = false;
   #lastTrouble: string | null = null;
 
-  /** A job that was plotting when the server ended becomes interrupted. `done` hears of each plot that ended well. */
-  constructor(parts: QueueParts, book: JobBook, done: (job: Job) => void) {
+  /**
+   * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
+   * plot.
+   */
+  constructor(parts: QueueParts, jobs: JobList, done: (job: Job) => void) {
     this.#parts = parts;
-    this.#book = book;
+    this.#jobs = jobs;
     this.#done = done;
-    for (const { id, state } of book.list()) {
+    for (const { id, state } of jobs.list()) {
       if (state === "plotting" || state === "paused") this.#interrupt(id, SERVER_STOPPED);
     }
   }
@@ -67,88 +73,88 @@ export class PlotRuns {
     return this.#closing;
   }
 
-  /** Throws what `start` would. */
+  /** Throws the errors that `start` would throw. */
   mustBeStartable(id: string): void {
     this.#freePlotter(id);
-    applyJobEvent(this.#book.get(id), { type: "start" }, this.#parts.nowIso());
+    applyJobEvent(this.#jobs.get(id), { type: "start" }, this.#parts.nowIso());
   }
 
-  /** Throws `busy` while its plotter plots another job. */
+  /** Throws `busy` while the job's plotter is plotting another job. */
   start(id: string): Job {
     const plotter = this.#freePlotter(id);
-    // Of an earlier plot, which was interrupted and queued again.
+    // The journal of an earlier plot of this job, which was interrupted and queued again.
     this.#parts.store.clearJournal(id);
-    const started = this.#book.apply(id, { type: "start" });
+    const started = this.#jobs.apply(id, { type: "start" });
     this.#begin(plotter, started);
     return started;
   }
 
-  /** Takes an interrupted job up at its place, held: nothing moves until it is resumed. */
+  /** Starts an interrupted job at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
     const plotter = this.#freePlotter(id);
-    const { place: from } = this.#book.get(id);
-    const job = this.#book.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
+    const { place: from } = this.#jobs.get(id);
+    const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
     this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
-      ? "The board has lost its place: push the carriage to home by hand before you go on. The line may overlap a little there."
-      : "The board still knows its place. Check it with the pen up, then go on.";
-    return this.#book.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
+      ? "The board has lost its position: push the carriage to home by hand before you resume. The line may overlap a little where it continues."
+      : "The board still knows its position. Check it with the pen up, then resume.";
+    return this.#jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }
 
-  /** Heights and speeds while it plots or is held. */
+  /** Changes pen heights and speeds of a job that is plotting or held. */
   async change(id: string, change: JobChange): Promise<Job> {
     await this.#runnerOf(id, ["plotting", "paused"], "changed").change(change);
-    const job = this.#book.get(id);
+    const job = this.#jobs.get(id);
     const { pen = job.settings.pen, motion = job.settings.motion, speedPct = job.speedPct } = change;
-    return this.#book.save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
+    return this.#jobs.save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
   }
 
-  /** Stops without slowing down; the job is held then. */
+  /** Stops without slowing down; afterwards the job is held. */
   async emergencyStop(id: string): Promise<Job> {
     await this.#runnerOf(id, ["plotting", "paused"], "stopped").live.emergencyStop();
-    return this.#book.get(id);
+    return this.#jobs.get(id);
   }
 
-  /** Moves the place from which a held job goes on. */
+  /** Moves the place from which a held job will resume. */
   movePlace(id: string, by: MovePlace): Job {
     const place = this.#runnerOf(id, ["paused"], "moved along").live.moveHoldPlace(by);
-    return this.#book.save({ ...this.#book.get(id), place: jobPlace(place) });
+    return this.#jobs.save({ ...this.#jobs.get(id), place: jobPlace(place) });
   }
 
-  /** Walks to the place of a held job with the pen up. */
+  /** Travels to the place of a held job with the pen up. */
   async checkPlace(id: string): Promise<Job> {
     await this.#runnerOf(id, ["paused"], "checked").live.checkHoldPlace();
-    return this.#book.get(id);
+    return this.#jobs.get(id);
   }
 
   pause(id: string): Job {
     this.#runnerOf(id, ["plotting"], "paused").pause();
-    return this.#book.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
+    return this.#jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
   }
 
   resume(id: string): Job {
     this.#runnerOf(id, ["paused"], "resumed").resume();
-    return this.#book.note(id, "Going on.");
+    return this.#jobs.note(id, "Resuming.");
   }
 
   cancel(id: string): Job {
-    const running = this.#running.get(this.#book.get(id).plotterId);
-    if (running?.jobId !== id) return this.#book.apply(id, { type: "cancel" });
+    const running = this.#running.get(this.#jobs.get(id).plotterId);
+    if (running?.jobId !== id) return this.#jobs.apply(id, { type: "cancel" });
     running.runner.cancel();
-    return this.#book.note(id, "Cancelling: the pen lifts and goes home.");
+    return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
   }
 
-  /** Stops what is plotting (the pen lifts and goes home) and waits for it; the jobs are interrupted then. */
+  /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
   async close(): Promise<void> {
     this.#closing = true;
     const running = [...this.#running.values()];
     for (const { runner } of running) runner.cancel();
     await Promise.all(running.map(({ runner }) => runner.finished));
-    this.#book.close();
+    this.#jobs.close();
   }
 
-  #begin(plotter: PlotterPort, job: Job): MovingTimer {
+  #begin(plotter: PlotterPort, job: Job): MotionTimer {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
@@ -166,39 +172,41 @@ export class PlotRuns {
         journal: (entry) => this.#safely(job.id, () => this.#saveJournal(job.id, entry)),
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
         held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
-        refused: (message) => this.#safely(job.id, () => void this.#book.note(job.id, message)),
+        refused: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
         ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
       },
     );
-    const timer = new MovingTimer(this.#parts.nowIso());
+    const timer = new MotionTimer(this.#parts.nowIso());
     this.#running.set(plotter.id, { jobId: job.id, runner, timer });
     return timer;
   }
 
-  /** With the progress at that place, which is in memory only and gone after a kill. */
+  /**
+   * Stores the progress with the place: otherwise it is only in memory and lost when the server is killed.
+   */
   #saveJournal(id: string, entry: JournalEntry): void {
-    const { progress, elapsedS, remainingS } = this.#book.get(id);
+    const { progress, elapsedS, remainingS } = this.#jobs.get(id);
     this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
 
-  /** A disk that is full must not stop the pen in mid-stroke, nor end the server: it may have room again soon. */
+  /** A full disk must neither stop the pen in mid-stroke nor end the server: it may soon have room again. */
   #safely(jobId: string, write: () => void): void {
     try {
       write();
       this.#lastTrouble = null;
     } catch (error) {
       const trouble = error instanceof Error ? error.message : String(error);
-      if (trouble !== this.#lastTrouble) this.#parts.log?.(`a plot can't be written down: ${trouble}`);
+      if (trouble !== this.#lastTrouble) this.#parts.log?.(`the state of a plot can't be stored: ${trouble}`);
       this.#lastTrouble = trouble;
-      if (isDiskFault(error)) this.#book.diskIsFull(jobId);
+      if (isDiskFault(error)) this.#jobs.diskIsFull(jobId);
     }
   }
 
   #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
     const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp } = progress;
-    // The way home of a cancelled plot is no progress of the drawing.
+    // The travel home of a cancelled plot is not progress of the drawing.
     if (this.#running.get(plotterId)?.runner.isCancelling !== true) {
-      this.#book.progressed(jobId, { progress: part, elapsedS, remainingS });
+      this.#jobs.progressed(jobId, { progress: part, elapsedS, remainingS });
     }
     this.#parts.announce({
       type: "progress",
@@ -214,23 +222,23 @@ export class PlotRuns {
     });
   }
 
-  /** A wait that came before (of an interrupted job) stands until it is answered. */
+  /** An earlier wait (of an interrupted job) remains until it is answered. */
   #held(id: string, held: boolean, wait: PlotWait | null): void {
-    const job = this.#book.get(id);
+    const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
     if (held && job.state === "plotting") {
       running?.timer.hold(this.#parts.nowIso());
       const waitsFor = wait ?? job.wait;
       const message = waitsFor === null ? null : penWords(waitsFor);
-      this.#book.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
+      this.#jobs.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
     } else if (held && job.state === "paused") {
-      // Taken up: only now the board has said where it came to.
+      // A recovered job: only now has the board reported where it stopped.
       const place = this.#holdPlace(running);
       const isNewWait = wait !== null && wait.layerName !== job.wait?.layerName;
-      this.#book.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
+      this.#jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.#parts.nowIso());
-      this.#book.apply(id, { type: "release" }, { place: null });
+      this.#jobs.apply(id, { type: "release" }, { place: null });
     }
   }
 
@@ -238,30 +246,33 @@ export class PlotRuns {
     const timer = this.#running.get(plotterId)?.timer;
     this.#running.delete(plotterId);
     const { store, nowIso } = this.#parts;
-    // What is on paper already must not be lost, whatever went wrong.
+    // A plot that is partly on paper must stay recoverable, whatever the error.
     if (end.kind === "failed" && (canGoOn(end.error) || store.journal(id) !== undefined)) {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
-      this.#book.apply(id, { type: "fail", message: end.error.message });
+      this.#jobs.apply(id, { type: "fail", message: end.error.message });
     } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, SERVER_STOPPED);
-    else if (end.kind === "cancelled") this.#book.apply(id, { type: "cancel" });
+    else if (end.kind === "cancelled") this.#jobs.apply(id, { type: "cancel" });
     else {
-      // A hold that was never released before the end needs its step between.
-      if (this.#book.get(id).state === "paused") this.#book.apply(id, { type: "release" });
-      this.#book.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
+      // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
+      if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
+      this.#jobs.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
     }
-    const job = this.#book.get(id);
-    this.#book.announceOrder();
+    const job = this.#jobs.get(id);
+    this.#jobs.announceOrder();
     if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
     if (job.state === "done") this.#done(job);
   }
 
-  /** The place is the journal's; without one nothing was drawn, and the job begins at the beginning. */
+  /**
+   * The place comes from the journal. Without a journal nothing was drawn, and the job starts at the
+   * beginning.
+   */
   #interrupt(id: string, message: string): void {
     const entry = this.#journal(id);
-    const { place } = this.#book.get(id);
+    const { place } = this.#jobs.get(id);
     const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id));
-    this.#book.apply(
+    this.#jobs.apply(
       id,
       { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place },
       progress.success ? progress.data : {},
@@ -278,7 +289,7 @@ export class PlotRuns {
   }
 
   #runnerOf(id: string, states: readonly Job["state"][], verb: string): Runner {
-    const job = this.#book.get(id);
+    const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
     if (running?.jobId !== id || !states.includes(job.state)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
@@ -286,15 +297,15 @@ export class PlotRuns {
     return running.runner;
   }
 
-  /** The job's plotter, when it is there and has no other job. */
+  /** The job's plotter; throws unless it is connected and has no other job. */
   #freePlotter(id: string): PlotterPort {
     if (this.#closing) throw new PlotwrightError("conflict", "The server is stopping.");
-    const plotter = plotterOf(this.#parts, this.#book.get(id).plotterId);
+    const plotter = plotterOf(this.#parts, this.#jobs.get(id).plotterId);
     const other = this.#running.get(plotter.id);
     if (other !== undefined && other.jobId !== id) {
       throw new PlotwrightError(
         "busy",
-        `"${this.#book.get(other.jobId).name}" is on the plotter. Wait for it to end, or cancel it.`,
+        `"${this.#jobs.get(other.jobId).name}" is being plotted. Wait until it ends, or cancel it.`,
       );
     }
     mustBeThere(plotter);
@@ -318,7 +329,7 @@ const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: strok
 const canGoOn = (error: Error): boolean =>
   error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
 
-/** What Store.journal gives back: written by this program, but perhaps by another version of it. */
+/** What Store.journal returns. It may have been written by another version of this program. */
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 const journalSchema = z.object({ place: placeSchema, sent: placeSchema.optional() });
 const journalProgressSchema = z.object({

@@ -1,4 +1,4 @@
-/** What the server needs of a plotter's driver; `server/plotter` is what stands behind it. */
+/** What the server needs of a plotter's driver, which is in `server/plotter`. */
 import type { CommandAnswer, Plotter, PlotSettings } from "../../src/schema/index.js";
 import type { HandMove } from "../plotter/hand-moves.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "../plotter/types.js";
@@ -6,25 +6,29 @@ import type { LivePlotRun, PlotPlanner, PlotStart } from "../plotter/types.js";
 export interface PlotterPort {
   readonly id: string;
   snapshot(): Plotter;
-  /** Resolves when it is known whether its board is there: at once, but while it is connecting. */
+  /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
   settled(): Promise<void>;
   onChange(listener: (plotter: Plotter) => void): void;
-  /** Begins a plot; throws `no-board`, `busy` or `board-error` when it can't. */
+  /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
   pen(up: boolean, heightPct?: number): Promise<void>;
   motorsOff(): Promise<void>;
-  /** A move by hand with the machine, speeds and heights of `settings`; left out: of the last job or move. */
+  /**
+   * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.
+   */
   move(move: HandMove, settings?: PlotSettings): Promise<void>;
-  /** One line to the board, with all that it answers. */
+  /** Sends one line to the board; returns the complete answer. */
   command(line: string): Promise<CommandAnswer>;
-  /** Commands and replies of the present connection. */
+  /** Commands and replies of the current connection. */
   log(): string;
   close(): Promise<void>;
 }
 
-/** A plotter that the server keeps under a name of the user's. */
+/** A plotter that is stored by the server and that the user can rename. */
 export interface ManagedPlotter extends PlotterPort {
   rename(name: string): void;
-  /** Another machine for moves by hand; null: the usual one. It stays connected, and home where it is. */
+  /**
+   * Sets the machine for manual moves; null: the default. The board stays connected and home stays the same.
+   */
   useMachine(machine: string | null): void;
 }

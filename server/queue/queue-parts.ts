@@ -1,26 +1,29 @@
-/** What the queue is made of, given in so that tests can lead each part. */
+/** The parts the queue depends on, injected so that tests can control each of them. */
 import type { Job, JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
-import type { Asker } from "../planning/lane.js";
+import type { Requester } from "../planning/lane.js";
 import type { PlotPlanner } from "../plotter/types.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 import type { PlotterPort } from "./plotter-port.js";
 import type { Store, WatchedFile } from "./store.js";
 
 export interface Planning {
-  /** firmware: of the board that is to plot it; null: not known. */
+  /** `firmware` of the board that will plot it; null: unknown. */
   measure(
     drawing: string,
     settings: PlotSettings,
     firmware: string | null,
-    asker?: Asker,
+    requester?: Requester,
   ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
   open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
 }
 
 export interface Claims {
-  /** Null: it is this server's, which is known to all from now on. Else why it must not begin; never rejects. */
+  /**
+   * Null: the job is now this server's, and all servers know it. Otherwise why it must not start. Never
+   * rejects.
+   */
   claim(jobId: string): Promise<string | null>;
-  /** It has not begun after all; never rejects. */
+  /** Gives up a claim on a job that did not start. Never rejects. */
   release(jobId: string): Promise<void>;
 }
 
@@ -28,17 +31,17 @@ export interface QueueParts {
   readonly store: Store;
   readonly files: DrawingFiles;
   readonly planning: Planning;
-  /** By id, the first one first; may gain and lose plotters while the queue runs. */
+  /** By id, in order; plotters may be added and removed while the queue runs. */
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
-  /** What can't be told otherwise, such as a disk that is full in mid-plot. */
+  /** Logs problems that can't be reported otherwise, such as a full disk during a plot. */
   readonly log?: ((line: string) => void) | undefined;
-  /** Writes what follows from a job's change, in the same transaction. */
+  /** Writes whatever else a job's change requires, in the same transaction. */
   readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
-  /** For jobs that servers share: makes sure that no other one plots it; absent where none is shared. */
+  /** With a shared queue: ensures that no other server plots the same job. */
   readonly claims?: Claims | undefined;
-  /** After the change has been announced. */
+  /** Called after the change has been announced. */
   readonly afterChange?: (() => void) | undefined;
 }
 
@@ -47,8 +50,8 @@ export interface NewQueueJob {
   readonly settings: PlotSettings;
   readonly drawing: StoredDrawing;
   readonly plotterId?: string | undefined;
-  /** Where it comes from: seen to as soon as the job is there. */
+  /** The watched file it comes from; marked as handled in the same transaction. */
   readonly watched?: WatchedFile | undefined;
-  /** Its id in the shared queue, kept in the same step. */
+  /** Its id in the shared queue; stored in the same transaction. */
   readonly sharedId?: string | undefined;
 }

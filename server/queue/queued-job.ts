@@ -1,8 +1,8 @@
-/** A job at the beginning of its life, and the watch that runs while it moves. */
+/** A new job, and the timer that measures how long it moves. */
 import { randomUUID } from "node:crypto";
 import type { Job } from "../../src/schema/index.js";
 
-/** A job as it is when it comes into the queue; of another job it takes drawing, plotter and settings. */
+/** A new queued job with a new id; plotter, name, settings and figures come from `from`. */
 export function queuedJob(
   from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">,
   nowIso: string,
@@ -30,8 +30,8 @@ export function queuedJob(
   };
 }
 
-/** Seconds that a plot has moved, holds left out. Times are ISO 8601, as in the job. */
-export class MovingTimer {
+/** Measures the seconds a plot has moved, without holds. Times are ISO 8601, as in the job. */
+export class MotionTimer {
   #since: number | null;
   #movedMs = 0;
 

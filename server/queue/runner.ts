@@ -1,6 +1,6 @@
 /**
- * One plotter's run: opens the job's planner, gives it to the driver, and reports what becomes of it.
- * It decides nothing about jobs; the queue does, from these reports.
+ * One plot on one plotter: opens the job's planner, passes it to the driver, and reports events and the
+ * outcome. It decides nothing about jobs; the queue does that, from these reports.
  */
 import { PlotwrightError, type Place } from "../../src/index.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
@@ -21,9 +21,9 @@ export type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Er
 export interface RunReports {
   progress(progress: PlotProgress): void;
   journal(entry: JournalEntry): void;
-  /** `wait`: what it holds for by itself. */
+  /** `wait`: what it waits for, if it was not held by the user. */
   held(held: boolean, wait: PlotWait | null): void;
-  /** A request (pause, resume) that could not be carried out; the plot itself goes on. */
+  /** A request (pause, resume) that could not be carried out; the plot itself continues. */
   refused(message: string): void;
   ended(end: RunEnd): void;
 }
@@ -32,11 +32,13 @@ export interface RunPlan {
   readonly plotter: PlotterPort;
   readonly settings: PlotSettings;
   readonly open: OpenPlanner;
-  /** Where to begin; null for the drawing's beginning. A run that begins in the middle begins held. */
+  /**
+   * Where to start; null: at the beginning of the drawing. A run that starts in the middle is held at first.
+   */
   readonly from: Place | null;
-  /** What the board had been given when that place was written down. */
+  /** How far the commands sent to the board reached when that place was stored. */
   readonly sent: Place | undefined;
-  /** Percent of the set speeds, as it was before an interruption. */
+  /** Percent of the speeds in the settings, as it was before an interruption. */
   readonly speedPct: number;
 }
 
@@ -71,7 +73,7 @@ export class Runner {
     if (this.#run !== null) this.#ask(this.#run.cancel());
   }
 
-  /** The plot under way, for what can be asked of it beyond that; throws `conflict` while it is planned. */
+  /** The running plot, for all other requests; throws `conflict` while it is still being planned. */
   get live(): LivePlotRun {
     if (this.#run !== null) return this.#run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
@@ -85,13 +87,15 @@ export class Runner {
     return this.#abort.signal.aborted;
   }
 
-  /** A run that begins in the middle is held before anyone could listen for it. */
+  /**
+   * A run that starts in the middle is held before anyone could listen for it, so the hold is reported here.
+   */
   async #hold(run: LivePlotRun): Promise<void> {
     await run.pause();
     if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
-  /** A run that is resumed before it was ever held reports nothing of it by itself. */
+  /** A run that is resumed before it was ever held does not report that itself, so it is reported here. */
   async #resume(run: LivePlotRun): Promise<void> {
     await run.resume();
     if (!this.#pauseWanted) this.#reports.held(false, null);
@@ -110,7 +114,8 @@ export class Runner {
 
   async #plot(): Promise<PlotOutcome> {
     const { plotter, settings, open, from, sent, speedPct } = this.#plan;
-    // What was broken off may have left the pen on the paper: it is taken up even to be cancelled, which lifts it.
+    // An interrupted plot may have left the pen on the paper. It is opened even to be cancelled, which lifts
+    // the pen.
     const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
@@ -118,7 +123,7 @@ export class Runner {
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));
-      // Wishes from the time when there was only a planner.
+      // Requests that came before the run existed.
       if (this.isCancelling) this.#ask(run.cancel());
       else if (this.#pauseWanted) this.#ask(this.#hold(run));
       else if (from !== null) this.#ask(this.#resume(run));

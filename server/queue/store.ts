@@ -1,6 +1,6 @@
 /**
  * Jobs, their order, history and settings in one SQLite database. Every method that changes something
- * returns only after the change is on disk (WAL with synchronous=FULL), so callers may announce it.
+ * returns only after the change is on disk (WAL with synchronous=FULL), so callers can then announce it.
  */
 import type { Database } from "node-sqlite3-wasm";
 import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
@@ -10,13 +10,13 @@ import { openDatabase, type OpenedDatabase } from "./open-database.js";
 import { WebhookStore } from "../webhooks/webhook-store.js";
 import type { StoredDrawing } from "./drawing-files.js";
 
-/** A file of the watched folder: the same name with other content is another one. */
+/** A file of the watched folder. The same name with different content is a different file. */
 export interface WatchedFile {
   readonly name: string;
   readonly sha256: string;
 }
 
-/** A plotter as it is kept; without a name it is called after what it is. */
+/** A plotter as stored; without a name, the name is derived from its device. */
 export interface PlotterRow {
   readonly id: string;
   readonly name: string | null;
@@ -35,7 +35,7 @@ const PLACES = COLUMNS.split(", ")
 const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
 
 export class Store {
-  /** What was put right when the database was opened, and why it has not been copied. */
+  /** What was repaired when the database was opened, and why it could not be backed up. */
   readonly opened: Pick<OpenedDatabase, "repair" | "copyFault">;
   readonly #db: Database;
   readonly #unlock: () => void;
@@ -46,7 +46,7 @@ export class Store {
     this.#unlock = unlock;
   }
 
-  /** Throws `conflict` when another server has the folder, `bad-setting` when the database can't be used. */
+  /** Throws `conflict` when another server uses the folder, `bad-setting` when the database can't be used. */
   static open(dataDir: string): Store {
     const unlock = lockDataDir(dataDir);
     try {
@@ -90,12 +90,12 @@ export class Store {
     return new WebhookStore(this.#db);
   }
 
-  /** All of what `work` writes, or nothing; one within another belongs to the outer one. */
+  /** Stores everything `work` writes, or nothing. A nested call joins the outer transaction. */
   together(work: () => void): void {
     this.#transaction(work);
   }
 
-  /** Whether a file of the watched folder has been seen to. */
+  /** Whether a file of the watched folder has been handled. */
   isSeen({ name, sha256 }: WatchedFile): boolean {
     return this.#db.get("SELECT 1 FROM watched WHERE name = ? AND sha256 = ?", [name, sha256]) !== null;
   }
@@ -104,7 +104,7 @@ export class Store {
     this.#run("INSERT OR IGNORE INTO watched (name, sha256) VALUES (?, ?)", [name, sha256]);
   }
 
-  /** Whether a job of the shared queue has come in. */
+  /** Whether this job of the shared queue was taken into the own queue. */
   isShared(id: string): boolean {
     return this.#db.get("SELECT 1 FROM shared WHERE id = ?", [id]) !== null;
   }
@@ -113,24 +113,24 @@ export class Store {
     this.#run("INSERT INTO shared (id, job_id) VALUES (?, ?)", [id, jobId]);
   }
 
-  /** Jobs of the shared queue of which the other servers do not know yet that they have begun. */
-  untoldShared(): { readonly id: string; readonly jobId: string }[] {
+  /** Jobs of the shared queue that have begun without the other servers having been informed yet. */
+  unreportedShared(): { readonly id: string; readonly jobId: string }[] {
     return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0 AND job_id IS NOT NULL").map((row) => ({
       id: String(row["id"]),
       jobId: String(row["job_id"]),
     }));
   }
 
-  saveTold(id: string): void {
+  saveReported(id: string): void {
     this.#run("UPDATE shared SET is_told = 1 WHERE id = ?", [id]);
   }
 
-  /** It was given away, and may come in again. */
+  /** The job was given back to the shared queue, and may be taken again. */
   forgetShared(id: string): void {
     this.#run("DELETE FROM shared WHERE id = ?", [id]);
   }
 
-  /** Last in the queue, or before another job of it. */
+  /** Adds a job before another job of the queue, or last. */
   addJob(job: Job, drawing: StoredDrawing, beforeId: string | null = null): void {
     this.#transaction(() => {
       this.#run("INSERT OR IGNORE INTO drawings (id, bytes) VALUES (?, ?)", [drawing.id, drawing.bytes]);
@@ -147,7 +147,10 @@ export class Store {
     this.#run(`UPDATE jobs SET (${COLUMNS}) = (${PLACES}) WHERE id = ?`, [...rowFromJob(job), job.id]);
   }
 
-  /** What the queued jobs of a plotter are likely to take: their planned time times `ratio`. Returns what has changed, by id. */
+  /**
+   * Sets the expected time of a plotter's queued jobs to planned time × `ratio`. Returns the changed times by
+   * job id.
+   */
   saveExpected(plotterId: string, ratio: number): Record<string, number> {
     const changed = this.#all(
       `UPDATE jobs SET expected_s = json_extract(stats, '$.durationS') * ?1
@@ -159,26 +162,27 @@ export class Store {
     return Object.fromEntries(changed.map((row) => [String(row["id"]), Number(row["expected_s"])]));
   }
 
-  /** To stand before another job of the queue, or last with null. */
+  /** Moves a job before another job of the queue; null: to the end. */
   moveJob(id: string, beforeId: string | null): void {
     this.#transaction(() => this.#place(id, beforeId));
   }
 
   #place(id: string, beforeId: string | null): void {
-    const [at] =
+    const [target] =
       beforeId === null
         ? this.#all("SELECT COALESCE(MAX(position), 0) + 1 AS position FROM jobs")
         : this.#all(`SELECT position FROM jobs WHERE id = ? AND id <> ? AND state NOT IN (${ENDED})`, [
             beforeId,
             id,
           ]);
-    if (at === undefined) throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
-    const position = Number(at["position"]);
+    if (target === undefined)
+      throw new PlotwrightError("not-found", `There is no job ${beforeId} in the queue.`);
+    const position = Number(target["position"]);
     this.#run("UPDATE jobs SET position = position + 1 WHERE position >= ?", [position]);
     this.#run("UPDATE jobs SET position = ? WHERE id = ?", [position, id]);
   }
 
-  /** Empty before the first start. */
+  /** Empty on the first start. */
   plotters(): PlotterRow[] {
     return this.#all("SELECT id, name, device, machine FROM plotters ORDER BY position").map((row) => ({
       id: String(row["id"]),
@@ -188,7 +192,7 @@ export class Store {
     }));
   }
 
-  /** A new one comes last. */
+  /** Adds a new plotter last, or updates a stored one. */
   savePlotter({ id, name, device, machine }: PlotterRow): void {
     this.#run(
       `INSERT INTO plotters (id, position, name, device, machine)
@@ -202,7 +206,7 @@ export class Store {
     this.#run("DELETE FROM plotters WHERE id = ?", [id]);
   }
 
-  /** Removes the job; returns its drawing's id when no other job needs it any more. */
+  /** Removes the job; returns its drawing's id if no other job uses it, else null. */
   removeJob(id: string): string | null {
     const drawing = this.drawingOf(id);
     this.#transaction(() => {
@@ -213,8 +217,8 @@ export class Store {
   }
 
   /**
-   * How far a job has come. Safe against a kill of the program, not against a power cut (that would cost a
-   * flush of the disk twice a second, for which the stream to the board would have to wait).
+   * Stores how far a job has got. Survives a kill of the process but not a power cut: that would need two
+   * disk flushes per second, and the stream to the board would have to wait for them.
    */
   saveJournal(id: string, entry: unknown): void {
     this.#db.exec("PRAGMA synchronous = NORMAL");
@@ -237,7 +241,7 @@ export class Store {
     this.#run("DELETE FROM journal WHERE job_id = ?", [id]);
   }
 
-  /** A JSON value kept under a name, undefined when there is none; parse it with its schema. */
+  /** A JSON value stored under a name, or undefined; parse it with its schema. */
   setting(key: string): unknown {
     const row = this.#db.get("SELECT value FROM settings WHERE key = ?", [key]) as Row | null;
     return row === null ? undefined : (JSON.parse(String(row["value"])) as unknown);
@@ -280,7 +284,7 @@ export class Store {
   }
 }
 
-/** Throws when there is something in the database that a server could not read. */
+/** Throws if the database contains anything that the server could not read. */
 function readAll(db: Database): void {
   (db.all(`SELECT ${COLUMNS} FROM jobs`) as Row[]).forEach(jobFromRow);
   db.all("SELECT id, name, device, machine FROM plotters");
@@ -316,7 +320,7 @@ function rowFromJob(job: Job): Value[] {
   ];
 }
 
-/** Parsed by the schema: what an older version wrote gets the defaults of newer fields. */
+/** Parsed by the schema, so that rows written by an older version get the defaults of newer fields. */
 function jobFromRow(row: Row): Job {
   return jobSchema.parse({
     id: row["id"],

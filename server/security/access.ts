@@ -1,12 +1,12 @@
 /**
- * Who may do what, once the server listens on the network.
+ * Access control when the server listens on the network.
  *
  *   loopback     this computer: may do everything, as its user could anyway
- *   pairing      a link with a secret, printed (and as a QR code) by the server: opens a session in a browser
+ *   pairing      a link with a secret, printed by the server (also as a QR code): opens a session in a browser
  *   session      a cookie that only this server's pages send (HttpOnly, SameSite=Strict); can be revoked
- *   key          "Authorization: Bearer …" for scripts; made by an operator, shown once, can be revoked
+ *   key          "Authorization: Bearer …" for scripts; created by an operator, shown once, can be revoked
  *
- * Secrets are kept as SHA-256: they are 256 random bits, so a slow hash would add nothing.
+ * Secrets are stored as SHA-256. They are 256 random bits, so a slow hash would add nothing.
  */
 import { createHash, randomBytes, timingSafeEqual } from "node:crypto";
 import { z } from "zod";
@@ -18,7 +18,7 @@ const storedSchema = z.array(accessEntrySchema.extend({ secretSha256: z.string()
 type StoredEntry = z.infer<typeof storedSchema>[number];
 
 const SETTING = "access";
-/** Last use is kept to the minute: a write for every request would wear the disk. */
+/** The time of last use is stored at most once per minute: a write per request would wear out the disk. */
 const SEEN_EVERY_MS = 60_000;
 
 export class Access {
@@ -41,11 +41,11 @@ export class Access {
     this.#store = store;
     this.#now = options.now ?? (() => new Date());
     this.trustsLoopback = options.trustsLoopback ?? true;
-    const kept = storedSchema.safeParse(store.setting(SETTING));
-    this.#entries = kept.success ? kept.data : [];
+    const stored = storedSchema.safeParse(store.setting(SETTING));
+    this.#entries = stored.success ? stored.data : [];
   }
 
-  /** Path of the link that makes a browser a session of that role; good until the server ends. */
+  /** Path of the link that opens a session with that role in a browser; valid until the server ends. */
   pairingPath(role: Role): string {
     return `/pair?token=${this.#pairing.get(role) ?? ""}`;
   }
@@ -57,7 +57,7 @@ export class Access {
     }
     throw new PlotwrightError(
       "not-allowed",
-      "This link is not valid any more: take the one the server shows now.",
+      "This link is no longer valid. Use the one the server shows now.",
     );
   }
 
@@ -78,17 +78,17 @@ export class Access {
     this.#onRevoke();
   }
 
-  /** Called after an access was revoked: what it still holds open has to end. */
+  /** Sets the listener called after a session or key was revoked, so that its open streams can be ended. */
   onRevoke(listener: () => void): void {
     this.#onRevoke = listener;
   }
 
-  /** The role that a secret stands for; null when it stands for none. */
+  /** The role of a secret; null if the secret is unknown. */
   roleOf(secret: string): Role | null {
     return this.entryOf(secret)?.role ?? null;
   }
 
-  /** The session or key whose secret this is; null when it is none. */
+  /** The session or key with this secret; null if the secret is unknown. */
   entryOf(secret: string): AccessEntry | null {
     const sha256 = hashOf(secret);
     const entry = this.#entries.find((one) => equal(one.secretSha256, sha256));
@@ -98,7 +98,7 @@ export class Access {
     return publicPart(entry);
   }
 
-  /** On a full disk the time stays as it was: a device that wants to stop a plot must not be refused for that. */
+  /** Ignores a full disk: a device that wants to stop a plot must not be refused because of it. */
   #saveSeen(seen: StoredEntry, now: Date): void {
     const lastSeenAt = now.toISOString();
     try {
@@ -132,7 +132,7 @@ export class Access {
 const newSecret = (): string => randomBytes(32).toString("base64url");
 const hashOf = (secret: string): string => createHash("sha256").update(secret).digest("hex");
 
-/** Compares hashes of both, which have one length, in a time that tells nothing. */
+/** Compares in constant time. Both are hashed because timingSafeEqual needs equal lengths. */
 function equal(a: string, b: string): boolean {
   return timingSafeEqual(createHash("sha256").update(a).digest(), createHash("sha256").update(b).digest());
 }

@@ -1,13 +1,15 @@
 /**
- * The server's name on the network: http://plotwright.local, or plotwright-2.local where another server has that.
+ * The server's name on the network: http://plotwright.local, or plotwright-2.local if another server has
+ * that.
  *
- * mDNS has no one who gives names away: whoever wants one asks for it three times and takes it when nobody answers
- * (RFC 6762, 8.1); of two who ask at once the lexicographically later one wins, and the other asks again (8.2); who
- * hears another use its name asks again too (9). A name that was had is asked for first next time, so that after a
- * power cut every server has its own again.
+ * mDNS has no authority that assigns names. A host that wants a name probes for it three times and takes it
+ * if nobody answers (RFC 6762, 8.1). If two probe at the same time, the one whose records are
+ * lexicographically later wins, and the other probes again (8.2). A host that hears another one use its name
+ * probes again as well (9). The last name is probed first after a restart, so that every server gets its own
+ * name back after a power cut.
  *
- *   asking ──nobody answers──> announced ──another is heard, or the network is another──> asking
- *     └──another has it──> asking for the next name
+ *   probing ──nobody answers──> announced ──another host uses it, or the network changes──> probing
+ *     └──another host has it──> probing for the next name
  */
 import type { EventEmitter } from "node:events";
 import { networkInterfaces } from "node:os";
@@ -17,25 +19,25 @@ export const MDNS_NAME = "plotwright";
 
 const LAST_NAME = new RegExp(`^(${MDNS_NAME}(?:-[1-9]\\d{0,3})?)\\.local$`);
 
-const ASKS = 3;
-/** Between two questions, ms (RFC 6762, 8.1). */
-const ASK_EVERY_MS = 250;
-/** How long who has lost to another that asks leaves it to announce itself (8.2). */
+const PROBES = 3;
+/** Time between two probes (RFC 6762, 8.1). */
+const PROBE_INTERVAL_MS = 250;
+/** How long the loser of a simultaneous probe waits for the winner to announce itself (8.2). */
 const YIELD_MS = 1_000;
-/** Until the next try where nothing can be sent: the network may come up later than the server. */
+/** Time until the next try when nothing can be sent: the network may come up later than the server. */
 const NO_NETWORK_MS = 5_000;
 
 export interface LocalNameOptions {
   readonly port: number;
   readonly isTls: boolean;
-  /** The name that it had last, as "plotwright-2.local". */
+  /** The name of the last run, as "plotwright-2.local". */
   readonly last?: string | undefined;
-  /** The name that it has now; null while it has none. */
+  /** Called with each new name; null while the server has none. */
   readonly onName?: (name: string | null) => void;
   readonly log?: (line: string) => void;
-  /** A socket other than the system's own, and its pace. */
+  /** Socket and times for tests, in place of the real ones. */
   readonly socket?: EventEmitter;
-  readonly askEveryMs?: number;
+  readonly probeIntervalMs?: number;
   readonly yieldMs?: number;
 }
 
@@ -52,7 +54,7 @@ interface DnsPacket {
   readonly authorities?: readonly DnsRecord[];
 }
 
-/** As much of multicast-dns, which the library holds, as is used here. */
+/** The part of multicast-dns, which bonjour-service contains, that is used here. */
 interface Mdns extends EventEmitter {
   query(packet: object, done: (error?: Error | null) => void): void;
 }
@@ -61,10 +63,10 @@ export class LocalName {
   readonly #options: LocalNameOptions;
   readonly #bonjour: Bonjour;
   readonly #mdns: Mdns;
-  /** All that were this computer's: an answer of its own from before it moved is nobody else's. */
+  /** All addresses this computer has had: an answer with one of them is an old answer of this server. */
   readonly #addresses = new Set<string>();
   #label: string;
-  #asked = 0;
+  #probeCount = 0;
   #service: Service | null = null;
   #timer: NodeJS.Timeout | undefined;
   #isClosed = false;
@@ -76,20 +78,20 @@ export class LocalName {
     const line = options.socket === undefined ? {} : { socket: options.socket };
     this.#bonjour = new Bonjour(line as Record<string, unknown>, () => undefined);
     this.#mdns = (this.#bonjour as unknown as { readonly server: { readonly mdns: Mdns } }).server.mdns;
-    // An error that nobody hears ends the process; what cannot be sent is told where it is sent.
+    // An "error" event without a listener would end the process. Send errors are reported by query().
     this.#mdns.on("error", () => undefined);
     this.#mdns.on("response", (packet: DnsPacket) => this.#onAnswer(packet));
     this.#mdns.on("query", (packet: DnsPacket) => this.#onQuestion(packet));
     this.#mdns.on("networkInterface", () => this.#onNetwork());
-    this.#ask(0);
+    this.#probe(0);
   }
 
-  /** "plotwright-2.local"; null while it has none. */
+  /** The current name, as "plotwright-2.local"; null while the server has none. */
   get name(): string | null {
     return this.#service === null ? null : this.#host;
   }
 
-  /** Gives the name back. */
+  /** Gives up the name. */
   close(): Promise<void> {
     this.#isClosed = true;
     clearTimeout(this.#timer);
@@ -110,20 +112,20 @@ export class LocalName {
     return this.#options.isTls ? "https" : "http";
   }
 
-  /** Starts asking for the name anew. */
-  #ask(inMs: number): void {
-    this.#asked = 0;
-    this.#later(inMs);
+  /** Starts probing for the name again. */
+  #probe(inMs: number): void {
+    this.#probeCount = 0;
+    this.#schedule(inMs);
   }
 
-  #later(inMs: number): void {
+  #schedule(inMs: number): void {
     clearTimeout(this.#timer);
     if (this.#isClosed) return;
-    this.#timer = setTimeout(() => this.#askOnce(), inMs).unref();
+    this.#timer = setTimeout(() => this.#probeOnce(), inMs).unref();
   }
 
-  #askOnce(): void {
-    if (this.#asked === ASKS) {
+  #probeOnce(): void {
+    if (this.#probeCount === PROBES) {
       this.#announce();
       return;
     }
@@ -131,13 +133,13 @@ export class LocalName {
     this.#mdns.query({ questions, authorities: this.#claim() }, (error) => {
       if (error) this.#onNoNetwork(error);
       else {
-        this.#asked++;
-        this.#later(this.#options.askEveryMs ?? ASK_EVERY_MS);
+        this.#probeCount++;
+        this.#schedule(this.#options.probeIntervalMs ?? PROBE_INTERVAL_MS);
       }
     });
   }
 
-  /** What it will say of the name, which decides between two who ask at once. */
+  /** The records this server will announce; they decide between two simultaneous probes. */
   #claim(): DnsRecord[] {
     for (const address of ownAddresses()) this.#addresses.add(address);
     const service = { port: this.#options.port, target: this.#host, priority: 0, weight: 0 };
@@ -149,15 +151,15 @@ export class LocalName {
 
   #announce(): void {
     const { port, log, onName } = this.#options;
-    // The library would ask once more, and write to the console what it hears.
+    // With `probe` the library would probe once more and write the answers to the console.
     const service = { name: this.#label, type: this.#type, port, host: this.#host, probe: false };
     this.#service = this.#bonjour.publish(service);
     this.#hasFailed = false;
-    log?.(`this server is at ${this.#type}://${this.#host}:${port} on the network`);
+    log?.(`the server's address on the network is ${this.#type}://${this.#host}:${port}`);
     onName?.(this.#host);
   }
 
-  /** Takes the name back where it is announced already. */
+  /** Withdraws the name if it was announced. */
   #withdraw(): void {
     if (this.#service === null) return;
     (this.#service.stop as () => void)();
@@ -168,35 +170,35 @@ export class LocalName {
   #onAnswer({ answers = [], additionals = [] }: DnsPacket): void {
     if (this.#isClosed || ![...answers, ...additionals].some((record) => this.#isAnothers(record))) return;
     if (this.#service === null) {
-      this.#options.log?.(`${this.#host} is another server's on this network`);
+      this.#options.log?.(`${this.#host} is in use by another server on this network`);
       this.#label = nextLabel(this.#label);
     }
     this.#withdraw();
-    this.#ask(0);
+    this.#probe(0);
   }
 
   #onQuestion({ authorities = [] }: DnsPacket): void {
     if (this.#isClosed || this.#service !== null) return;
     const theirs = authorities.filter((record) => this.#isOfName(record));
     if (!theirs.some((record) => this.#isAnothers(record))) return;
-    if (inOrder(theirs) > inOrder(this.#claim())) this.#ask(this.#options.yieldMs ?? YIELD_MS);
+    if (inOrder(theirs) > inOrder(this.#claim())) this.#probe(this.#options.yieldMs ?? YIELD_MS);
   }
 
-  /** What the library has announced lacks the addresses of a network that came later. */
+  /** The library's announcement lacks the addresses of a network that appears later, so announce again. */
   #onNetwork(): void {
     if (this.#isClosed || this.#service === null) return;
     this.#withdraw();
-    this.#ask(0);
+    this.#probe(0);
   }
 
   #onNoNetwork(error: Error): void {
     if (!this.#hasFailed) {
       this.#options.log?.(
-        `${this.#host} cannot be announced on the network (${error.message}); its address works, and the name is tried again`,
+        `${this.#host} cannot be announced on the network (${error.message}); use the server's address until the next try succeeds`,
       );
     }
     this.#hasFailed = true;
-    this.#ask(NO_NETWORK_MS);
+    this.#probe(NO_NETWORK_MS);
   }
 
   #isOfName({ name, type }: DnsRecord): boolean {
@@ -204,7 +206,10 @@ export class LocalName {
     return (type === "A" && is(this.#host)) || (type === "SRV" && is(this.#fullName));
   }
 
-  /** A record of this name that is not as this server says it, and not one that takes it back. */
+  /**
+   * Whether another host claims this name: a record of it that differs from this server's and is not a
+   * withdrawal.
+   */
   #isAnothers(record: DnsRecord): boolean {
     if (record.ttl === 0 || !this.#isOfName(record)) return false;
     if (record.type === "A") return !this.#addresses.has(String(record.data));
@@ -226,7 +231,10 @@ function nextLabel(label: string): string {
 
 const portOf = ({ data }: DnsRecord): unknown => (data as { readonly port?: unknown }).port;
 
-/** Both sides order both claims alike, whatever the order they were sent in. */
+/**
+ * Text to compare two claims by. Sorted, so that both sides get the same result whatever the order of the
+ * records.
+ */
 const inOrder = (records: readonly DnsRecord[]): string =>
   records
     .map((record) => `${record.type} ${record.type === "A" ? String(record.data) : String(portOf(record))}`)

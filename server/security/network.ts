@@ -1,4 +1,4 @@
-/** How other devices find the server: its addresses, and a QR code with the pairing link. */
+/** How other devices reach the server: its addresses, and QR codes with the pairing links. */
 import { networkInterfaces } from "node:os";
 import qrcode from "qrcode";
 import type { Pairing } from "../../src/schema/index.js";
@@ -12,7 +12,7 @@ export function lanAddresses(): string[] {
     .map(({ address, family }) => (family === "IPv6" ? `[${address}]` : address));
 }
 
-/** What `serve --lan` prints: where to go on a phone, and a code to point its camera at. */
+/** The text that `serve --lan` prints: the pairing links and a QR code for the camera of a phone. */
 export async function pairingText(baseUrl: string, operatePath: string, watchPath: string): Promise<string> {
   const code = await qrcode.toString(`${baseUrl}${operatePath}`, { type: "terminal", small: true });
   return `Pair a phone or another computer (keep these links to yourself):
@@ -21,7 +21,7 @@ export async function pairingText(baseUrl: string, operatePath: string, watchPat
 ${code}`;
 }
 
-/** The same links with their codes as pictures, for the page. */
+/** The same links with their QR codes as images, for the page. */
 export async function pairingLinks(
   baseUrl: string,
   isOnLan: boolean,

@@ -1,18 +1,18 @@
 import { SerialPort } from "serialport";
 
-/** USB identity of every EiBotBoard (Microchip's vendor number, sub-licensed product number). */
+/** USB ids of every EiBotBoard (Microchip's vendor id, with a sublicensed product id). */
 const EBB_VENDOR = "04d8";
 const EBB_PRODUCT = "fd92";
 
 export interface FoundBoard {
-  /** What to give to `--device`. */
+  /** The path to pass to `--device`. */
   readonly path: string;
-  /** Maker and name, for people. */
+  /** Manufacturer, to show to users. */
   readonly description: string;
   readonly serialNumber: string | null;
 }
 
-/** All EiBotBoards that the system sees on USB, by path. */
+/** All EiBotBoards on USB, sorted by path. */
 export async function findBoards(): Promise<readonly FoundBoard[]> {
   const ports = await SerialPort.list();
   return ports

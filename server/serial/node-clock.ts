@@ -1,7 +1,7 @@
 import { performance } from "node:perf_hooks";
 import type { Clock } from "../../src/index.js";
 
-/** The machine's monotonic clock, for everything that takes a `Clock`. */
+/** The computer's monotonic clock as a `Clock`. */
 export const nodeClock: Clock = {
   nowS: () => performance.now() / 1000,
   after(delayS, callback) {
@@ -11,8 +11,8 @@ export const nodeClock: Clock = {
 };
 
 /**
- * A clock that counts the seconds of a board which runs `speed` times faster than ours.
- * A stream measured on it keeps its window of time ahead whatever the speed.
+ * The clock of a virtual board that runs `speed` times faster than real time.
+ * A stream that uses it keeps the same window of board time ahead at any speed.
  */
 export function scaledClock(clock: Clock, speed: number): Clock {
   if (speed === 1) return clock;

@@ -1,8 +1,8 @@
-/** A serial port as a `Transport`; its failures as sentences that say how to mend them. */
+/** A serial port as a `Transport`. Its errors say what to do. */
 import { SerialPort } from "serialport";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
-/** The board is a USB device that ignores the rate; it has to be some legal number. */
+/** Any valid rate: the board is a USB device and ignores it. */
 const BAUD_RATE = 115_200;
 
 /** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
@@ -15,64 +15,66 @@ export async function openSerial(path: string): Promise<Transport> {
 }
 
 class SerialTransport implements Transport {
-  private closing: Promise<void> | null = null;
+  readonly #port: SerialPort;
+  #closing: Promise<void> | null = null;
 
-  constructor(private readonly port: SerialPort) {
-    // An error without a listener would end the process; the loss itself arrives by "close".
+  constructor(port: SerialPort) {
+    this.#port = port;
+    // An "error" event without a listener would end the process; a lost connection is reported by "close".
     port.on("error", () => undefined);
   }
 
   write(bytes: Uint8Array): Promise<void> {
     return new Promise((resolve, reject) => {
-      if (!this.port.isOpen) {
-        reject(lostError(this.port.path));
+      if (!this.#port.isOpen) {
+        reject(lostError(this.#port.path));
         return;
       }
-      this.port.write(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), (error) => {
-        if (error) reject(lostError(this.port.path, error));
+      this.#port.write(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), (error) => {
+        if (error) reject(lostError(this.#port.path, error));
         else resolve();
       });
     });
   }
 
   onData(listener: (bytes: Uint8Array) => void): void {
-    this.port.removeAllListeners("data");
-    this.port.on("data", listener);
+    this.#port.removeAllListeners("data");
+    this.#port.on("data", listener);
   }
 
   onClose(listener: (error?: Error) => void): void {
-    this.port.once("close", (error: Error | null | undefined) => {
-      if (this.closing) listener();
-      else listener(lostError(this.port.path, error ?? undefined));
+    this.#port.once("close", (error: Error | null | undefined) => {
+      if (this.#closing) listener();
+      else listener(lostError(this.#port.path, error ?? undefined));
     });
   }
 
   close(): Promise<void> {
-    this.closing ??= new Promise((resolve) => {
-      if (!this.port.isOpen) {
+    this.#closing ??= new Promise((resolve) => {
+      if (!this.#port.isOpen) {
         resolve();
         return;
       }
-      // Unsent output would make the system wait for a board that may not read it any more.
-      this.port.flush(() => this.port.close(() => resolve()));
+      // Discard unsent output: otherwise closing would wait for a board that may no longer read it.
+      this.#port.flush(() => this.#port.close(() => resolve()));
     });
-    return this.closing;
+    return this.#closing;
   }
 }
 
 function lostError(path: string, cause?: Error): PlotwrightError {
   return new PlotwrightError(
     "disconnected",
-    `The connection to the board at ${path} is lost: check its USB cable and power, then connect again.`,
+    `The connection to the board at ${path} was lost: check its USB cable and power, then connect again.`,
     { cause },
   );
 }
 
-/** The system's words, which differ by platform, turned into ours. */
+/** Translates the system's error messages, which differ by platform. */
 export function openError(path: string, error: Error): PlotwrightError {
   const words = error.message;
   if (/permission denied|EACCES/i.test(words)) {
-    return new PlotwrightError("not-allowed", permissionWords(path), { cause: error });
+    return new PlotwrightError("not-allowed", permissionMessage(path), { cause: error });
   }
   if (/cannot lock|temporarily unavailable|resource busy|EBUSY|EAGAIN|access denied/i.test(words)) {
     return new PlotwrightError(
@@ -93,11 +95,11 @@ export function openError(path: string, error: Error): PlotwrightError {
   });
 }
 
-function permissionWords(path: string): string {
+function permissionMessage(path: string): string {
   return (
     `This account may not open ${path}. On Linux add it to the port's group (sudo usermod -aG dialout $USER, ` +
     `on Arch: uucp) and log in again, or add the udev rule ` +
     `SUBSYSTEM=="tty", ATTRS{idVendor}=="04d8", ATTRS{idProduct}=="fd92", TAG+="uaccess" ` +
-    `in /etc/udev/rules.d/60-eibotboard.rules and plug the board in anew.`
+    `in /etc/udev/rules.d/60-eibotboard.rules and plug the board in again.`
   );
 }

@@ -1,8 +1,8 @@
 /**
- * One server's part in the shared queue: when a plotter of its has nothing to do, takes the next job that is meant
- * for that plotter (by name, or by machine) into its own queue. From there it is a job like any other: durable,
- * interrupted and recovered where it was taken. The own queue knows a shared job's id, so that one which was
- * taken just before a crash comes in once.
+ * One server's side of the shared queue. When one of its plotters is idle, it takes the next job for that
+ * plotter (by name or by machine) into its own queue. From then on it is a job like any other: stored,
+ * interrupted and recovered on the server that took it. The own queue stores the shared job's id, so that a
+ * job taken just before a crash is added only once.
  */
 import { PlotwrightError } from "../../src/index.js";
 import {
@@ -21,19 +21,19 @@ import type { SharedStore, TakenJob } from "./shared-store.js";
 
 export interface SharedParts {
   readonly shared: SharedStore;
-  /** Kept with the data folder: it finds what it had taken again. */
+  /** Stored in the data folder, so that the server finds the jobs it took before a restart. */
   readonly serverId: string;
-  /** For people. */
+  /** Shown to users. */
   readonly serverName: string;
-  readonly store: Pick<Store, "isShared" | "untoldShared" | "saveTold" | "forgetShared">;
+  readonly store: Pick<Store, "isShared" | "unreportedShared" | "saveReported" | "forgetShared">;
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly log: (line: string) => void;
   readonly notice: (message: string) => void;
-  /** 2 s unless told. */
+  /** Default 2 s. */
   readonly pollMs?: number;
-  /** A server that was not heard of for so long counts as gone; SERVER_LOST_AFTER_MS unless told. */
+  /** Time without a sign of life after which a server counts as lost; default SERVER_LOST_AFTER_MS. */
   readonly lostAfterMs?: number;
 }
 
@@ -45,14 +45,14 @@ export class SharedQueue {
   #timer: NodeJS.Timeout | null = null;
   #running: Promise<void>;
   #isClosed = false;
-  /** What this server had taken is in its queue. */
+  /** All jobs this server took before a restart or failure are in its queue. */
   #isCaughtUp = false;
-  /** Taken, but not begun as yet. */
+  /** Own ids of jobs taken but not yet started. */
   readonly #unstarted = new Set<string>();
-  /** Jobs on servers that have gone, of which has been told. */
-  readonly #toldOf = new Set<string>();
-  /** Plotters of no known model, of which has been told. */
-  readonly #toldNameless = new Set<string>();
+  /** Jobs on lost servers that were already reported. */
+  readonly #reportedLost = new Set<string>();
+  /** Plotters without a machine that were already reported. */
+  readonly #reportedNoMachine = new Set<string>();
   #lastTrouble: string | null = null;
 
   constructor(parts: SharedParts) {
@@ -72,31 +72,32 @@ export class SharedQueue {
     return this.#parts.shared.withdraw(id);
   }
 
-  /** What a server took that has gone since, and has not begun there, waits again. Throws `conflict`. */
+  /** Puts a job back in the shared queue if a lost server took it but did not start it. Throws `conflict`. */
   giveBack(id: string): Promise<void> {
     return this.#parts.shared.giveBack(id, this.#lostAfterMs);
   }
 
-  /** Before a job of this queue begins: why it must not, or null. Others learn of it in the same step. */
+  /**
+   * Call before a job starts. Null: it may start, and the database shows it as begun. Otherwise why it must
+   * not.
+   */
   async claim(jobId: string): Promise<string | null> {
     const { shared, store, serverId, queue, log } = this.#parts;
-    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return null;
     const { name } = queue.get(jobId);
     try {
       if (await shared.claim(known.id, serverId)) return null;
       return await this.#leave(known);
     } catch (error) {
-      log(
-        `shared queue: "${name}" does not begin: ${error instanceof Error ? error.message : String(error)}`,
-      );
-      return `The queue that the servers share can't be reached, so another one may have been given "${name}". It can begin when the database is back; a duplicate of it begins at any time.`;
+      log(`shared queue: "${name}" can't start: ${error instanceof Error ? error.message : String(error)}`);
+      return `The database of the shared queue can't be reached, so another server may have been given "${name}". Start it when the database is back. Or duplicate it: a duplicate can start at any time.`;
     }
   }
 
   async release(jobId: string): Promise<void> {
     const { shared, store, serverId, log } = this.#parts;
-    const known = store.untoldShared().find((one) => one.jobId === jobId);
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return;
     await shared.release(known.id, serverId).catch((error: unknown) => log(`shared queue: ${String(error)}`));
   }
@@ -105,7 +106,7 @@ export class SharedQueue {
     return this.#parts.lostAfterMs ?? SERVER_LOST_AFTER_MS;
   }
 
-  /** Looks for work at once, unless it does already: to be called when a plotter may have become free. */
+  /** Looks for work at once, unless it already does. Call it when a plotter may have become free. */
   wake(): void {
     if (this.#timer === null || this.#isClosed) return;
     clearTimeout(this.#timer);
@@ -120,21 +121,21 @@ export class SharedQueue {
     await this.#parts.shared.close();
   }
 
-  /** Never rejects: without its database a server goes on with its own queue. */
+  /** One round of polling. Never rejects: without the database a server continues with its own queue. */
   async #round(): Promise<void> {
     const { shared, serverId, log } = this.#parts;
     try {
       await shared.seen(serverId);
       if (!this.#isCaughtUp) {
-        await this.#letGo();
+        await this.#dropLost();
         for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
         this.#isCaughtUp = true;
       }
-      await this.#tellBegun();
-      await this.#startThem();
-      await this.#tellLost();
+      await this.#reportBegun();
+      await this.#startTaken();
+      await this.#reportLost();
       for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
-      if (this.#lastTrouble !== null) log("shared queue: it works again");
+      if (this.#lastTrouble !== null) log("shared queue: working again");
       this.#lastTrouble = null;
     } catch (error) {
       this.#isCaughtUp = false;
@@ -147,18 +148,19 @@ export class SharedQueue {
     this.#timer.unref();
   }
 
-  /** While this server was away, others may have been given what it had taken. */
-  async #letGo(): Promise<void> {
+  /** Drops queued jobs that were given to other servers while this one was away. */
+  async #dropLost(): Promise<void> {
     const { shared, store, serverId, queue } = this.#parts;
-    for (const known of store.untoldShared()) {
+    for (const known of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === known.jobId);
       if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.#leave(known);
     }
   }
 
   /**
-   * Takes what is another server's out of the own queue; returns what was said of it. It is said first: whoever sees
-   * that the job is gone finds out why, and after a crash between the two it is said again rather than never.
+   * Removes a job that belongs to another server now from the own queue; returns the message shown for it.
+   * The message comes first, so that it explains a missing job; after a crash between the two it is shown
+   * twice rather than never.
    */
   async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
     const { store, queue, log, notice } = this.#parts;
@@ -170,33 +172,36 @@ export class SharedQueue {
     return message;
   }
 
-  /** What has begun here is nobody else's any more. */
-  async #tellBegun(): Promise<void> {
+  /** Marks jobs that have begun here in the database, so that they can't be given to other servers. */
+  async #reportBegun(): Promise<void> {
     const { shared, store, serverId, queue, notice } = this.#parts;
-    for (const { id, jobId } of store.untoldShared()) {
+    for (const { id, jobId } of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === jobId);
       if (job?.state === "queued") continue;
       const isOurs = await shared.begun(id, serverId);
-      store.saveTold(id);
+      store.saveReported(id);
       if (isOurs || job === undefined) continue;
-      notice(`"${job.name}" was given to another server while this one was away, and may be drawn twice.`);
+      notice(`"${job.name}" was given to another server while this one was away, and may be plotted twice.`);
     }
   }
 
-  /** Once for each job: somebody has to say whether it shall wait. */
-  async #tellLost(): Promise<void> {
+  /** Notifies once per job on a lost server: the user has to decide whether it should wait. */
+  async #reportLost(): Promise<void> {
     const { shared, notice } = this.#parts;
     for (const { id, name, server } of await shared.lost(this.#lostAfterMs)) {
-      if (this.#toldOf.has(id)) continue;
-      this.#toldOf.add(id);
+      if (this.#reportedLost.has(id)) continue;
+      this.#reportedLost.add(id);
       notice(
-        `"${name}" is with ${server}, which has gone. It waits there until that server is back; to let another one have it: Studio, Servers.`,
+        `"${name}" was taken by ${server}, which can't be reached. It waits there until that server is back. To give it to another server, open Studio, Servers.`,
       );
     }
   }
 
-  /** Where the queue runs on; again and again, since a plotter may have lost its board just now. */
-  async #startThem(): Promise<void> {
+  /**
+   * Starts taken jobs if the plotter's queue runs on by itself. Tried every round, since the board may be
+   * missing.
+   */
+  async #startTaken(): Promise<void> {
     const { queue } = this.#parts;
     for (const id of this.#unstarted) {
       const job = queue.list().find((one) => one.id === id);
@@ -205,14 +210,17 @@ export class SharedQueue {
     }
   }
 
-  /** Only a plotter that is there and has nothing to do takes work, or it would keep it from one that is free. */
+  /**
+   * Takes a job for a plotter, only if it is connected and idle: otherwise the job would wait while others
+   * are free.
+   */
   async #feed(plotter: PlotterPort): Promise<void> {
     const { shared, serverId, serverName, queue, log } = this.#parts;
     const { name, machine, connection } = plotter.snapshot();
     if (this.#isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
-    if (machine === null && !this.#toldNameless.has(plotter.id)) {
-      this.#toldNameless.add(plotter.id);
-      log(`shared queue: ${name} takes only jobs for ${name} itself: nobody has said what model it is`);
+    if (machine === null && !this.#reportedNoMachine.has(plotter.id)) {
+      this.#reportedNoMachine.add(plotter.id);
+      log(`shared queue: ${name} takes only jobs sent to ${name} by name, because its machine is not set`);
     }
     const targets: SharedTarget[] = [{ plotter: name }, ...(machine === null ? [] : [{ machine }])];
     for (const target of targets) {
@@ -233,14 +241,14 @@ export class SharedQueue {
     const parsed = payloadSchema.safeParse(JSON.parse(payload));
     try {
       if (!parsed.success)
-        throw new PlotwrightError("bad-setting", "It is of another version of plotwright.");
+        throw new PlotwrightError("bad-setting", "It was sent by another version of plotwright.");
       const { name, drawing, settings } = parsed.data;
       const stored = await files.add([Buffer.from(drawing, "utf8")]);
       const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
       log(`shared queue: took "${name}" as ${job.id}`);
       await shared.finish(id, "stored", null);
       this.#unstarted.add(job.id);
-      await this.#startThem();
+      await this.#startTaken();
     } catch (error) {
       if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
       const message = `A job of the shared queue can't be plotted: ${error.message}`;
@@ -252,15 +260,18 @@ export class SharedQueue {
 }
 
 /**
- * For a server's own queue, which is there before it shares one, or shares none any more: what it took from others
- * then waits, since it may have been given away.
+ * Claims for the own queue, which exists before the shared queue is opened. While there is no shared queue,
+ * jobs taken from it can't start, since they may have been given to another server.
  */
-export const claimsOf = (store: Pick<Store, "untoldShared">, shared: () => SharedQueue | null): Claims => ({
+export const claimsOf = (
+  store: Pick<Store, "unreportedShared">,
+  shared: () => SharedQueue | null,
+): Claims => ({
   claim: async (jobId) => {
     const queue = shared();
     if (queue !== null) return queue.claim(jobId);
-    if (!store.untoldShared().some((one) => one.jobId === jobId)) return null;
-    return "It is of the queue that servers share, so another one may have been given it: start this server with --shared-queue, or duplicate the job and start the copy.";
+    if (!store.unreportedShared().some((one) => one.jobId === jobId)) return null;
+    return "This job is from the shared queue, so another server may have been given it. Start this server with --shared-queue, or duplicate the job and start the copy.";
   },
   release: async (jobId) => shared()?.release(jobId),
 });
@@ -268,7 +279,7 @@ export const claimsOf = (store: Pick<Store, "untoldShared">, shared: () => Share
 const targetText = (target: SharedTarget): string =>
   "plotter" in target ? `plotter ${target.plotter.toLowerCase()}` : `machine ${target.machine}`;
 
-/** It may have been started, or the plotter taken, by somebody meanwhile. */
+/** Ignores refusals: the job may have been started, or the plotter used for another one, meanwhile. */
 async function startIfFree(queue: JobQueue, id: string): Promise<void> {
   try {
     await queue.start(id);

@@ -1,7 +1,7 @@
 /**
- * The shared queue in PostgreSQL: pg-boss hands each job to one server, a table beside it says what has become of
- * it. Both change in one transaction, so that a server that dies at any instant has either taken a job, and finds
- * it again when it comes back, or has not, and another one gets it.
+ * The shared queue in PostgreSQL. pg-boss hands each job to one server, and a separate table stores its
+ * state. Both change in one transaction. So a server that is killed at any time either has taken a job, and
+ * finds it again after a restart, or has not, and another server gets it.
  */
 import type { Pool, PoolClient, QueryConfig } from "pg";
 import type PgBoss from "pg-boss";
@@ -9,17 +9,17 @@ import { createHash, randomUUID } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
 import { sharedJobSchema, type SharedJob } from "../../src/schema/index.js";
 
-/** What a server needs to make a job of its own of it: JSON text. */
+/** A shared job as a server takes it; `payload` is the JSON text of the job to create. */
 export interface TakenJob {
   readonly id: string;
-  /** Of the taker, for which it took it. */
+  /** The plotter for which it was taken. */
   readonly plotterId: string;
   readonly payload: string;
 }
 
 export interface Taker {
   readonly serverId: string;
-  /** For people. */
+  /** Name shown to users. */
   readonly server: string;
   readonly plotterId: string;
 }
@@ -41,13 +41,15 @@ CREATE TABLE IF NOT EXISTS plotwright_servers (
   id         text PRIMARY KEY,
   seen_at    timestamptz NOT NULL
 )`;
-/** Unfetched jobs are never thrown away: somebody's plotter may be on holiday. */
+/** So long that waiting jobs are in effect never deleted. */
 const RETENTION_DAYS = 3_650;
-const MOST_LISTED = 500;
-/** Of somebody who waits for his plot to begin. A network that is cut tells nobody. */
-const PATIENCE_MS = 5_000;
+const MAX_LISTED = 500;
+/** Timeout of queries while a user waits for a plot to start. A broken network reports no error by itself. */
+const TIMEOUT_MS = 5_000;
 
-/** $1: ms of silence after which a server counts as gone. */
+/**
+ * SQL condition for jobs on lost servers. $1: ms without a sign of life after which a server counts as lost.
+ */
 const LOST = `state IN ('taken', 'stored') AND NOT has_begun AND payload IS NOT NULL AND NOT EXISTS (
   SELECT 1 FROM plotwright_servers WHERE plotwright_servers.id = job.server_id
   AND seen_at > now() - make_interval(secs => $1::double precision / 1000))`;
@@ -57,21 +59,19 @@ type Row = Record<string, unknown>;
 export class SharedStore {
   readonly #boss: PgBoss;
   readonly #pool: Pool;
-  readonly #patienceMs: number;
+  readonly #timeoutMs: number;
   readonly #queues = new Set<string>();
 
-  private constructor(boss: PgBoss, pool: Pool, patienceMs: number) {
+  private constructor(boss: PgBoss, pool: Pool, timeoutMs: number) {
     this.#boss = boss;
     this.#pool = pool;
-    this.#patienceMs = patienceMs;
+    this.#timeoutMs = timeoutMs;
   }
 
-  /** Loads pg and pg-boss, which nothing else needs. Throws `bad-setting` when the database can't be used. */
-  static async open(
-    url: string,
-    log: (line: string) => void,
-    patienceMs = PATIENCE_MS,
-  ): Promise<SharedStore> {
+  /**
+   * Imports pg and pg-boss here, so that only servers with a shared queue need them. Throws `bad-setting`.
+   */
+  static async open(url: string, log: (line: string) => void, timeoutMs = TIMEOUT_MS): Promise<SharedStore> {
     const failed = (cause: unknown): PlotwrightError =>
       new PlotwrightError("bad-setting", `The shared queue's database can't be used: ${words(cause)}.`, {
         cause,
@@ -79,14 +79,14 @@ export class SharedStore {
     let pool: Pool | null = null;
     try {
       const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
-      pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: patienceMs });
-      const tell = (error: Error): void => log(`shared queue: ${words(error)}`);
-      pool.on("error", tell);
+      pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: timeoutMs });
+      const logError = (error: Error): void => log(`shared queue: ${words(error)}`);
+      pool.on("error", logError);
       await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
-      boss.on("error", tell);
+      boss.on("error", logError);
       await boss.start();
-      return new SharedStore(boss, pool, patienceMs);
+      return new SharedStore(boss, pool, timeoutMs);
     } catch (cause) {
       await pool?.end().catch(() => undefined);
       throw failed(cause);
@@ -109,7 +109,7 @@ export class SharedStore {
     return id;
   }
 
-  /** The next job for the target, which is this server's from then on; null when there is none. */
+  /** Takes the next job for the target, which then belongs to this server; null if there is none. */
   async take(target: string, taker: Taker): Promise<TakenJob | null> {
     const { serverId, server, plotterId } = taker;
     const queue = await this.#queueOf(target);
@@ -127,7 +127,7 @@ export class SharedStore {
     });
   }
 
-  /** Taken by this server, but perhaps not in its queue: it may have died between. */
+  /** Jobs taken by this server that may be missing in its own queue, because it was killed in between. */
   async unfinished(serverId: string): Promise<TakenJob[]> {
     const { rows } = await this.#pool.query<Row>(
       "SELECT id, plotter_id, payload FROM plotwright_jobs WHERE server_id = $1 AND state = 'taken' ORDER BY created_at",
@@ -136,7 +136,10 @@ export class SharedStore {
     return rows.map(takenFrom);
   }
 
-  /** It is in the taker's queue now, or can't be. The drawing is kept until it begins: it may be given back. */
+  /**
+   * The job is in the taker's queue now, or was refused. The drawing stays until it begins, since it may be
+   * given back.
+   */
   async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
     await this.#pool.query(
       `UPDATE plotwright_jobs SET state = $2, message = $3,
@@ -145,17 +148,17 @@ export class SharedStore {
     );
   }
 
-  /** Its plot is about to begin, so that nobody is given it. False: it is another one's, or waits for one. */
+  /** Marks a job as begun before it starts. False: it belongs to another server or to none. */
   async claim(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query({
       text: "UPDATE plotwright_jobs SET has_begun = true WHERE id = $1 AND server_id = $2",
       values: [id, serverId],
-      query_timeout: this.#patienceMs,
+      query_timeout: this.#timeoutMs,
     } as QueryConfig);
     return rowCount !== 0;
   }
 
-  /** It has not begun after all. */
+  /** Undoes claim() for a job that did not start. */
   async release(id: string, serverId: string): Promise<void> {
     await this.#pool.query(
       "UPDATE plotwright_jobs SET has_begun = false WHERE id = $1 AND server_id = $2 AND payload IS NOT NULL",
@@ -163,7 +166,10 @@ export class SharedStore {
     );
   }
 
-  /** Its plot has begun, or it was removed: it stays with its server. False: it is another one's by now. */
+  /**
+   * The plot has begun, or the job was removed: it stays with its server. False: it belongs to another server
+   * now.
+   */
   async begun(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query(
       "UPDATE plotwright_jobs SET has_begun = true, payload = NULL WHERE id = $1 AND server_id = $2",
@@ -180,7 +186,7 @@ export class SharedStore {
     return rowCount !== 0;
   }
 
-  /** This server lives. */
+  /** Records a sign of life of this server. */
   async seen(serverId: string): Promise<void> {
     await this.#pool.query(
       `INSERT INTO plotwright_servers (id, seen_at) VALUES ($1, now())
@@ -189,11 +195,11 @@ export class SharedStore {
     );
   }
 
-  /** Waits again for any server of its target. Throws `conflict` for what has begun or whose server lives. */
+  /** Makes a job available again. Throws `conflict` if it has begun or its server is not lost. */
   async giveBack(id: string, lostAfterMs: number): Promise<void> {
     const { rows } = await this.#pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
     if (rows[0] === undefined) throw new PlotwrightError("conflict", whyNot(undefined));
-    // Before the transaction, which would wait with its connection for another one.
+    // Before the transaction: within it, this would need a second connection from the pool and could block.
     const queue = await this.#queueOf(String(rows[0]["target"]));
     const isGiven = await this.#transaction(async (client) => {
       const { rowCount } = await client.query(
@@ -210,12 +216,12 @@ export class SharedStore {
     throw new PlotwrightError("conflict", whyNot(job));
   }
 
-  /** What waits on servers that have gone, and has not begun there. */
+  /** Jobs that lost servers took and did not begin. */
   async lost(
     lostAfterMs: number,
   ): Promise<{ readonly id: string; readonly name: string; readonly server: string }[]> {
     const { rows } = await this.#pool.query<Row>(
-      `SELECT id, name, server FROM plotwright_jobs job WHERE ${LOST} ORDER BY created_at LIMIT ${MOST_LISTED}`,
+      `SELECT id, name, server FROM plotwright_jobs job WHERE ${LOST} ORDER BY created_at LIMIT ${MAX_LISTED}`,
       [lostAfterMs],
     );
     return rows.map(({ id, name, server }) => ({
@@ -225,14 +231,14 @@ export class SharedStore {
     }));
   }
 
-  /** Takes back a job that waits; throws `conflict` for one that a server has taken. */
+  /** Withdraws a waiting job; throws `conflict` if a server has taken it. */
   async withdraw(id: string): Promise<void> {
     const { rowCount } = await this.#pool.query(
       "UPDATE plotwright_jobs SET state = 'withdrawn', payload = NULL WHERE id = $1 AND state = 'waiting'",
       [id],
     );
     if (rowCount === 0) {
-      throw new PlotwrightError("conflict", "A server has taken this job already, or there is none.");
+      throw new PlotwrightError("conflict", "A server has already taken this job, or it does not exist.");
     }
   }
 
@@ -241,7 +247,7 @@ export class SharedStore {
     const { rows } = await this.#pool.query<Row>(
       `SELECT job.id, name, target, state, server, message, has_begun, seen_at, created_at
        FROM plotwright_jobs job LEFT JOIN plotwright_servers ON plotwright_servers.id = job.server_id
-       ORDER BY created_at DESC LIMIT ${MOST_LISTED}`,
+       ORDER BY created_at DESC LIMIT ${MAX_LISTED}`,
     );
     return rows.map(({ created_at: createdAt, seen_at: seenAt, has_begun: hasBegun, ...row }) =>
       sharedJobSchema.parse({
@@ -259,7 +265,7 @@ export class SharedStore {
   }
 
   async #queueOf(target: string): Promise<string> {
-    // Names of plotters have spaces and letters of all kinds; those of queues have not.
+    // Hashed, because names of plotters may contain characters that queue names can't.
     const queue = `plotwright_${createHash("sha256").update(target).digest("hex").slice(0, 24)}`;
     if (!this.#queues.has(queue)) {
       await this.#boss.createQueue(queue);
@@ -277,7 +283,7 @@ export class SharedStore {
       client.release();
       return result;
     } catch (error) {
-      // The connection itself, so that nothing half done is left on it.
+      // `true` closes the connection, so that no unfinished transaction remains on it.
       client.release(true);
       throw error;
     }
@@ -300,12 +306,12 @@ function whyNot(job: SharedJob | undefined): string {
   if (job.state !== "taken" && job.state !== "stored")
     return `"${job.name}" is ${job.state}: there is nothing to give back.`;
   if (job.hasBegun) {
-    return `"${job.name}" has begun on ${where}: look at the paper there, and send the drawing anew if it has to be drawn again.`;
+    return `"${job.name}" has begun on ${where}: check the paper there, and send the drawing again if it has to be plotted again.`;
   }
-  return `${where} was heard of just now: it will plot "${job.name}". Remove the job there, or switch that server off first.`;
+  return `${where} is running and will plot "${job.name}". Remove the job there, or switch that server off first.`;
 }
 
-/** Never the address: it has a password in it. */
+/** The error's message without passwords: the database address may contain one. */
 function words(error: unknown): string {
   const { code, message } = error as { code?: unknown; message?: unknown };
   const text = typeof message === "string" && message !== "" ? message : String(code ?? error);

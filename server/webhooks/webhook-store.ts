@@ -1,4 +1,4 @@
-/** Webhooks and what is still to be delivered, in the server's database. */
+/** Webhooks and their pending deliveries, in the server's database. */
 import type { Database } from "node-sqlite3-wasm";
 import { webhookSchema, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
 
@@ -8,7 +8,7 @@ export interface Delivery {
   readonly id: string;
   readonly webhookId: string;
   readonly event: WebhookEvent;
-  /** JSON text as it is signed and sent. */
+  /** The exact JSON text that is signed and sent. */
   readonly body: string;
   readonly tryCount: number;
   /** ms since 1970. */
@@ -51,7 +51,7 @@ export class WebhookStore {
     );
   }
 
-  /** With what was still to be delivered to it. False when there is none. */
+  /** Removes the webhook with its pending deliveries. False if there is no such webhook. */
   remove(id: string): boolean {
     this.#db.run("DELETE FROM deliveries WHERE webhook_id = ?", [id]);
     this.#db.run("DELETE FROM webhooks WHERE id = ?", [id]);
@@ -69,7 +69,7 @@ export class WebhookStore {
     );
   }
 
-  /** Oldest first: a webhook hears of things in their order. */
+  /** Oldest first: deliveries are made in order. */
   deliveries(webhookId: string): Delivery[] {
     return this.#all("SELECT * FROM deliveries WHERE webhook_id = ? ORDER BY rowid", [webhookId]).map(
       (row) => ({

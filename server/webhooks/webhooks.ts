@@ -1,15 +1,16 @@
 /**
- * Tells other programs by HTTP when a job is done, waits for somebody, or has failed.
+ * Notifies other programs by HTTP when a job is done, waits for the user, or has failed.
  *
- * What is to be told is written in the same transaction as the job's change, so no crash can lose it; it is
- * taken away only after the receiver has answered 2xx, so after a crash it may come twice (same id). For each
- * webhook one message at a time, in order; a failing one waits longer after each try and does not hold up others'.
+ * Each message is stored in the same transaction as the job's change, so no crash can lose it. It is removed
+ * only after the receiver has answered 2xx, so after a crash it may be sent twice (with the same id). Each
+ * webhook gets one message at a time, in order. After each failed try the pause is longer; other webhooks are
+ * not delayed.
  *
  *   Plotwright-Signature: t=SECONDS,v1=HEX      HMAC-SHA256 of "SECONDS.BODY" with the webhook's secret
  *
- * The time is signed with it, so that a listener can refuse what was recorded and sent again later. Redirects
- * are not followed: the body would go to somewhere its owner has not named. Logs never have more of the address
- * than its host: the rest is a secret with many services.
+ * The time is signed too, so that a receiver can refuse replayed messages. Redirects are not followed,
+ * because the body would go to an address that the user has not chosen. Logs contain only the host of the
+ * address, because the rest is a secret with many services.
  */
 import { createHmac, randomBytes, randomUUID } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
@@ -21,17 +22,17 @@ export interface WebhookParts {
   readonly plotterName: (id: string) => string;
   readonly log: (line: string) => void;
   readonly nowMs?: () => number;
-  /** Pause after each failed try; after one more it is given up. */
+  /** Pause after each failed try. When the try after the last pause fails, the message is dropped. */
   readonly pausesS?: readonly number[];
 }
 
-/** About three days in all. */
+/** About three days in total. */
 const PAUSES_S = [5, 30, 120, 600, 3_600, 21_600, 43_200, 86_400, 86_400];
-const PATIENCE_MS = 10_000;
+const TIMEOUT_MS = 10_000;
 
 interface Try {
   readonly isDelivered: boolean;
-  /** The receiver has said that it is gone for good. */
+  /** The receiver answered 410 Gone. */
   readonly isGone: boolean;
   readonly message: string;
 }
@@ -39,7 +40,7 @@ interface Try {
 export class Webhooks {
   readonly #parts: WebhookParts;
   readonly #nowMs: () => number;
-  /** Webhooks that are at a delivery, or wait for the time of the next. */
+  /** By webhook id: the timer of the next delivery, or null during a delivery. */
   readonly #busy = new Map<string, NodeJS.Timeout | null>();
   readonly #abort = new AbortController();
   readonly #running = new Set<Promise<void>>();
@@ -49,7 +50,7 @@ export class Webhooks {
     this.#nowMs = parts.nowMs ?? Date.now;
   }
 
-  /** Goes on with what an earlier run of the server left. */
+  /** Resumes deliveries left by an earlier run of the server. */
   start(): void {
     for (const { id } of this.list()) this.#next(id);
   }
@@ -58,7 +59,7 @@ export class Webhooks {
     return this.#parts.store.list();
   }
 
-  /** The secret is given back once and never shown again. */
+  /** The secret is returned only here and never shown again. */
   add({ name, url, events }: NewWebhook): { readonly webhook: Webhook; readonly secret: string } {
     const webhook: Webhook = {
       id: randomUUID(),
@@ -82,7 +83,7 @@ export class Webhooks {
     if (timer !== null) this.#busy.delete(id);
   }
 
-  /** To be called inside the transaction that stores the job; sends nothing yet. */
+  /** Call inside the transaction that stores the job; stores the messages without sending them. */
   note(before: Job | null, after: Job): void {
     const event = eventOf(before, after);
     if (event === null) return;
@@ -95,12 +96,12 @@ export class Webhooks {
     }
   }
 
-  /** To be called after that transaction. */
+  /** Call after that transaction; starts sending. */
   wake(): void {
     for (const { id, pendingCount } of this.list()) if (pendingCount > 0) this.#next(id);
   }
 
-  /** What is not delivered stays for the next start. */
+  /** Undelivered messages remain stored for the next start. */
   async close(): Promise<void> {
     this.#abort.abort();
     for (const timer of this.#busy.values()) if (timer !== null) clearTimeout(timer);
@@ -137,7 +138,8 @@ export class Webhooks {
           this.#busy.delete(webhookId);
         })
         .then(() => this.#next(webhookId))
-        // A full disk, for one: tried again when a job changes next, not at once and for ever.
+        // For example a full disk. The next try is when a job changes; trying again at once would loop
+        // forever.
         .catch((error: unknown) => this.#parts.log(`webhooks: ${String(error)}`));
       this.#running.add(run);
     }, pauseMs);
@@ -151,7 +153,8 @@ export class Webhooks {
     const secret = store.secretOf(delivery.webhookId);
     if (webhook === undefined || secret === null) return;
     const { isDelivered, isGone, message } = await this.#post(webhook.url, secret, delivery);
-    // Stopped in the middle: whether it has arrived is not known, so it is sent again.
+    // Stopped during the request: it is unknown whether the message arrived, so it is sent again after a
+    // restart.
     if (this.#abort.signal.aborted) return;
     const at = new Date(this.#nowMs()).toISOString();
     store.saveLast(webhook.id, { at, isDelivered, message });
@@ -162,10 +165,10 @@ export class Webhooks {
     const pauseS = pausesS[delivery.tryCount];
     const who = `webhook ${JSON.stringify(webhook.name)} (${new URL(webhook.url).host})`;
     if (isGone || pauseS === undefined) {
-      log(`${who}: ${message}; "${delivery.event}" is given up`);
+      log(`${who}: ${message}; gave up on "${delivery.event}"`);
       store.removeDelivery(delivery.id);
     } else {
-      log(`${who}: ${message}; tried again in ${pauseS} s`);
+      log(`${who}: ${message}; next try in ${pauseS} s`);
       store.delay(delivery.id, delivery.tryCount + 1, this.#nowMs() + pauseS * 1000);
     }
   }
@@ -177,7 +180,7 @@ export class Webhooks {
         method: "POST",
         body,
         redirect: "manual",
-        signal: AbortSignal.any([this.#abort.signal, AbortSignal.timeout(PATIENCE_MS)]),
+        signal: AbortSignal.any([this.#abort.signal, AbortSignal.timeout(TIMEOUT_MS)]),
         headers: {
           "Content-Type": "application/json",
           "User-Agent": "plotwright",
@@ -203,19 +206,19 @@ export class Webhooks {
 export const signatureOf = (secret: string, timeS: number, body: string): string =>
   createHmac("sha256", secret).update(`${timeS}.${body}`).digest("hex");
 
-/** Interrupted counts as waiting: it goes on when somebody says so. */
+/** An interrupted job counts as waiting, because it needs the user to continue. */
 function eventOf(before: Job | null, after: Job): WebhookEvent | null {
   const isNew = before?.state !== after.state;
   if (after.state === "done") return isNew ? "done" : null;
   if (after.state === "failed") return isNew ? "failed" : null;
   if (after.state === "interrupted") return isNew ? "waiting" : null;
   const waitsNow = after.state === "paused" && after.wait !== null;
-  // Taken up again, it waits for what it waited for before.
+  // A recovered job still has the wait from before, which was already reported.
   const waitedBefore = before?.wait !== null && before !== null;
   return waitsNow && !waitedBefore ? "waiting" : null;
 }
 
-/** A code such as ECONNREFUSED; the message of fetch itself may have the address in it. */
+/** Reports only a code such as ECONNREFUSED, because the error message of fetch may contain the address. */
 function reason(error: unknown): string {
   if (error instanceof Error && error.name === "TimeoutError") return "did not answer";
   const cause = error instanceof Error ? error.cause : undefined;

@@ -40,7 +40,7 @@ describe("closing", () => {
     await closing.run();
     expect(isClosed).toBe(true);
     expect(logged).toEqual([
-      "closing: what plots has not ended within 0.02 s and is left as it is",
+      "closing: what plots did not close within 0.02 s; continuing without it",
       "closing: the net: no route",
     ]);
   });

@@ -114,7 +114,7 @@ describe("a damaged database", () => {
     writeFileSync(databasePath(), bytes);
     const store = (await start())!;
     expect(idsOf(store)).toEqual(ids.slice(0, -2));
-    expect(store.opened.repair).toMatch(/could not be used: .*The copy from .* has taken its place/);
+    expect(store.opened.repair).toMatch(/could not be used: .*It was replaced with the copy from /);
     store.close();
     const kept = readdirSync(dir).find((name) => name.startsWith("plotwright-damaged-"))!;
     expect(readFileSync(inDir(kept))).toEqual(bytes);
@@ -145,7 +145,7 @@ describe("a damaged database", () => {
     const before = readFileSync(databasePath());
     for (let tries = 0; tries < 2; tries++) {
       expect(() => Store.open(dir)).toThrow(
-        /can't be opened .*its copy .* can't be used either.*begin with an empty queue/,
+        /can't be opened .*its copy .* can't be used either.*start with an empty queue/,
       );
     }
     expect(readFileSync(databasePath())).toEqual(before);
@@ -187,7 +187,7 @@ describe("an emptied database", () => {
       expect(serverNotices.map(({ message }) => message)).toEqual(
         Array.from(
           { length: count },
-          () => expect.stringContaining("Look through the queue before you plot") as string,
+          () => expect.stringContaining("Check the queue before you plot") as string,
         ),
       );
     }

@@ -210,7 +210,7 @@ describe("the HTTP interface", () => {
     expect(await fault(response)).toEqual({
       status: 500,
       code: "internal",
-      message: "The server failed at this. Its log says more.",
+      message: "An internal error occurred. The server's log has the details.",
     });
     expect(app.logged.join("\n")).toMatch(/POST .*secret path/);
   });

@@ -105,7 +105,7 @@ describe("the queue", () => {
     const first = await add("fern");
     const second = await add("moss");
     await queue.start(first.id);
-    await expect(queue.start(second.id)).rejects.toThrow(/"fern" is on the plotter/);
+    await expect(queue.start(second.id)).rejects.toThrow(/"fern" is being plotted/);
     expect(queue.get(second.id).state).toBe("queued");
   });
 
@@ -279,7 +279,7 @@ describe("the queue", () => {
     run.record({});
     store.saveJournal = saveJournal;
     run.record({ place: { stroke: 2, alongMm: 1 } });
-    expect(logged).toEqual(["a plot can't be written down: database or disk is full"]);
+    expect(logged).toEqual(["the state of a plot can't be stored: database or disk is full"]);
     run.end({ kind: "done" });
     await settled();
     expect(queue.get(id).state).toBe("done");

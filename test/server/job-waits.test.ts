@@ -74,7 +74,7 @@ describe("a stop for a pen", () => {
     expect(queue.get(id)).toMatchObject(held);
     expect(store.jobs()[0]).toMatchObject(held);
     queue.resume(id);
-    expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null, message: "Going on." });
+    expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null, message: "Resuming." });
     queue.pause(id);
     expect(queue.get(id)).toMatchObject({ state: "paused", wait: null });
   });
@@ -94,7 +94,7 @@ describe("a stop for a pen", () => {
     expect(queue.get(id)).toMatchObject({
       state: "paused",
       wait: BLUE,
-      message: expect.stringMatching(/^Put in "Blue 0.3" for "2 sky"\. The board still knows its place/),
+      message: expect.stringMatching(/^Put in "Blue 0.3" for "2 sky"\. The board still knows its position/),
     });
     queue.resume(id);
     expect(again.asked).toEqual(["pause", "resume"]);

@@ -51,7 +51,7 @@ const found = (phone: Bonjour, type: string): Promise<Service> =>
   new Promise((resolve) => phone.findOne({ type }, 30_000, (service: Service) => resolve(service)));
 
 const NETWORK = (): Set<Line> => new Set<Line>();
-const PACE = { askEveryMs: 5, yieldMs: 50 };
+const PACE = { probeIntervalMs: 5, yieldMs: 50 };
 
 /** A server on a network; `names` are those that it had, one after the other. */
 class Announcer {
@@ -107,7 +107,7 @@ describe("the name on the network", () => {
     const { local, logged } = new Announcer(new Line(network), { isTls });
     const service = await found(phone, type);
     expect([service.name, service.host, service.port]).toEqual(["plotwright", "plotwright.local", 9080]);
-    expect(logged).toEqual([`this server is at ${type}://plotwright.local:9080 on the network`]);
+    expect(logged).toEqual([`the server's address on the network is ${type}://plotwright.local:9080`]);
     await local.close();
     phone.destroy();
     expect(network.size).toBe(0);
@@ -132,7 +132,7 @@ describe("the name on the network", () => {
       const server = new Announcer(new Line(new Set(), fault));
       await server.until(({ logged }) => logged.length > 0);
       expect(server.logged).toEqual([
-        `plotwright.local cannot be announced on the network (bind ${code}); its address works, and the name is tried again`,
+        `plotwright.local cannot be announced on the network (bind ${code}); use the server's address until the next try succeeds`,
       ]);
       expect(server.local.name).toBe(null);
       await server.local.close();
@@ -151,8 +151,8 @@ describe("two servers on one network", () => {
     await third.named("plotwright-3.local");
     expect(first.names).toEqual(["plotwright.local"]);
     expect(second.logged).toEqual([
-      "plotwright.local is another server's on this network",
-      "this server is at http://plotwright-2.local:9081 on the network",
+      "plotwright.local is in use by another server on this network",
+      "the server's address on the network is http://plotwright-2.local:9081",
     ]);
     for (const { local } of [first, second, third]) await local.close();
   });

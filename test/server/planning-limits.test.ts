@@ -47,7 +47,7 @@ async function failure(work: Promise<unknown>): Promise<PlotwrightError> {
 }
 
 /** As heap, or in typed arrays. */
-const TOO_MUCH = ["too-large", expect.stringContaining("more memory than there is") as string];
+const TOO_MUCH = ["too-large", expect.stringContaining("more memory than is available") as string];
 
 describe("a planner", () => {
   it("ends reading a file that takes too long", async () => {

@@ -39,7 +39,9 @@ describe("a plotter whose model nobody has named", () => {
   it("is not given what is for any plotter of a model, says so, and is once it is named", async () => {
     await expect
       .poll(() => logged)
-      .toContainEqual(expect.stringMatching(/takes only jobs for .* itself: nobody has said what model/));
+      .toContainEqual(
+        expect.stringMatching(/takes only jobs sent to .* by name, because its machine is not set/),
+      );
     await share(server, "fern", { machine: MACHINE });
     await share(server, "moss", { plotter: "Left" });
     await expect.poll(() => jobsOf(server)).toEqual(["moss queued"]);
@@ -53,7 +55,7 @@ describe("a plotter whose model nobody has named", () => {
 describe("a shared job that was taken and has not begun", () => {
   it("does not begin while the database is away, which says why, and a copy of it does", async () => {
     await database.cut();
-    expect(await start("fern")).toMatch(/^409 .*another one may have been given/);
+    expect(await start("fern")).toMatch(/^409 .*another server may have been given/);
     expect(await jobsOf(server)).toEqual(["fern queued"]);
     await send(server.url, "PATCH", `/jobs/${await jobNamed("fern")}`, { name: "fern here" });
     const copy = (await (

@@ -40,7 +40,7 @@ describe("a job that a server has taken", () => {
     const refused = await giveBack();
     expect([refused.status, await refused.text()]).toEqual([
       409,
-      expect.stringContaining("was heard of just now"),
+      expect.stringContaining("is running and will plot"),
     ]);
 
     await left.close();
@@ -48,7 +48,7 @@ describe("a job that a server has taken", () => {
     await database.age("fern");
     await expect
       .poll(() => noticesOf(right))
-      .toEqual([expect.stringMatching(/^"fern" is with .*, which has gone/)]);
+      .toEqual([expect.stringMatching(/^"fern" was taken by .*, which can't be reached/)]);
     expect((await giveBack()).status).toBe(200);
     await expect.poll(() => jobsOf(right)).toEqual(["fern queued"]);
 

@@ -172,7 +172,7 @@ describe("the watched folder", () => {
       withMachine: <T>(one: T): T => one,
     };
     await expect(WatchFolder.open(join(dir, "none"), { ...parts, log: () => undefined })).rejects.toThrow(
-      "is not there",
+      "does not exist",
     );
   });
 });

@@ -11,7 +11,7 @@ import { MachineFiles } from "../../../server/machines/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
 import { PlotterRegistry } from "../../../server/plotter-registry.js";
 import { Notices } from "../../../server/queue/notices.js";
-import { Baton } from "../../../server/security/baton.js";
+import { OperatorLock } from "../../../server/security/operator-lock.js";
 import { pairingLinks } from "../../../server/security/network.js";
 import type { FoundBoard } from "../../../server/serial/find-boards.js";
 import { Webhooks } from "../../../server/webhooks/webhooks.js";
@@ -90,7 +90,7 @@ export async function startApp(
     afterChange: () => webhooks.wake(),
   });
   const notices = new Notices({ store, announce, nowIso });
-  const baton = new Baton({
+  const operatorLock = new OperatorLock({
     store,
     log,
     announce: (operator) => announce({ type: "operator", operator }),
@@ -104,7 +104,7 @@ export async function startApp(
     files,
     registry,
     hub,
-    baton,
+    operatorLock,
     webhooks,
     notices,
     shared: null,
@@ -151,7 +151,7 @@ export async function startApp(
       await new Promise((resolve) => http.close(resolve));
       await queue.close();
       await webhooks.close();
-      baton.close();
+      operatorLock.close();
       store.close();
       rmSync(dir, { recursive: true, force: true });
     },

@@ -146,7 +146,7 @@ export class SharedDatabase {
       sharedQueue: this.url,
       sharedPollMs: 100,
       sharedLostAfterMs: LOST_AFTER_MS,
-      sharedPatienceMs: PATIENCE_MS,
+      sharedTimeoutMs: PATIENCE_MS,
       ...options,
     });
   }

@@ -1,56 +1,59 @@
 /**
- * One operator at a time: of several browsers that may operate, one holds the baton, the others watch until
- * they take it. Stopping needs no baton. Scripts are not browsers and need none either.
+ * Lets only one browser operate at a time: it holds the operator lock, and other browsers watch until they
+ * take the lock over. Stopping a plot does not need the lock, and scripts never need it.
  *
  *   free ──first to act──> held ──take by another──> held by that one
  *    ^                      │
  *    └── no event stream of the holder for 30 s (page closed, phone gone)
  *
- * Kept in the database, so that a restart of the server takes it from nobody.
+ * The holder is stored in the database, so that a restart of the server does not release the lock.
  */
 import { PlotwrightError } from "../../src/index.js";
 import { operatorSchema, type Operator } from "../../src/schema/index.js";
 import type { Store } from "../queue/store.js";
 
-export interface BatonParts {
+export interface OperatorLockParts {
   readonly store: Pick<Store, "setting" | "saveSetting">;
   readonly announce: (operator: Operator | null) => void;
   readonly log: (line: string) => void;
-  /** 30 s unless told. */
+  /** Default 30 s. */
   readonly lapseMs?: number;
 }
 
 const SETTING = "operator";
 const LAPSE_MS = 30_000;
 
-export class Baton {
-  readonly #parts: BatonParts;
+export class OperatorLock {
+  readonly #parts: OperatorLockParts;
   #operator: Operator | null;
   /** Open event streams by browser. */
   readonly #streams = new Map<string, number>();
   #lapse: NodeJS.Timeout | null = null;
   #isClosed = false;
 
-  constructor(parts: BatonParts) {
+  constructor(parts: OperatorLockParts) {
     this.#parts = parts;
-    const kept = operatorSchema.safeParse(parts.store.setting(SETTING));
-    this.#operator = kept.success ? kept.data : null;
-    this.#watch();
+    const stored = operatorSchema.safeParse(parts.store.setting(SETTING));
+    this.#operator = stored.success ? stored.data : null;
+    this.#restartLapse();
   }
 
   get operator(): Operator | null {
     return this.#operator;
   }
 
-  /** Before a browser changes something: gives it a free baton; throws `not-operator` while another one has it. */
+  /**
+   * Call before a browser changes something: gives it the lock if it is free; throws `not-operator` if
+   * another has it.
+   */
   act(browser: Operator): void {
     if (this.#operator === null) this.#give(browser, "acts first");
     else if (this.#operator.id !== browser.id) {
       throw new PlotwrightError(
         "not-operator",
-        `${this.#operator.name} is operating. Take over to change something; stopping works without.`,
+        `${this.#operator.name} is operating. Take over to change something; you can stop a plot without taking over.`,
       );
-    } else this.#watch();
+    } else this.#restartLapse();
   }
 
   take(browser: Operator): Operator {
@@ -61,22 +64,22 @@ export class Baton {
     return browser;
   }
 
-  /** A browser has opened its event stream; to be called back when that ends. */
+  /** A browser has opened its event stream. Call the returned function when the stream ends. */
   streamOpened(id: string): () => void {
     this.#streams.set(id, (this.#streams.get(id) ?? 0) + 1);
-    this.#watch();
+    this.#restartLapse();
     return () => {
       const left = (this.#streams.get(id) ?? 1) - 1;
       if (left === 0) this.#streams.delete(id);
       else this.#streams.set(id, left);
-      this.#watch();
+      this.#restartLapse();
     };
   }
 
-  /** Streams that end after it start no clock any more. */
+  /** Streams that end after this no longer start the timer. */
   close(): void {
     this.#isClosed = true;
-    this.#watch();
+    this.#restartLapse();
   }
 
   #give(operator: Operator | null, why: string): void {
@@ -84,22 +87,22 @@ export class Baton {
     try {
       this.#parts.store.saveSetting(SETTING, operator);
     } catch (error) {
-      // A full disk must not keep anybody from operating, nor end the server when a turn lapses.
+      // A full disk must neither prevent operating nor end the server when the lock lapses.
       this.#parts.log(`the operator is not stored: ${(error as Error).message}`);
     }
     this.#parts.log(`operator: ${operator?.name ?? "nobody"} (${why})`);
     this.#parts.announce(operator);
-    this.#watch();
+    this.#restartLapse();
   }
 
-  /** The clock runs from the holder's last stream or act on. */
-  #watch(): void {
+  /** Restarts the timer that releases the lock, which runs while the holder has no event stream. */
+  #restartLapse(): void {
     if (this.#lapse !== null) clearTimeout(this.#lapse);
     this.#lapse = null;
     if (this.#isClosed || this.#operator === null || this.#streams.has(this.#operator.id)) return;
     const gone = this.#operator;
     this.#lapse = setTimeout(
-      () => this.#give(null, `${gone.name} has been gone for a while`),
+      () => this.#give(null, `${gone.name} has disconnected`),
       this.#parts.lapseMs ?? LAPSE_MS,
     );
     this.#lapse.unref();

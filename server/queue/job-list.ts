@@ -1,10 +1,10 @@
 /**
- * The jobs as they stand: in memory as on disk. Every change goes store -> memory -> announcement, so a kill
- * at any instant leaves every browser's last picture true or behind, never ahead.
+ * The current state of all jobs, in memory and on disk. Every change is stored, then applied in memory, then
+ * announced. So even if the process is killed, no browser has been shown a change that was not stored.
  *
- * There are two exceptions. Progress is kept in memory and written only with the next change of state. And a job that
- * is on a plotter follows its pen even when the disk is full: it is announced with words about the disk, and written
- * as soon as there is room.
+ * There are two exceptions. Progress is only in memory and is stored with the next change of state. And a job
+ * that is on a plotter keeps changing even when the disk is full: it is announced with a message about the
+ * disk, and stored as soon as there is room.
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
@@ -14,26 +14,26 @@ import { applyJobEvent, type JobEvent } from "./job-machine.js";
 import type { QueueParts } from "./queue-parts.js";
 import type { WatchedFile } from "./store.js";
 
-type BookParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
+type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
 const ON_PLOTTER: readonly (Job["state"] | undefined)[] = ["plotting", "paused"];
 const RETRY_MS = 5_000;
 
-/** Where a job comes from, and where it goes in the queue. */
+/** Where a job comes from, and its place in the queue. */
 export interface Origin {
   readonly beforeId?: string | null;
   readonly watched?: WatchedFile | undefined;
   readonly sharedId?: string | undefined;
 }
 
-export class JobBook {
-  readonly #parts: BookParts;
+export class JobList {
+  readonly #parts: ListParts;
   readonly #jobs = new Map<string, Job>();
-  /** Jobs that the disk did not take, each as it was before. */
+  /** Jobs whose last change could not be stored, by id, each in its stored state. */
   readonly #unsaved = new Map<string, Job | null>();
   #retry: NodeJS.Timeout | null = null;
 
-  constructor(parts: BookParts) {
+  constructor(parts: ListParts) {
     this.#parts = parts;
     for (const job of parts.store.jobs()) this.#jobs.set(job.id, job);
   }
@@ -58,7 +58,7 @@ export class JobBook {
     return job;
   }
 
-  /** Last in the queue, or before another job of it. */
+  /** Adds a job before another job of the queue, or last. */
   insert(job: Job, drawing: StoredDrawing, { beforeId = null, watched, sharedId }: Origin = {}): Job {
     const { store } = this.#parts;
     store.together(() => {
@@ -72,7 +72,7 @@ export class JobBook {
     return job;
   }
 
-  /** Returns the job's drawing when no other job needs it. */
+  /** Returns the job's drawing if no other job uses it, else null. */
   remove(id: string): string | null {
     const unused = this.#parts.store.removeJob(id);
     this.#jobs.delete(id);
@@ -81,7 +81,7 @@ export class JobBook {
     return unused;
   }
 
-  /** `more`: what else changes in the same step. */
+  /** `more`: other fields to change in the same step. */
   apply(id: string, event: JobEvent, more: Partial<Job> = {}): Job {
     const before = this.get(id);
     const after = this.save({ ...applyJobEvent(before, event, this.#parts.nowIso()), ...more });
@@ -99,12 +99,12 @@ export class JobBook {
     }
   }
 
-  /** Something of a job that is on a plotter could not be written: says so, once. */
+  /** Reports, once, that data of a job that is on a plotter could not be stored. */
   diskIsFull(id: string): void {
     if (!this.#unsaved.has(id)) this.#saveLater(this.get(id));
   }
 
-  /** Tries once more what the disk did not take. */
+  /** Tries once more to store the unsaved jobs. */
   close(): void {
     this.#saveUnsaved();
     if (this.#retry !== null) clearTimeout(this.#retry);
@@ -126,11 +126,11 @@ export class JobBook {
 
   #saveLater(job: Job): Job {
     if (!this.#unsaved.has(job.id)) this.#unsaved.set(job.id, this.#jobs.get(job.id) ?? null);
-    const told = { ...job, message: withDiskFull(job.message) };
-    this.#jobs.set(job.id, told);
-    this.#parts.announce({ type: "job", job: told });
+    const announced = { ...job, message: withDiskFull(job.message) };
+    this.#jobs.set(job.id, announced);
+    this.#parts.announce({ type: "job", job: announced });
     this.#retry ??= setTimeout(() => this.#saveUnsaved(), RETRY_MS).unref();
-    return told;
+    return announced;
   }
 
   #saveUnsaved(): void {
@@ -147,24 +147,24 @@ export class JobBook {
     }
   }
 
-  /** Tells the user of a job that has not ended; of one that has, its end is all there is to tell. */
+  /** Shows a message to the user, unless the job has ended: then the message about its end stays. */
   note(id: string, message: string): Job {
     const job = this.get(id);
     return ENDED_STATES.includes(job.state) ? job : this.save({ ...job, message });
   }
 
   /**
-   * New expected times for all jobs that wait for a plotter: one statement and one event, however many they are, since
-   * other plotters plot while this is written.
+   * Updates the expected time of all jobs queued for a plotter. It takes one statement and one event however
+   * many jobs there are, because other plotters are plotting meanwhile.
    */
-  expectAnew(plotterId: string, ratio: number): void {
+  updateExpected(plotterId: string, ratio: number): void {
     const expectedS = this.#parts.store.saveExpected(plotterId, ratio);
     const ids = Object.keys(expectedS);
     for (const id of ids) this.#jobs.set(id, { ...this.get(id), expectedS: expectedS[id] ?? null });
     if (ids.length > 0) this.#parts.announce({ type: "expected", expectedS });
   }
 
-  /** In memory only. */
+  /** Changes memory only, without storing or announcing. */
   progressed(id: string, progress: Pick<Job, "progress" | "elapsedS" | "remainingS">): void {
     this.#jobs.set(id, { ...this.get(id), ...progress });
   }

@@ -1,6 +1,6 @@
 /** One operator at a time: several browsers, each with the cookie that the server gave it. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { Baton } from "../../server/security/baton.js";
+import { OperatorLock } from "../../server/security/operator-lock.js";
 import {
   apiErrorSchema,
   jobSchema,
@@ -49,7 +49,7 @@ const codeOf = async (response: Response): Promise<string> =>
 const operator = async (): Promise<Operator | null> =>
   snapshotSchema.parse(await (await fetch(`${app.url}/api/v1/state`)).json()).operator;
 
-describe("the baton", () => {
+describe("the operator lock", () => {
   it("goes to the browser that acts first; another one changes nothing until it takes over", async () => {
     const [desktop, phone] = [await openBrowser(DESKTOP), await openBrowser(PHONE)];
     const streams = [
@@ -157,10 +157,10 @@ describe("the baton", () => {
       saveSetting: (_key: string, value: unknown) => void (kept.value = value),
     };
     const parts = { store, announce: () => undefined, log: () => undefined };
-    const first = new Baton(parts);
+    const first = new OperatorLock(parts);
     first.act({ id: "a", name: "A" });
     first.close();
-    const second = new Baton(parts);
+    const second = new OperatorLock(parts);
     expect(second.operator).toEqual({ id: "a", name: "A" });
     expect(() => second.act({ id: "b", name: "B" })).toThrow("A is operating");
     second.close();

@@ -1,4 +1,4 @@
-/** The plotters of one server, as the queue and the routes see them. */
+/** A plotter as the queue and the routes use it: a driver with an id, a name and a machine. */
 import { findMachine, PlotwrightError } from "../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
@@ -13,28 +13,31 @@ import type { ManagedPlotter, PlotterPort } from "./queue/plotter-port.js";
 import type { PlotterRow } from "./queue/store.js";
 
 export interface DeviceChoice {
-  /** Serial path, "virtual", or nothing: the first EiBotBoard. */
+  /** Serial path or "virtual"; default: the first EiBotBoard. */
   readonly device?: string | undefined;
   readonly virtualSpeed?: number | undefined;
 }
 
-/** Kept with every job, so it must never change. */
+/** Id of a server's first plotter. It is stored with every job, so it must never change. */
 export const FIRST_PLOTTER = "main";
 
 export interface DrivenOptions {
   readonly virtualSpeed?: number | undefined;
-  /** Ports that other plotters have been given. */
+  /** Whether another plotter uses this port. */
   readonly isTaken: (path: string) => boolean;
-  /** Puts in the profile of a machine of the user's own. */
+  /** Adds the profile when the settings name a custom machine. */
   readonly withMachine: (settings: PlotSettings) => PlotSettings;
   readonly log: (line: string) => void;
 }
 
-/** A machine of the user's own may have been removed since the plotter was given it. */
+/** Falls back to the default settings if the plotter's custom machine was removed. */
 const knownMachine = (settings: PlotSettings): PlotSettings =>
   findMachine(settings) === null ? DEFAULT_PLOT_SETTINGS : settings;
 
-/** Connects in the background: a server without its board still shows the queue and says what is wrong. */
+/**
+ * Opens a plotter that connects in the background: a server without a board still shows the queue and the
+ * error.
+ */
 export function openDriven(row: PlotterRow, options: DrivenOptions): ManagedPlotter {
   const { virtualSpeed, isTaken, withMachine, log } = options;
   const { machine } = row;
@@ -56,8 +59,8 @@ export function openDriven(row: PlotterRow, options: DrivenOptions): ManagedPlot
 }
 
 /**
- * One plotter, connected, for a command; throws `no-board` when it can't be. A command that draws nothing without
- * saying so would be taken for one that worked: the virtual board has to be asked for.
+ * Connects one plotter for a command; throws `no-board` if that fails. It never falls back to the virtual
+ * board: a command that silently draws nothing would look as if it had worked.
  */
 export async function openPlotter(choice: DeviceChoice, settings: PlotSettings): Promise<PlotterPort> {
   const { device = "auto", virtualSpeed } = choice;
@@ -72,7 +75,7 @@ export async function openPlotter(choice: DeviceChoice, settings: PlotSettings):
   if (connection === "absent" && device === "auto") {
     throw new PlotwrightError(
       "no-board",
-      "No plotter is plugged in: check its USB cable and its power. To try this without one, add --device virtual.",
+      "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",
     );
   }
   throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
@@ -96,7 +99,7 @@ class DrivenPlotter implements ManagedPlotter {
     this.#machine = machine;
     this.#settingsOf = settingsOf;
     this.#driver = new PlotterDriver(options);
-    this.#driver.onChange(() => this.#tell());
+    this.#driver.onChange(() => this.#notify());
   }
 
   start(): Promise<void> {
@@ -115,13 +118,13 @@ class DrivenPlotter implements ManagedPlotter {
 
   rename(name: string): void {
     this.#name = name;
-    this.#tell();
+    this.#notify();
   }
 
   useMachine(machine: string | null): void {
     this.#driver.use(this.#settingsOf(machine));
     this.#machine = machine;
-    this.#tell();
+    this.#notify();
   }
 
   onChange(listener: (plotter: Plotter) => void): void {
@@ -156,7 +159,7 @@ class DrivenPlotter implements ManagedPlotter {
     return this.#driver.close();
   }
 
-  #tell(): void {
+  #notify(): void {
     const state = this.snapshot();
     for (const listener of this.#listeners) listener(state);
   }
