@@ -1,12 +1,12 @@
 /**
  * Elliptical arcs to cubic Béziers.
  *
- * A cubic with control arms of (4/3) tan(θ/4) follows a unit arc of angle θ to within
- * 2.7253e-4 (θ / (π/2))⁶ (largest radial gap; the sixth power is exact to leading order, and the
- * constant is that of the quarter circle, where it is largest). The number of pieces follows from
- * the gap allowed, so a 300 mm circle is as true as a 1 mm one.
+ * A cubic with control arms of (4/3) tan(θ/4) follows a unit arc of angle θ to within 2.7253e-4 (θ / (π/2))⁶
+ * (max radial gap; the sixth power is exact to leading order, and the constant is that of a quarter circle,
+ * where it is largest). The number of pieces follows from the allowed gap, so a 300 mm circle is as accurate
+ * as a 1 mm one.
  *
- * SVG's endpoint form is turned into centre form after SVG 1.1, appendix F.6.5 and F.6.6.
+ * SVG's endpoint form is converted to centre form as in SVG 1.1, appendix F.6.5 and F.6.6.
  */
 import type { ShapeBuffer } from "./shape-buffer.js";
 
@@ -14,17 +14,17 @@ const QUARTER_GAP = 2.7253e-4;
 const QUARTER = Math.PI / 2;
 const MAX_PIECES = 4096;
 
-/** Pieces that keep an arc of `sweep` radians and largest radius `radius` within `tolerance`. */
+/** The number of pieces that keep an arc of `sweep` radians and max radius `radius` within `tolerance`. */
 function arcPieceCount(radius: number, sweep: number, tolerance: number): number {
-  const most = QUARTER * Math.min(1, Math.pow(tolerance / (QUARTER_GAP * radius), 1 / 6));
-  const pieces = Math.ceil(Math.abs(sweep) / most - 1e-9);
+  const maxAngle = QUARTER * Math.min(1, Math.pow(tolerance / (QUARTER_GAP * radius), 1 / 6));
+  const pieces = Math.ceil(Math.abs(sweep) / maxAngle - 1e-9);
   return pieces >= 1 ? Math.min(pieces, MAX_PIECES) : 1;
 }
 
 /**
- * Draws an arc from the pen's place: centre (cx, cy), radii rx, ry, the ellipse turned by `tilt`,
- * from angle `start` on through `sweep` (all rad, in the ellipse's own parameter).
- * The last point is (endX, endY) exactly.
+ * Draws an arc from the pen's position: centre (cx, cy), radii rx, ry, the ellipse rotated by `tilt`, from
+ * angle `start` through `sweep` (all rad, as the ellipse's parameter). The last point is exactly (endX,
+ * endY).
  */
 export function drawCentreArc(
   shape: ShapeBuffer,
@@ -69,7 +69,10 @@ export function drawCentreArc(
   }
 }
 
-/** SVG's A command from the pen's place to (x, y). Radii too small are grown, zero radii give a line. */
+/**
+ * SVG's A command from the pen's position to (x, y). Radii that are too small are enlarged; zero radii give a
+ * line.
+ */
 export function drawSvgArc(
   shape: ShapeBuffer,
   rx: number,
@@ -93,7 +96,7 @@ export function drawSvgArc(
   const tilt = (tiltDeg % 360) * (Math.PI / 180);
   const cosT = Math.cos(tilt);
   const sinT = Math.sin(tilt);
-  // Half the chord in the ellipse's axes, in units of its radii: a unit circle from here on.
+  // Half the chord along the ellipse's axes, in units of its radii: a unit circle from here on.
   const hx = (x0 - x) / 2;
   const hy = (y0 - y) / 2;
   let ux = (cosT * hx + sinT * hy) / rx;
@@ -110,7 +113,7 @@ export function drawSvgArc(
     ux /= grow;
     uy /= grow;
   }
-  // Centre: off the chord's middle, at right angles, on the side the flags choose.
+  // Centre: offset from the chord's midpoint, perpendicular to it, on the side chosen by the flags.
   const away = Math.sqrt(Math.max(0, 1 / Math.min(1, half2) - 1)) * (large === clockwise ? -1 : 1);
   const cux = away * uy;
   const cuy = -away * ux;
@@ -124,7 +127,7 @@ export function drawSvgArc(
   drawCentreArc(shape, cx, cy, rx, ry, tilt, start, sweep, x, y, tolerance);
 }
 
-/** A whole ellipse, closed, from its rightmost point clockwise on a page whose y runs down (SVG 2, §10.3). */
+/** A full, closed ellipse, clockwise from its rightmost point on a page with y down (SVG 2, §10.3). */
 export function drawEllipse(
   shape: ShapeBuffer,
   cx: number,

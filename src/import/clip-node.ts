@@ -1,9 +1,9 @@
 /**
- * Clip regions while importing: a chain of nodes from the innermost out, shared by all they clip.
+ * Clip regions during import: a chain of nodes from the innermost outwards, shared by all shapes they clip.
  *
- * Most clips in exported files are the artboard's rectangle around everything. A node that is a
- * rectangle along the page's axes is left out for every shape that lies inside it, so such files
- * cost the next stage nothing. An index is given to a region only when a shape needs it.
+ * Most clips in exported files are the artboard's rectangle around everything. A node that is an axis-aligned
+ * rectangle is skipped for every shape inside it, so such files cost the next stage nothing. A region gets an
+ * index only when a shape needs it.
  */
 import type { ClipRegion } from "../drawing/drawing.js";
 import { boxContains, type Box } from "../geometry/box.js";
@@ -15,17 +15,17 @@ export interface ClipShapes {
   readonly shape: Uint32Array;
 }
 
-/** mm: what lies on the rectangle's edge counts as inside. */
+/** mm: a shape on the rectangle's edge counts as inside. */
 const GRACE = 1e-6;
 
 export class ClipNode {
-  /** Index in `Drawing.clips` by the index of what remained of the chain outside. */
+  /** Index in `Drawing.clips`, by the index of the remaining chain outside. */
   private readonly indexByParent = new Map<number, number>();
 
   constructor(
     readonly parent: ClipNode | null,
     readonly shapes: ClipShapes,
-    /** The region itself where it is a rectangle along the axes, in page mm. */
+    /** The region itself if it is an axis-aligned rectangle, in page mm; otherwise null. */
     readonly rectangle: Box | null,
   ) {}
 
@@ -40,7 +40,7 @@ export class ClipNode {
   }
 }
 
-/** The clip index for a shape that fills `box`: −1 where nothing cuts it. */
+/** The clip index for a shape with box `box`; −1 if nothing cuts it. */
 export function clipIndexFor(node: ClipNode | null, box: Box, clips: ClipRegion[]): number {
   const cutting: ClipNode[] = [];
   for (let at = node; at !== null; at = at.parent) {

@@ -1,6 +1,4 @@
-// Ambient declarations are only seen where a program names them, and ours has several programs.
-// eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./color-name.d.ts" />
+// Ambient declarations apply only where a program includes them, and this project has several programs.
 /** CSS colours to "#rrggbb" and an opacity. */
 import colorNames from "color-name";
 
@@ -14,7 +12,7 @@ export interface Color {
 const cache = new Map<string, Color | null>();
 const CACHE_LIMIT = 4096;
 
-/** The colour, or null where the text is none (`currentColor` and `none` are the caller's to know). */
+/** The colour, or null if the text is not one (the caller handles `currentColor` and `none`). */
 export function parseColor(text: string): Color | null {
   const known = cache.get(text);
   if (known !== undefined) return known;

@@ -1,4 +1,4 @@
-/** The exact box of a shape: of the curves themselves, not of their control points. */
+/** The exact bounding box of a shape: of its curves, not of their control points. */
 import { PAIRS_OF_VERB, VERB_CUBIC } from "../drawing/drawing.js";
 import { EMPTY_BOX, type Box } from "../geometry/box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
@@ -6,7 +6,7 @@ import type { ShapeBuffer } from "./shape-buffer.js";
 export const curveBox = (shape: ShapeBuffer): Box =>
   curveBoxOf(shape.verbs.data, 0, shape.verbs.length, shape.coords.data, 0);
 
-/** Of the verbs [verbFrom, verbTo), whose coordinates begin at `at`. */
+/** The box of the verbs [verbFrom, verbTo), whose coordinates begin at `at`. */
 export function curveBoxOf(
   verbs: Uint8Array,
   verbFrom: number,

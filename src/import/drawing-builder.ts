@@ -1,4 +1,4 @@
-/** Gathers shapes into the columns of a Drawing. Coordinates become page mm here and only here. */
+/** Collects shapes into the columns of a Drawing. Only this file converts coordinates to page mm. */
 import {
   RULE_EVENODD,
   RULE_NONZERO,
@@ -16,14 +16,17 @@ import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
-/** A kilometre: far beyond any plotter, near enough that µm survive in single arithmetic steps. */
+/** One kilometre: far beyond any plotter, and small enough that calculations still resolve µm. */
 const MAX_COORDINATE_MM = 1e6;
 
-/** 400 MB. A file of 200 MB seldom has more; blocks and copies in a few bytes may come to any number. */
+/**
+ * 400 MB. Even a file of 200 MB seldom needs more, but a few bytes of blocks and copies can expand to any
+ * size.
+ */
 const MAX_COORDS = 50_000_000;
 
-/** From this share of the file on, the coordinates so far tell how many are to come; the rest may be denser. */
-const TELLING_SHARE = 0.01;
+/** Below this share of the file the total cannot be estimated yet. MARGIN allows for a denser rest. */
+const MIN_SHARE_TO_ESTIMATE = 0.01;
 const MARGIN = 1.25;
 
 /** How a shape is painted. Colours "#rrggbb" or null for none; lengths in page mm. */
@@ -44,7 +47,7 @@ export class DrawingBuilder {
   private readonly dashIndex = new Map<string, number>();
   private readonly verbs = new ColumnBuffer(Uint8Array, 1024);
   private readonly coords = new PointBuffer(1024);
-  /** Where the shapes end: the first one begins at 0. */
+  /** Where each shape ends; the first one begins at 0. */
   private readonly verbOffsets = new ColumnBuffer(Uint32Array);
   private readonly coordOffsets = new ColumnBuffer(Uint32Array);
   private readonly group = new ColumnBuffer(Uint32Array);
@@ -55,11 +58,11 @@ export class DrawingBuilder {
   private readonly dash = new ColumnBuffer(Int32Array);
   private readonly clip = new ColumnBuffer(Int32Array);
   /**
-   * How much of the file has been drawn, 0 … 1. Coordinates are most of a large drawing: room is made at once for as many
-   * as there are likely to be, so that they are not held twice while they grow.
+   * How much of the file has been drawn, 0 … 1. Coordinates are most of a large drawing, so memory for the
+   * likely total is reserved at once: growing step by step would hold them twice.
    */
   progress = 0;
-  /** The look of the shape before, and its numbers. */
+  /** The look of the previous shape, and its indices. */
   private look: Look | null = null;
   private lookStroke = -1;
   private lookFill = -1;
@@ -74,12 +77,12 @@ export class DrawingBuilder {
     return this.group.length;
   }
 
-  /** Numbers held so far: what memory and time go by. */
+  /** Number of coordinates so far, for limits on memory and time. */
   get coordCount(): number {
     return this.coords.length;
   }
 
-  /** Adds a group; ids already taken get a number, so that they stay distinct. */
+  /** Adds a group; a duplicate id gets a number appended. */
   addGroup(id: string, name: string, hidden: boolean): number {
     const taken = new Set(this.groups.map((group) => group.id));
     let unique = id;
@@ -89,7 +92,7 @@ export class DrawingBuilder {
   }
 
   /**
-   * Adds `shape`, mapped to page mm. False where it is out of range and left out: `where` names it in the warning.
+   * Adds `shape`, mapped to page mm. Returns false, with a warning that names `where`, if it is out of range.
    */
   addShape(
     shape: ShapeBuffer,
@@ -131,7 +134,7 @@ export class DrawingBuilder {
     return boxOfPoints(this.coords.data, data[length - 2], data[length - 1]);
   }
 
-  /** The box of all curves themselves, where `boxOfShapes` has that of their control points. */
+  /** The box of the curves themselves; `boxOfShapes` gives that of their control points. */
   extent(): Box {
     let box = EMPTY_BOX;
     const verbOffsets = this.verbOffsets.data;
@@ -143,7 +146,7 @@ export class DrawingBuilder {
     return box;
   }
 
-  /** Moves everything: for files that do not say where their page is. */
+  /** Moves everything, for files that do not define where their page is. */
   translate(dx: number, dy: number): void {
     const all = [this.coords.data.subarray(0, this.coords.length), ...this.clips.map((clip) => clip.coords)];
     for (const coords of all) {
@@ -188,10 +191,11 @@ export class DrawingBuilder {
     if (coords.length + count > MAX_COORDS) {
       throw new PlotwrightError(
         "bad-file",
-        `The drawing comes to more than ${MAX_COORDS / 2_000_000} million points. Simplify it, or plot it in parts.`,
+        `The drawing has more than ${MAX_COORDS / 2_000_000} million points. Simplify it, or plot it in parts.`,
       );
     }
-    const expected = progress < TELLING_SHARE ? 0 : (MARGIN * coords.length) / progress - coords.length;
+    const expected =
+      progress < MIN_SHARE_TO_ESTIMATE ? 0 : (MARGIN * coords.length) / progress - coords.length;
     coords.reserve(Math.ceil(Math.min(MAX_COORDS - coords.length, Math.max(count, expected)) / 2));
   }
 
@@ -225,10 +229,10 @@ export class DrawingBuilder {
   }
 }
 
-/** A width that is beyond all numbers, or none, would be infinite or NaN in whatever is computed from it. */
+/** An infinite or NaN width would make everything computed from it infinite or NaN. */
 const finiteWidth = (mm: number): number => (mm >= 0 ? Math.min(mm, MAX_COORDINATE_MM) : 0);
 
-/** Writes the mapped pairs into `to` from `at` on. False where one is out of range or no number. */
+/** Writes the mapped pairs into `to` from `at` on. Returns false if one is out of range or NaN. */
 function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number): boolean {
   const from = source.data;
   const { a, b, c, d, e, f } = map;
@@ -238,7 +242,7 @@ function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: num
     const y = b * from[i] + d * from[i + 1] + f;
     to[at++] = x;
     to[at++] = y;
-    // Written so that NaN is out of range.
+    // This form counts NaN as out of range.
     if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) inRange = false;
   }
   return inRange;

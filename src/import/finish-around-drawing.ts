@@ -1,9 +1,9 @@
-/** For formats without a page: the page is the extent of what is drawn. */
+/** For formats without a page: the page is the drawing's extent. */
 import type { Drawing } from "../drawing/drawing.js";
 import type { DrawingBuilder } from "./drawing-builder.js";
 import type { Warnings } from "./warnings.js";
 
-/** mm: a drawing of one straight line still has a page with an area. */
+/** mm: gives a drawing of one straight line a page with an area. */
 const SMALLEST_SIDE = 1;
 
 export function finishAroundDrawing(builder: DrawingBuilder, warnings: Warnings): Drawing {

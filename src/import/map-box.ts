@@ -1,7 +1,7 @@
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
 
-/** The box around a box after a map. */
+/** The bounding box of a box after a map. */
 export function mapBox(map: Affine, box: Box): Box {
   if (isEmptyBox(box)) return box;
   const xs = [

@@ -1,10 +1,9 @@
 /**
- * SVG path data (SVG 2, §9.3) straight into a ShapeBuffer: no token objects, one pass.
+ * SVG path data (SVG 2, §9.3) directly into a ShapeBuffer: no token objects, one pass.
  *
- * After an error everything before it is kept, as the specification asks.
- * Numbers: digits are gathered into an integer; below 2^53 and with at most 22 decimals one
- * division by a power of ten gives the correctly rounded double (Clinger 1990); the rest goes
- * through Number().
+ * Everything before an error is kept, as the specification requires. Numbers: digits are accumulated in an
+ * integer; below 2^53 and with at most 22 decimals, one division by a power of ten gives the correctly
+ * rounded double (Clinger 1990). Everything else goes through Number().
  */
 import { drawSvgArc } from "./arc.js";
 import { ShapeBuffer } from "./shape-buffer.js";
@@ -12,15 +11,15 @@ import { ShapeBuffer } from "./shape-buffer.js";
 const POWERS = Array.from({ length: 23 }, (_, i) => Number(`1e${i}`));
 const MAX_EXACT = 2 ** 53;
 
-/** Reads numbers from a text; shared by path data and point lists. */
+/** Reads numbers from a text; used for path data and point lists. */
 export class NumberReader {
   at = 0;
-  /** The number that `read` found. */
+  /** The number read by `read`. */
   value = 0;
 
   constructor(public text: string) {}
 
-  /** Past blanks and at most one comma. */
+  /** Skips blanks and at most one comma. */
   skipSeparator(): void {
     this.skipBlanks();
     if (this.text.charCodeAt(this.at) === 44) {
@@ -40,7 +39,7 @@ export class NumberReader {
     this.at = at;
   }
 
-  /** Whether a number stands here; puts it into `value` and goes past it. */
+  /** Reads a number at the current position into `value`; returns whether there was one. */
   read(): boolean {
     const text = this.text;
     const start = this.at;
@@ -58,7 +57,7 @@ export class NumberReader {
     }
     if (c === 46) {
       c = text.charCodeAt(++at);
-      // A point stands before a digit (SVG 2, §9.3.9).
+      // A decimal point must be followed by a digit (SVG 2, §9.3.9).
       if (!(c >= 48 && c <= 57)) return false;
       while (c >= 48 && c <= 57) {
         mantissa = mantissa * 10 + (c - 48);
@@ -85,13 +84,13 @@ export class NumberReader {
     return true;
   }
 
-  /** The number after a separator. */
+  /** Reads the number after a separator. */
   readNext(): boolean {
     this.skipSeparator();
     return this.read();
   }
 
-  /** An arc flag: one character, so that "a1 1 0 01.5.5" reads as 0, 1, .5, .5. */
+  /** Reads an arc flag: one character, so that "a1 1 0 01.5.5" reads as 0, 1, .5, .5. */
   readFlag(): boolean {
     const c = this.text.charCodeAt(this.at);
     if (c !== 48 && c !== 49) return false;
@@ -102,8 +101,8 @@ export class NumberReader {
 }
 
 /**
- * Appends the path to `shape`. `arcTolerance` in the path's units.
- * Returns the index of the character where it stopped being path data, or −1.
+ * Appends the path to `shape`. `arcTolerance` in the path's units. Returns the index of the first character
+ * that is not path data, or −1.
  */
 export function drawPathData(shape: ShapeBuffer, text: string, arcTolerance: number): number {
   return pathReader.run(shape, text, arcTolerance);
@@ -121,7 +120,7 @@ const ARGUMENTS: Readonly<Record<string, number>> = {
   a: 7,
   z: 0,
 };
-/** Argument count by character code; −1 for what is no command. */
+/** Argument count by character code; −1 if it is not a command. */
 const COUNT_OF_CODE = new Int8Array(128).fill(-1);
 for (const [letter, count] of Object.entries(ARGUMENTS)) {
   COUNT_OF_CODE[letter.charCodeAt(0)] = count;
@@ -166,7 +165,7 @@ class PathDataReader {
     return -1;
   }
 
-  /** Past blanks and a comma: whether another set of arguments follows. */
+  /** Skips blanks and a comma; returns whether another set of arguments follows. */
   private hasMore(text: string): boolean {
     const { reader } = this;
     let c = text.charCodeAt(reader.at);
@@ -182,13 +181,13 @@ class PathDataReader {
     return (c >= 48 && c <= 57) || c === 45 || c === 46 || c === 43;
   }
 
-  /** Where the reader stands, but no further than the last character. */
+  /** The reader's position, but at most the last character. */
   private faultAt(): number {
     const { at, text } = this.reader;
     return at < text.length ? at : Math.max(0, text.length - 1);
   }
 
-  /** One command letter and every set of arguments that follows it. */
+  /** Reads every set of arguments after one command letter. */
   private readRuns(code: number, count: number): number {
     const { reader, args } = this;
     const { text } = reader;
@@ -279,5 +278,5 @@ class PathDataReader {
   }
 }
 
-/** One for all paths: a new one for each would cost as much as reading a short path. */
+/** Shared by all paths: creating a reader costs as much as reading a short path. */
 const pathReader = new PathDataReader();

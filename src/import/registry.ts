@@ -1,8 +1,8 @@
 /**
- * The formats that drawings come in. A new one is an entry in FORMATS, a line in READERS and its reader; page, server,
- * watched folder and command line go by these.
+ * The drawing formats. A new one needs an entry in FORMATS, a line in READERS and its reader; page, server,
+ * watched folder and command line use these tables.
  *
- * FORMATS stands apart from READERS, so that the page knows the names of files without loading what reads them.
+ * FORMATS is separate from READERS, so that the page knows the file extensions without loading the readers.
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
@@ -15,15 +15,17 @@ import { importSvgSteps, type Pause } from "./svg/import-svg.js";
 export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
 interface Format {
-  /** What people call it. */
+  /** Common name. */
   readonly name: string;
-  /** Of file names, without the dot; the usual one first. */
+  /** File extensions without the dot; the usual one first. */
   readonly extensions: readonly string[];
-  /** Whether a text is of this format, by its first few thousand characters without blanks before them. */
+  /**
+   * Whether a text is in this format, judged by its first few thousand characters, without leading blanks.
+   */
   readonly isBegun: (head: string) => boolean;
 }
 
-/** Escape sequences that may set up the port before HPGL's first command. */
+/** Escape sequences that may configure the port before HPGL's first command. */
 const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/;
 const HPGL_START =
   /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
@@ -43,7 +45,10 @@ export const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
 };
 
-/** Reads in steps of a few milliseconds; the generator's result is the drawing. Throws PlotwrightError("bad-file"). */
+/**
+ * Reads in steps of a few milliseconds; the generator returns the drawing. Throws
+ * PlotwrightError("bad-file").
+ */
 type Reader = (text: string, options: ImportOptions) => Generator<void, Drawing>;
 
 const READERS: Readonly<Record<DrawingFormat, Reader>> = {
@@ -60,7 +65,7 @@ function inOneStep(read: (text: string, options: ImportOptions) => Drawing): Rea
 }
 
 export const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
-/** Of all formats, without the dot. */
+/** The extensions of all formats, without the dot. */
 export const DRAWING_EXTENSIONS: readonly string[] = DRAWING_FORMATS.flatMap(
   (format) => FORMATS[format].extensions,
 );
@@ -69,10 +74,10 @@ const HEAD_CHARS = 4096;
 
 const extensionOf = (name: string): string => /\.([a-z\d]+)$/i.exec(name)?.[1].toLowerCase() ?? "";
 
-/** Whether a file's name says that it is a drawing. */
+/** Whether a file's extension is that of a drawing format. */
 export const isDrawingName = (name: string): boolean => DRAWING_EXTENSIONS.includes(extensionOf(name));
 
-/** What the text is, by what is in it; by the name only in doubt. Null where nothing fits. */
+/** The format of a text by its content, or else by its name. Null if nothing matches. */
 export function formatOf(name: string, text: string): DrawingFormat | null {
   const head = text.slice(0, HEAD_CHARS).replace(/^[\ufeff\s]+/, "");
   const extension = extensionOf(name);
@@ -97,7 +102,10 @@ export function importDrawing(name: string, text: string, options: ImportOptions
   }
 }
 
-/** As `importDrawing`, pausing after every few milliseconds of an SVG's work; the others go in one step. */
+/**
+ * Like `importDrawing`, but pauses after every few milliseconds of an SVG's work; other formats take one
+ * step.
+ */
 export async function importDrawingWithPauses(
   name: string,
   text: string,
@@ -115,11 +123,11 @@ export async function importDrawingWithPauses(
 function readerOf(name: string, text: string): Reader {
   const format = formatOf(name, text);
   if (format !== null) return READERS[format];
-  // The SVG reader knows the marks of PDF, PNG and others, and says which it is.
+  // The SVG reader recognises PDF, PNG and others, and names them in its error.
   if (/^(%|\u0089|\ufffd|\u001f|GIF8|PK)/.test(text)) return READERS.svg;
   const names = DRAWING_FORMATS.map((one) => FORMATS[one].name);
   throw new PlotwrightError(
     "bad-file",
-    `${name || "The file"} is no drawing that can be read: it is neither ${names.slice(0, -1).join(", ")} nor ${names.at(-1)}. Export it as SVG.`,
+    `${name || "The file"} cannot be read as a drawing: it is neither ${names.slice(0, -1).join(", ")} nor ${names.at(-1)}. Export it as SVG.`,
   );
 }

@@ -1,8 +1,8 @@
 /**
- * One shape under construction: verbs and coordinates as in `DrawingPaths`, in whatever units it is drawn in.
+ * One shape under construction: verbs and coordinates as in `DrawingPaths`, in the units of the caller.
  *
- * Invariants: every subpath begins with VERB_MOVE and has at least one more verb; a lone move is
- * taken back when the next begins. A dot is a move and a line to the same place.
+ * Invariants: every subpath begins with VERB_MOVE and has at least one more verb; a lone move is removed when
+ * the next one begins. A dot is a move and a line to the same point.
  */
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
@@ -11,14 +11,14 @@ import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 export class ShapeBuffer {
   readonly verbs = new ColumnBuffer(Uint8Array, 256);
   readonly coords = new PointBuffer(256);
-  /** Where the pen is, and where the open subpath began. */
+  /** The pen's position, and the start of the open subpath. */
   x = 0;
   y = 0;
   startX = 0;
   startY = 0;
-  /** Verbs that end inside an arc, between its pieces: no vertices of the path as written. */
+  /** Verbs that end between the pieces of an arc: these points are not vertices of the original path. */
   readonly innerVerbs: number[] = [];
-  /** Subpaths of a lone move: nothing of them is drawn. */
+  /** The number of subpaths with a lone move, which draw nothing. */
   lonePoints = 0;
 
   clear(): void {
@@ -59,7 +59,7 @@ export class ShapeBuffer {
     this.y = y;
   }
 
-  /** The same curve raised to a cubic, exactly. */
+  /** The curve as a cubic, exactly. */
   quadraticTo(qx: number, qy: number, x: number, y: number): void {
     const x0 = this.x;
     const y0 = this.y;
@@ -84,7 +84,7 @@ export class ShapeBuffer {
     this.y = this.startY;
   }
 
-  /** All of another, finished shape, its points mapped. */
+  /** Appends another, finished shape with its points mapped. */
   append({ verbs, coords }: ShapeBuffer, map: Affine): void {
     this.dropLoneMove();
     for (let i = 0, at = 0; i < verbs.length; i++) {

@@ -1,4 +1,4 @@
-/** A file's bytes to text, in the encoding that it says it is in: by its first bytes, or by its XML declaration. */
+/** Decodes a file's bytes to text. The encoding comes from its first bytes, or from its XML declaration. */
 
 declare const TextDecoder: new (encoding: string) => { decode(bytes: Uint8Array): string };
 
@@ -7,13 +7,13 @@ const STARTS: readonly (readonly [encoding: string, bytes: readonly number[]])[]
   ["utf-8", [0xef, 0xbb, 0xbf]],
   ["utf-16be", [0xfe, 0xff]],
   ["utf-16le", [0xff, 0xfe]],
-  // "<?" and "<s" without a mark in front.
+  // "<?" and "<s" without a byte order mark.
   ["utf-16be", [0, 0x3c, 0]],
   ["utf-16le", [0x3c, 0, 0x3f, 0]],
   ["utf-16le", [0x3c, 0, 0x73, 0]],
 ];
 
-/** The name of the encoding, in lower case; "utf-8" where the file does not say. */
+/** The name of the encoding, in lower case; "utf-8" if the file does not declare one. */
 export function encodingOf(bytes: Uint8Array): string {
   for (const [encoding, start] of STARTS) {
     if (start.every((byte, i) => bytes[i] === byte)) return encoding;
@@ -22,7 +22,7 @@ export function encodingOf(bytes: Uint8Array): string {
   return (/^\s*<\?xml\s[^>]*?encoding\s*=\s*["']([\w.:-]+)["']/.exec(head)?.[1] ?? "utf-8").toLowerCase();
 }
 
-/** Bytes that are no characters in that encoding become U+FFFD; an unknown encoding is read as UTF-8. */
+/** Bytes that are invalid in the encoding become U+FFFD; an unknown encoding is read as UTF-8. */
 export function textOfBytes(bytes: Uint8Array): string {
   try {
     return new TextDecoder(encodingOf(bytes)).decode(bytes);

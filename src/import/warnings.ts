@@ -1,4 +1,4 @@
-/** Gathers what will not be drawn as the eye sees it: counted by kind, with the first few places. */
+/** Collects what will not be drawn as seen on screen: counted by kind, with the first few positions. */
 import type { DrawingWarning } from "../drawing/drawing.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
 
@@ -8,7 +8,7 @@ const MAX_DETAILS = 3;
 const many = (count: number, one: string, more: string): string =>
   count === 1 ? `1 ${one}` : `${count} ${more}`;
 
-/** The words for each kind: how many, what it means on paper, what to do. `details` names the first few. */
+/** The message for each kind: how many, what it means on paper, what to do. `details` names the first few. */
 const WORDS = {
   "text-not-drawn": (n: number) =>
     `${many(n, "text is", "texts are")} not drawn. Choose single-stroke letters, give a font file, or convert text to paths in your drawing program.`,
@@ -38,7 +38,7 @@ const WORDS = {
   "paint-missing": (n: number, details: string) =>
     `${many(n, "colour refers", "colours refer")} to something that is not in the file${details}.`,
   "path-data": (n: number, details: string) =>
-    `${many(n, "path has", "paths have")} a fault and end there${details}. Check them in your drawing program.`,
+    `${many(n, "path has", "paths have")} an error and ${n === 1 ? "is" : "are"} drawn only up to it${details}. Check ${n === 1 ? "it" : "them"} in your drawing program.`,
   "attribute-fault": (n: number, details: string) =>
     `${many(n, "attribute is", "attributes are")} malformed and ignored${details}.`,
   "coordinates-out-of-range": (n: number, details: string) =>
@@ -54,23 +54,23 @@ const WORDS = {
   "circular-use": (n: number, details: string) =>
     `${many(n, "copy contains", "copies contain")} itself and ${n === 1 ? "is" : "are"} not drawn${details}.`,
   "clip-ignored": (n: number, details: string) =>
-    `${many(n, "clip is", "clips are")} of a kind that is ignored${details}: what it hides is drawn. Use a clip path of shapes.`,
+    `${many(n, "clip is", "clips are")} not supported and ignored${details}: what ${n === 1 ? "it hides" : "they hide"} is drawn. Use a clip path of shapes.`,
   "style-fault": (n: number, details: string) =>
-    `${many(n, "style rule", "style rules")} could not be read${details}.`,
+    `${many(n, "style rule", "style rules")} could not be read and ${n === 1 ? "is" : "are"} ignored${details}.`,
   "style-external": (n: number) =>
     `${many(n, "style sheet is", "style sheets are")} in another file and ignored. Embed the styles.`,
   "hidden-layer": (n: number, details: string) =>
     `${many(n, "layer is", "layers are")} hidden in the file and not drawn${details}. Show it in your drawing program to plot it.`,
   "xml-repaired": (n: number, details: string) =>
-    `${many(n, "fault", "faults")} in the file ${n === 1 ? "was" : "were"} read over${details}.`,
+    `${many(n, "error", "errors")} in the file ${n === 1 ? "was" : "were"} ignored${details}.`,
   "too-many-layers": (n: number) =>
-    `The file has ${n} groups at the top: taken as one layer. Group them into layers.`,
+    `The file has ${n} groups at the top level: treated as one layer. Group them into layers.`,
   "page-size": (_n: number, details: string) =>
-    `The file does not say how large its page is${details}. Check the size on the paper, or export with a width and height in mm.`,
+    `The file does not define its page size${details}. Check the size on the paper, or export with a width and height in mm.`,
   "animation-ignored": (n: number) =>
     `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
   "not-supported": (n: number, details: string) =>
-    `${many(n, "object is", "objects are")} of a kind that is not drawn${details}. Convert to plain lines and curves.`,
+    `${many(n, "object is", "objects are")} of a type that is not drawn${details}. Convert to plain lines and curves.`,
   "empty-drawing": () =>
     "There is nothing to draw in this file: no visible line or filled shape. See the other notes, or check that its layers are shown.",
 } satisfies Record<string, (count: number, details: string) => string>;
@@ -86,7 +86,10 @@ interface Entry {
 export class Warnings {
   private readonly entries = new Map<WarningCode, Entry>();
 
-  /** `box` in page mm; `detail` is named in the message for the first few. */
+  /**
+   * @param box in page mm
+   * @param detail named in the message for the first few
+   */
   add(code: WarningCode, box?: Box, detail?: string, count = 1): void {
     let entry = this.entries.get(code);
     if (entry === undefined) {
@@ -101,7 +104,7 @@ export class Warnings {
     }
   }
 
-  /** Moves the places named so far, with the drawing. */
+  /** Moves the positions recorded so far, along with the drawing. */
   translate(dx: number, dy: number): void {
     for (const { boxes } of this.entries.values()) {
       boxes.forEach(([x0, y0, x1, y1], i) => {

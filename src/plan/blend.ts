@@ -1,32 +1,33 @@
 /**
- * Corner curves: every corner of the soft line (soft-line.ts) is one parabola, the motion under one constant
- * acceleration vector, which is also exactly one command to the board. Velocity is continuous everywhere,
- * |a| ≤ A truly, |v| ≤ V, and the line stays within δ of the drawing.
+ * Corner curves: every corner of the softened polyline (soft-line.ts) becomes one parabola. A parabola is the
+ * motion under one constant acceleration vector, and also exactly one command to the board. Velocity is
+ * continuous, the acceleration vector obeys |a| ≤ A, |v| ≤ V, and the path stays within δ of the drawing.
  *
- * Source: parabolic blends as in Oquam and Romi's planners; the two passes over entry and exit speeds, which
- * let the pen change its speed inside dense curves too, are ours.
+ * Source: parabolic blends as in Oquam and in Romi's planners. The two passes over entry and exit speeds are
+ * our own; they let the pen change its speed inside dense curves too.
  *
  *               u1 /      φ       turn angle; s = sin(φ/2)
- *                 /       L       longest tangent: min(2 room / s, half of the shorter segment), mm
- *        L1 →   ,´        v0, v1  speed where the curve begins and ends, mm/s
+ *                 /       L       longest tangent: min(2 room / s, half the shorter segment), mm
+ *        L1 →   ,´        v0, v1  speed at the start and end of the curve, mm/s
  *     u0      ,´          q       |v1 u1 − v0 u0|, mm/s
- *    -----·-´ corner      e       distance of corner and curve, at most L s / 2 ≤ room
+ *    -----·-´ corner      e       distance from corner to curve, at most L s / 2 ≤ room
  *        L0
  *
- * From v0 u0 to v1 u1 under |a| = A takes q/A; the curve is the quadratic Bézier with tangents L0 = v0 q/2A ≤ L and
- * L1 = v1 q/2A ≤ L. For v0 = v1 that is v² ≤ A L / s, the corner speed vc, and both speeds are kept ≤ vc. What the
- * tangents leave of a segment of length l is straight, and there v² changes by at most 2 A a mm. From a corner to the next
- * one (its values marked ') that reads
+ * Going from v0 u0 to v1 u1 under |a| = A takes q/A. The curve is the quadratic Bézier with tangents L0 = v0
+ * q/2A ≤ L and L1 = v1 q/2A ≤ L. For v0 = v1 this means v² ≤ A L / s, the corner speed vc; both speeds stay ≤
+ * vc. The part of a segment between two tangents is straight, and v² changes there by at most 2 A per mm.
+ * From one corner (values marked ') to the next, with a segment of length l:
  *
  *     braking      v1² + v1 q ≤ v0'² − v0' q' + 2 A l
  *     speeding up  v0'² + v0' q' ≤ v1² − v1 q + 2 A l
  *
- * One backward and one forward pass (as in look-ahead.ts) take every corner as fast as that allows, which
- * corner-speeds.ts works out. Where the forward pass has to slow a corner down it has been sped up to from the one before,
- * which then can brake for it: v1 q + v0' q' ≤ 2 A l, since no tangent is longer than half of its segment.
+ * One backward and one forward pass (as in look-ahead.ts) take every corner as fast as these limits allow;
+ * corner-speeds.ts solves one corner. If the forward pass slows a corner down, the pen accelerates towards it
+ * from the previous corner, so the previous corner can always brake for it: v1 q + v0' q' ≤ 2 A l, because no
+ * tangent is longer than half its segment.
  *
- * |v| ≤ V and the motors' limits hold inside a curve because velocity runs straight from v0 u0 to v1 u1 in it,
- * and both limits are convex.
+ * |v| ≤ V and the motor limits hold inside a curve, because velocity runs straight from v0 u0 to v1 u1 and
+ * both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
 import { CornerSpeeds } from "./corner-speeds.js";
@@ -35,13 +36,13 @@ import type { RunPath } from "./run-path.js";
 import { SoftLine } from "./soft-line.js";
 import { newStraight, writeStraight } from "./trapezoid.js";
 
-/** Below this sin(φ/2) the way goes straight on: there is nothing to round. */
+/** Below this sin(φ/2) the path is straight and there is nothing to round. */
 const STRAIGHT = 1e-12;
 
-/** Above this sin(φ/2) a curve is no longer than A needs: speed dips to cos(φ/2) in the middle of it. */
+/** Above this sin(φ/2) a curve is only as long as A requires: speed dips to cos(φ/2) in its middle. */
 const SHARP = 0.35;
 
-/** A straight piece shorter than this, in mm, is what rounding left between two curves. */
+/** A straight piece shorter than this, in mm, is a rounding error between two curves. */
 const NO_PIECE = 1e-10;
 
 export class BlendPlanner {
@@ -58,14 +59,14 @@ export class BlendPlanner {
     this.writeBlocks(line, limits, out);
   }
 
-  /** Geometry first: how far each corner's curve may reach, and how fast it may be taken. */
+  /** Step 1, geometry: how far each corner's curve may reach, and the highest speed through it. */
   private roundCorners(path: RunPath, accel: number): void {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
-    const { tangent, sine, most } = this.corners;
+    const { tangent, sine, maxSpeed } = this.corners;
     const { line } = this;
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
-    most[0] = most[n] = 0;
+    maxSpeed[0] = maxSpeed[n] = 0;
     let x0 = ux[0]!;
     let y0 = uy[0]!;
     let before = length[0]!;
@@ -84,10 +85,10 @@ export class BlendPlanner {
         const reach = line.reach(i, bx, by, s, half);
         tangent[i] = reach;
         sine[i] = s;
-        most[i] = Math.sqrt(Math.min(cap, (accel * reach) / s));
+        maxSpeed[i] = Math.sqrt(Math.min(cap, (accel * reach) / s));
       } else {
         tangent[i] = sine[i] = 0;
-        most[i] = Math.sqrt(cap);
+        maxSpeed[i] = Math.sqrt(cap);
       }
       x0 = x1;
       y0 = y1;
@@ -96,18 +97,19 @@ export class BlendPlanner {
     }
   }
 
-  /** Speed second: the greatest speeds that straights and curves can connect. */
+  /** Step 2, speed: the highest speeds that the straights and curves between corners can connect. */
   private lookAhead(path: RunPath, accel: number): void {
     const { segmentCount: n, length } = path;
     const { corners } = this;
-    const { sine, most, vIn, vOut, change } = corners;
+    const { sine, maxSpeed, vIn, vOut, change } = corners;
     const twoA = 2 * accel;
     vIn[0] = vOut[0] = change[0] = 0;
     vIn[n] = vOut[n] = change[n] = 0;
     let left = 0;
     for (let i = n - 1; i > 0; i--) {
-      // What `solve` does where nothing ahead is known yet, and nothing behind holds back.
-      const v = most[i]!;
+      // The shortcut of `solve` for the backward pass, where no limit from before the corner is known yet and
+      // the one behind it is not reached.
+      const v = maxSpeed[i]!;
       const q = 2 * sine[i]! * v;
       const behind = left + twoA * length[i]!;
       if (v * (v + q) <= behind) {
@@ -130,22 +132,23 @@ export class BlendPlanner {
     }
   }
 
-  /** Blocks last: one parabola a corner, a trapezoid on each straight between. */
+  /** Step 3, blocks: one parabola per corner, and a trapezoid on each straight between them. */
   private writeBlocks(path: RunPath, { accel }: RunLimits, out: BlockColumns): void {
     const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
     const { tangent, sine, vIn, vOut, change } = this.corners;
     const { along: drawn } = this.line;
     const straight = newStraight();
     let along = path.startAlong;
-    // mm of the segment that the corner before it takes.
+    // mm of the segment used by the curve of the previous corner.
     let used = 0;
     for (let i = 0; i < n; i++) {
       const v0 = vOut[i]!;
       const v1 = vIn[i + 1]!;
       const after = vOut[i + 1]!;
       const perMm = drawn[i]! / length[i]!;
-      // Half of the time that the corner's curve takes: q/2A. Where speed is the same all the way from the corner before to
-      // the one after it takes no longer if it is long and soft instead; unless it is sharp.
+      // Half the duration of the corner's curve: q/2A. Where the speed is constant from the previous corner
+      // to the next, a longer and softer curve takes no more time, so use the full tangent; not for sharp
+      // corners.
       const isSteady = v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1;
       const tau = isSteady && sine[i + 1]! < SHARP ? tangent[i + 1]! / v1 : change[i + 1]! / (2 * accel);
       const rest = length[i]! - used - v1 * tau;

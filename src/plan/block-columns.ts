@@ -1,12 +1,12 @@
 /**
- * The blocks of a trajectory while it is being made: columns that grow, and a running clock.
+ * The blocks of a trajectory under construction: growing columns and a running clock.
  *
- * When they must grow, the share of the drawing already planned tells how much the whole will need, so they seldom grow
- * twice.
+ * When the columns are full, the new size is estimated from the share of the drawing planned so far, so that
+ * they seldom grow more than twice.
  */
 const COLUMN_NAMES = ["durationS", "x", "y", "vx", "vy", "ax", "ay", "startS", "alongMm"] as const;
 
-/** Arrays longer than what is used by more than this share are cut to size at the end. */
+/** Arrays with more unused space than this share are trimmed at the end. */
 const WASTE = 0.05;
 
 export class BlockColumns {
@@ -22,7 +22,7 @@ export class BlockColumns {
   ay = new Float64Array(0);
   startS = new Float64Array(0);
   alongMm = new Float64Array(0);
-  /** Only where `withJerk`: jerk is zero everywhere otherwise. */
+  /** Only with `withJerk`; otherwise jerk is zero everywhere. */
   jx: Float64Array<ArrayBuffer> | null;
   jy: Float64Array<ArrayBuffer> | null;
   private segmentsDone = 0;
@@ -37,7 +37,7 @@ export class BlockColumns {
     this.jy = withJerk ? new Float64Array(0) : null;
   }
 
-  /** Says that the blocks so far are those of `segments` more segments of the drawing. */
+  /** Reports that the blocks so far cover `segments` more segments of the drawing. */
   addSegments(segments: number): void {
     this.segmentsDone += segments;
     this.blocksDone = this.count;
@@ -46,11 +46,11 @@ export class BlockColumns {
   private grow(needed: number): void {
     const { segmentsDone, blocksDone } = this;
     const likely = segmentsDone > 0 ? 1.02 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
-    // Up to 32 times as much: the first strokes may be unlike the rest.
+    // At most 32 times as much, since the first strokes may not be typical.
     this.resize(Math.min(likely > needed ? likely : 2 * needed, 32 * needed) + 64);
   }
 
-  /** Appends one block and moves the clock on. */
+  /** Appends one block and advances the clock. */
   push(
     durationS: number,
     x: number,
@@ -76,26 +76,26 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
-  /** Block i, which lies beyond the end, becomes the last one. */
+  /** Appends block i, which lies beyond the current end. */
   moveToEnd(i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = this;
     this.push(durationS[i]!, x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, alongMm[i]!);
   }
 
-  /** Jerk of the last block; only where there are columns for it. */
+  /** Sets the jerk of the last block; ignored without jerk columns. */
   setJerk(jx: number, jy: number): void {
     if (this.jx === null || this.jy === null) return;
     this.jx[this.count - 1] = jx;
     this.jy[this.count - 1] = jy;
   }
 
-  /** Forgets the blocks and keeps the arrays. */
+  /** Removes all blocks; the arrays stay allocated. */
   clear(): void {
     this.count = 0;
     this.clockS = 0;
   }
 
-  /** Cuts the arrays to what is used, where that saves enough to be worth a copy. */
+  /** Trims the arrays to their used length, if that saves enough to be worth a copy. */
   trim(): void {
     if (this.durationS.length > this.count * (1 + WASTE)) this.resize(this.count);
   }

@@ -1,4 +1,7 @@
-/** Refuses motion and pen settings from which no sensible plan can be made, by the ranges of the settings tables. */
+/**
+ * Rejects motion and pen settings that are outside the ranges of the settings tables or contradict each
+ * other.
+ */
 import { PlotwrightError } from "../errors.js";
 import {
   DRAW_TABLE,
@@ -47,7 +50,7 @@ function checkPen(name: string, pen: PenSettings): void {
   if (pen.upPct <= pen.downPct) {
     throw bad(
       `${name} up height ${pen.upPct} % is not above its down height ${pen.downPct} %: ` +
-        "the pen would never leave the paper; raise the one or lower the other",
+        "the pen would never leave the paper; raise the up height or lower the down height",
     );
   }
   checkNumber(name, LIFT_RATE, pen.liftPctPerS);
@@ -70,13 +73,13 @@ function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
   for (const [key, row] of Object.entries(table)) check(name, row, values[key] as number);
 }
 
-/** For a setting that may be left out. */
+/** For an optional setting. */
 function checkNumber(name: string, row: NumberSetting, value: number | null | undefined): void {
   if (value !== null && value !== undefined) check(name, row, value);
 }
 
 function check(name: string, row: NumberSetting, value: number): void {
-  // The planner itself knows no upper limit of speeds and lengths; percentages and waits have one.
+  // The planner has no upper limit for speeds and lengths; percentages and waits have one.
   const range = row.minExcluded ? { ...row, max: Infinity } : row;
   if (isAllowed(range, value)) return;
   throw bad(`${name} ${row.label.toLowerCase()} is ${value} ${row.unit}: it must be ${rangeInWords(range)}`);

@@ -1,10 +1,10 @@
 /**
- * Codes in layer names as settings: what a name asks for holds for its layer wherever the settings do not say
- * otherwise themselves.
+ * Codes in layer names as settings: a code in a layer's name applies to that layer, unless the settings
+ * already set the same value for it.
  *
- *   +h40   pen-down height 40 %            passed over where it is not below the height up
- *   +s25   pen-down speed, percent         of the scale that AxiDraw users write: 110 is 8.6979 inches a second
- *   +d500  a wait of 500 ms before the layer
+ *   +h40   pen-down height 40 %            ignored unless it is below the up height
+ *   +s25   pen-down speed, percent         on the AxiDraw scale: 110 is 8.6979 inches per second
+ *   +d500  wait 500 ms before the layer
  *
  * Scale of +s: speed_lim_xy_hr and its use in AxiDraw's axidraw_conf.py and axidraw.py.
  */
@@ -15,16 +15,16 @@ import type { LayerMotion, MotionSettings } from "../settings/motion.js";
 import type { LayerPen, PenSettings } from "../settings/pen.js";
 
 const MM_PER_INCH = 25.4;
-/** mm/s of one percent. */
+/** mm/s per percent. */
 const SPEED_OF_PCT = (8.6979 * MM_PER_INCH) / 110;
 const LONGEST_WAIT_MS = 60_000;
 
 export const speedOfCode = (pct: number): number => Math.round(pct * SPEED_OF_PCT * 10) / 10;
-/** The nearest percent, as far as a code can say it. */
+/** The nearest percentage that a code can express. */
 export const codeOfSpeed = (mmPerS: number): number =>
   Math.min(110, Math.max(1, Math.round(mmPerS / SPEED_OF_PCT)));
 
-/** The settings with the codes of these layers' names in them. Doing it twice changes nothing. */
+/** Adds the codes in these layers' names to the settings. Idempotent. */
 export function withLayerCodes<S extends { readonly motion: MotionSettings; readonly pen: PenSettings }>(
   settings: S,
   layers: readonly StrokeLayer[],

@@ -1,18 +1,18 @@
 /**
- * A controlled stop in the middle of a trajectory: along the very same path, within A, then the pen up.
+ * A controlled stop in the middle of a trajectory: along the same path, with |a| ≤ A, then lift the pen.
  *
- *   speed ^ ‾‾‾‾\            d(v²)/ds = −2 √(A² − (κ v²)²)      s: mm from the point of the hold
- *         |       \   plan   κ: curvature of the path, 1/mm      v never above the plan's
+ *   speed ^ ‾‾‾‾\            d(v²)/ds = −2 √(A² − (κ v²)²)      s: mm from where the stop begins
+ *         |       \   plan   κ: curvature of the path, 1/mm      v never above the plan
  *         |  hold  \  ‾‾‾‾
  *         +---------+----> s
  *
- * The pull towards the middle of a curve, κ v², and the braking share the acceleration A (the friction circle of
- * vehicle dynamics). While κ is constant, with u = κ v²/A the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage
- * that takes a circle as fast as it can comes to rest within an eighth of it; where κ = 0 that is v₀² − 2 A s.
- * The plan's own slowing before corners stays, so no corner is taken faster than planned.
+ * The centripetal acceleration κ v² and the braking share the limit A (the friction circle of vehicle
+ * dynamics). While κ is constant, with u = κ v²/A the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage
+ * that goes round a circle at the highest possible speed stops within an eighth of it. For κ = 0 it is v² =
+ * v₀² − 2 A s. Speed never exceeds the plan's, so no corner is taken faster than planned.
  *
- * Every piece runs from a place of the plan to a next one, a few ms or half a degree later, with v² linear in s, so on
- * straight blocks it is exact and on curved ones within a fraction of a micrometre.
+ * Every piece spans a few ms or half a degree of the plan, with v² linear in s. That is exact on straight
+ * blocks; on curved ones the error is a fraction of a micrometre.
  */
 import { isPenUpBefore, penMoveColumns } from "./pen-moves.js";
 import { liftTiming } from "./pen-times.js";
@@ -20,23 +20,26 @@ import type { PenSettings } from "../settings/pen.js";
 import { blockLength, blockState, stateAt, type MotionState, type Trajectory } from "./trajectory.js";
 
 export interface RestPlan {
-  /** One run down to rest (none where the carriage rests already), then a lift if the pen is down. */
+  /** One run that ends at rest (none if the carriage is already at rest), then a lift if the pen is down. */
   readonly trajectory: Trajectory;
-  /** Seconds of the stopped trajectory at the place of rest. */
+  /** The time in the original trajectory of the point where the carriage stops, s. */
   readonly planS: number;
 }
 
-/** Longest piece of the plan's time, s. */
+/** Longest piece, s of plan time. */
 const PIECE_S = 0.006;
-/** Most that a piece turns, rad: what its acceleration leaves the friction circle by grows with the square. */
+/** Max turn within a piece, rad. The error against the friction circle grows with its square. */
 const PIECE_TURN = 0.01;
-/** Of A; the rest is for what a piece of one acceleration differs by from the true curve. */
+/**
+ * Share of A to use. The rest covers the difference between a piece of constant acceleration and the true
+ * curve.
+ */
 const SHARE_OF_ACCEL = 0.995;
-/** Shortest piece, s: a motor does not follow more than that. */
+/** Shortest piece, s: a motor cannot follow anything shorter. */
 const SHORTEST_PIECE_S = 2e-5;
-/** Slower than this counts as rest, mm/s. */
+/** Below this speed the carriage counts as at rest, mm/s. */
 const REST_SPEED = 1e-6;
-/** Straighter than this is straight, 1/mm. */
+/** Below this curvature the path counts as straight, 1/mm. */
 const STRAIGHT = 1e-9;
 
 interface Pieces {
@@ -51,10 +54,10 @@ interface Pieces {
 }
 
 /**
- * Plans the stop of a trajectory from `tS` on, where it is in motion or not.
+ * Plans a stop that begins at `tS`, whether or not the carriage is moving then.
  *
  * @param limits mm/s²
- * @param pen how it lifts at the end; null leaves it where it is
+ * @param pen settings for the lift at the end; null leaves the pen where it is
  */
 export function comeToRest(
   trajectory: Trajectory,
@@ -79,7 +82,7 @@ export function comeToRest(
   );
 }
 
-/** Fills `pieces` and returns the plan time of rest. `speed2`: v₀². */
+/** Fills `pieces` and returns the plan time at which the carriage stops. `speed2`: v₀². */
 function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: number, pieces: Pieces): number {
   const { runs, durationS, startS } = trajectory;
   let k = blockAt(trajectory, tS);
@@ -90,10 +93,11 @@ function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: num
     while (durationS[k]! - t > 1e-9) {
       const next = pieceEnd(trajectory, k, t);
       const lengthMm = blockLength(trajectory, k, next) - blockLength(trajectory, k, t);
-      const curvature = mostCurved(trajectory, k, t, next);
+      const curvature = maxCurvature(trajectory, k, t, next);
       const from = blockState(trajectory, k, t, newState());
       v2 = Math.min(v2, from.vx * from.vx + from.vy * from.vy);
-      // Faster on a curve than A allows, after a change of settings: brakes from there, not at once.
+      // After a change of settings the carriage may be faster on a curve than A allows: brake gradually from
+      // there.
       const brake = new Brake(Math.max(SHARE_OF_ACCEL * accel, curvature * v2), curvature, v2);
       if (brake.stopMm <= lengthMm) {
         const until = timeAfter(trajectory, k, t, next, brake.stopMm);
@@ -111,7 +115,7 @@ function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: num
   return startS[end - 1]! + durationS[end - 1]!;
 }
 
-/** Braking along a circle of that curvature within the friction circle of `accel`. */
+/** Braking along a circle of constant curvature, within the friction circle of `accel`. */
 class Brake {
   private readonly angle: number;
   readonly stopMm: number;
@@ -131,7 +135,7 @@ class Brake {
   }
 }
 
-/** Where a piece from `t` in block `k` ends: the path turns little on it. */
+/** The end of a piece that starts at `t` in block `k`, short enough that the path turns by little. */
 function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
   const from = blockState(trajectory, k, t, newState());
   const leftS = trajectory.durationS[k]! - t;
@@ -141,22 +145,22 @@ function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
     const turn = Math.atan2(from.vx * to.vy - from.vy * to.vx, from.vx * to.vx + from.vy * to.vy);
     if (Math.abs(turn) <= PIECE_TURN) break;
   }
-  // No crumbs.
+  // Do not leave a remainder too short to be a piece.
   return leftS - stepS < SHORTEST_PIECE_S ? trajectory.durationS[k]! : t + stepS;
 }
 
-/** The largest curvature of block `k` from `t` to `until`, 1/mm, as three places show it. */
-function mostCurved(trajectory: Trajectory, k: number, t: number, until: number): number {
-  let most = 0;
+/** The largest curvature of block `k` from `t` to `until`, 1/mm, sampled at three points. */
+function maxCurvature(trajectory: Trajectory, k: number, t: number, until: number): number {
+  let max = 0;
   for (const at of [t, (t + until) / 2, until]) {
     const { vx, vy, ax, ay } = blockState(trajectory, k, at, newState());
     const speed = Math.hypot(vx, vy);
-    if (speed > REST_SPEED) most = Math.max(most, Math.abs(vx * ay - vy * ax) / speed ** 3);
+    if (speed > REST_SPEED) max = Math.max(max, Math.abs(vx * ay - vy * ax) / speed ** 3);
   }
-  return most;
+  return max;
 }
 
-/** One piece between two places of the plan; `from2`, `to2`: v² at its ends. */
+/** One piece between two points of the plan; `from2`, `to2`: v² at its ends. */
 function addPiece(
   from: MotionState,
   to: MotionState,
@@ -177,13 +181,13 @@ function addPiece(
   pieces.y.push(from.y);
   pieces.vx.push(vx);
   pieces.vy.push(vy);
-  // Aimed at the place, so that no error runs up.
+  // Computed from the end point, so that errors do not accumulate.
   pieces.ax.push((2 * (to.x - from.x - vx * duration)) / (duration * duration));
   pieces.ay.push((2 * (to.y - from.y - vy * duration)) / (duration * duration));
   pieces.alongMm.push(from.alongMm);
 }
 
-/** The time in block `k` after `t` at which `mm` more have been covered. */
+/** The time in block `k` when the pen has moved `mm` further than at `t`. */
 function timeAfter(trajectory: Trajectory, k: number, t: number, end: number, mm: number): number {
   const before = blockLength(trajectory, k, t);
   let low = t;
@@ -239,7 +243,7 @@ function finish(
   return { trajectory, planS };
 }
 
-/** The block under way at `tS`. */
+/** The block that is running at `tS`. */
 function blockAt(trajectory: Trajectory, tS: number): number {
   let low = 0;
   let high = trajectory.blockCount;

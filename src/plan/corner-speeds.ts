@@ -1,29 +1,32 @@
 /**
- * How fast one corner's curve may be entered and left: the fastest for what lies before and behind it.
+ * Entry and exit speed of one corner's curve: the highest that the path before and after it allow.
  *
- *   s = sin(φ/2)     φ the turn
+ *   s = sin(φ/2)     φ the turn angle
  *   L       mm       longest tangent on either side           A  mm/s²
- *   most    mm/s     greatest speed on either side, at most √(A L/s)
- *   v0, v1  mm/s     speeds where the curve begins and ends
- *   q       mm/s     |v1 u1 − v0 u0|: under |a| = A the curve takes q/A, and its tangents are v0 q/2A and v1 q/2A
+ *   maxSpeed mm/s    speed limit on both sides, at most √(A L/s)
+ *   v0, v1  mm/s     speeds at the start and end of the curve
+ *   q       mm/s     |v1 u1 − v0 u0|: under |a| = A the curve takes q/A, with tangents v0 q/2A, v1 q/2A
  *
- * A pen that speeds up along a straight from speed z at its beginning has z² + 2 A x after x mm. Measured from the vertex, of
- * which the curve's tangent falls short, entry at v0 therefore needs
+ * On a straight that starts at speed z, the speed² after x mm of acceleration is z² + 2 A x. The curve begins
+ * one tangent before the vertex. Measured at the vertex, the limits for entry and exit are therefore
  *
- *     v0² + v0 q ≤ F      F  the speed² that acceleration all the way to the vertex would reach
- *     v1² + v1 q ≤ B      B  the same for braking, from behind
+ *     v0² + v0 q ≤ F      F  the speed² reached by accelerating all the way to the vertex
+ *     v1² + v1 q ≤ B      B  the same for braking, computed backwards
  *
- * and what the corner leaves for the straights beyond it is v1² − v1 q (forwards) and v0² − v0 q (backwards).
- * For a given q the greatest speeds are  v = min(most, 2 A L/q, root of v² + v q = F or B).  They fall as q rises, so the
- * fastest corner is the smallest q for which they turn by no more than q:  (v0 − v1)² + 4 s² v0 v1 ≤ q².
+ * and the corner hands v1² − v1 q to the next straight (forwards) and v0² − v0 q to the previous one
+ * (backwards).
+ *
+ * For a given q the highest speeds are min(maxSpeed, 2 A L/q, root of v² + v q = F or B). They fall as q
+ * rises, so the fastest corner has the smallest q for which the velocity change is at most q:
+ *   (v0 − v1)² + 4 s² v0 v1 ≤ q².
  */
 export class CornerSpeeds {
-  /** s of each corner, 0 where the way goes straight on. */
+  /** s of each corner; 0 where the path is straight. */
   sine = new Float64Array(0);
-  /** L of each corner, mm; 0 at the ends and where the way goes straight on. */
+  /** L of each corner, mm; 0 at the ends and where the path is straight. */
   tangent = new Float64Array(0);
-  most = new Float64Array(0);
-  /** v0, v1 and q: what `solve` finds. */
+  maxSpeed = new Float64Array(0);
+  /** v0, v1 and q: the results of `solve`. */
   vIn = new Float64Array(0);
   vOut = new Float64Array(0);
   change = new Float64Array(0);
@@ -33,49 +36,49 @@ export class CornerSpeeds {
     const size = Math.max(points, 2 * this.sine.length);
     this.sine = new Float64Array(size);
     this.tangent = new Float64Array(size);
-    this.most = new Float64Array(size);
+    this.maxSpeed = new Float64Array(size);
     this.vIn = new Float64Array(size);
     this.vOut = new Float64Array(size);
     this.change = new Float64Array(size);
   }
 
-  /** Sets v0, v1 and q of corner i. F and B are above 0. */
+  /** Sets v0, v1 and q of corner i. F and B must be positive. */
   solve(i: number, F: number, B: number, accel: number): void {
-    const most = this.most[i]!;
+    const maxSpeed = this.maxSpeed[i]!;
     const s = this.sine[i]!;
-    const change = 2 * s * most;
-    const through = most * (most + change);
+    const change = 2 * s * maxSpeed;
+    const through = maxSpeed * (maxSpeed + change);
     if (through <= F && through <= B) {
-      this.vIn[i] = this.vOut[i] = most;
+      this.vIn[i] = this.vOut[i] = maxSpeed;
       this.change[i] = change;
     } else if (s === 0) {
-      this.vIn[i] = this.vOut[i] = Math.min(most, Math.sqrt(Math.min(F, B)));
+      this.vIn[i] = this.vOut[i] = Math.min(maxSpeed, Math.sqrt(Math.min(F, B)));
       this.change[i] = 0;
     } else this.search(i, F, B, accel);
   }
 
   /**
-   * Newton's steps from a guess, kept between a q too small and one large enough; halvings where another limit takes
-   * over and they would go to and fro.
+   * Newton's method inside a bracket of q. It bisects where it converges slowly, because another limit takes
+   * over and the steps would oscillate.
    */
   private search(corner: number, F: number, B: number, accel: number): void {
     const s = this.sine[corner]!;
-    const most = this.most[corner]!;
+    const maxSpeed = this.maxSpeed[corner]!;
     const reach = 2 * accel * this.tangent[corner]!;
     const c = 1 - 2 * s * s;
     let low = 0;
-    let high = 2 * most;
-    let q = guess(Math.min(F, B), most, reach, c);
-    if (!(q > low && q < high)) q = 2 * s * most;
+    let high = 2 * maxSpeed;
+    let q = guess(Math.min(F, B), maxSpeed, reach, c);
+    if (!(q > low && q < high)) q = 2 * s * maxSpeed;
     let before = Infinity;
-    let v0 = most;
-    let v1 = most;
+    let v0 = maxSpeed;
+    let v1 = maxSpeed;
     let used = q;
     for (let i = 0; i < 60; i++) {
-      v0 = v1 = most;
+      v0 = v1 = maxSpeed;
       let slope0 = 0;
       let slope1 = 0;
-      if (most * q >= reach) {
+      if (maxSpeed * q >= reach) {
         v0 = v1 = reach / q;
         slope0 = slope1 = -v0 / q;
       }
@@ -92,7 +95,7 @@ export class CornerSpeeds {
       used = q;
       const turned = Math.sqrt((v0 - v1) * (v0 - v1) + 4 * s * s * v0 * v1);
       const excess = turned - q;
-      if (Math.abs(excess) <= SAME * most) break;
+      if (Math.abs(excess) <= SAME * maxSpeed) break;
       if (excess > 0) low = q;
       else high = q;
       const isSlow = Math.abs(excess) > before / 2;
@@ -106,14 +109,15 @@ export class CornerSpeeds {
   }
 }
 
-/** Share of a speed that is rounding. */
+/** Relative differences below this are rounding errors. */
 const SAME = 2e-15;
 
 /**
- * The q of a corner that is slowed down on one side only, to the root v of v² + v q = E; on the other side it is as fast as its
- * tangent allows, w = R/q with R = 2 A L, or else as fast as it may be, w = m. With cos φ = c the turn is q² = v² + w² − 2 c v w.
- * Both equations give v = (E + w² − q²)/(q + 2 c w), and that put into the first one a cubic: of z = q²/R with b = E/R, or of
- * y = q/m with b = E/m².
+ * A first estimate of q for a corner that is limited on one side only. That side has the root v of v² + v q =
+ * E. The other side has the speed that its tangent allows, w = R/q with R = 2 A L, or else the speed limit, w
+ * = m. With cos φ = c the velocity change is q² = v² + w² − 2 c v w. Both equations give v = (E + w² − q²)/(q
+ * + 2 c w). Inserting that in the first one gives a cubic: in z = q²/R with b = E/R, or in y = q/m with b =
+ * E/m².
  */
 function guess(E: number, m: number, R: number, c: number): number {
   let b = E / R;
@@ -133,8 +137,8 @@ function guess(E: number, m: number, R: number, c: number): number {
 }
 
 /**
- * The least positive root of p0 + p1 z − p2 z² − p3 z³, which is somewhere near z: first as if z³ were z² times that, then by two of
- * Halley's steps.
+ * The smallest positive root of p0 + p1 z − p2 z² − p3 z³, given an estimate z: one step with z³ replaced by
+ * z² times the estimate, then two of Halley's steps.
  */
 function rootOf(p0: number, p1: number, p2: number, p3: number, z: number): number {
   z = (2 * p0) / (Math.sqrt(Math.max(0, p1 * p1 + 4 * p0 * (p2 + p3 * z))) - p1);

@@ -1,12 +1,12 @@
 /**
- * Corner speeds by junction deviation: how fast a polyline's vertices may be passed.
+ * Corner speeds by junction deviation: the highest speed at each vertex of a polyline.
  *
- * Source: Sungeun K. Jeon (2011), as used in Grbl: pretend that the corner is a circle of radius R
- * that is tangent to both segments and passes the vertex at distance δ; then v² = A R. The second
- * bound, the circle tangent at half the shorter segment, is Klipper's: without it a finely sampled
- * curve is taken at any speed, since φ goes to 0 as the segments shrink.
+ * Source: Sungeun K. Jeon (2011), as used in Grbl: replace the corner by a circle of radius R that is tangent
+ * to both segments and passes the vertex at distance δ; then v² = A R. The second limit, the circle that is
+ * tangent at half the shorter segment, is Klipper's. Without it a finely sampled curve would have no speed
+ * limit, since φ goes to 0 as the segments shrink.
  *
- *   u0, u1   unit directions in and out      φ   turn angle, cos φ = u0·u1 (0 straight on, π back)
+ *   u0, u1   unit directions before and after      φ   turn angle, cos φ = u0·u1 (0 straight on, π back)
  *   δ        deviation, mm                   A   acceleration, mm/s²
  *   ℓ        shorter of the two segments, mm
  *
@@ -15,30 +15,31 @@
  *       u0           ,'              v² ≤ A R,  v² ≤ A (ℓ/2) c / s
  *     ------------·´ φ
  *
- * s and c come from |u1 − u0| = 2 s and |u1 + u0| = 2 c, which keeps full precision for the tiny turns
- * of dense curves, where 1 − cos φ would cancel. No trigonometry, no NaN: straight on gives no
- * limit and a reversal a full stop.
+ * s and c come from |u1 − u0| = 2 s and |u1 + u0| = 2 c. This keeps full precision for the tiny turns of
+ * dense curves, where 1 − cos φ would cancel. There is no trigonometry and no NaN: a straight line gives no
+ * limit, a reversal a full stop.
  */
 import type { RunPath } from "./run-path.js";
 
-/** Below this sin²(φ/2) a vertex is straight: no limit that a speed limit would not undercut. */
+/** Below this sin²(φ/2) a vertex counts as straight: any limit from it would be far above the speed limit. */
 const STRAIGHT = 1e-24;
 
-/** cos²(φ/2) of a turn of 1 rad: a sharper one is a corner, not a sample of a curve. */
+/** cos²(φ/2) of a turn of 1 rad: anything sharper is a corner, not a sample of a curve. */
 const CURVE = Math.cos(0.5) ** 2;
 
 /**
- * Fills `path.v2` with the largest speed² at every vertex (the ends are at rest), and lowers `path.cap2`.
+ * Fills `path.v2` with the max speed² at every vertex (0 at both ends), and lowers `path.cap2`.
  *
- * Where the tangent circle is what limits both ends of a segment, and both turn the same way, the segment
- * is a chord of a curve and that curve's speed holds inside it too: else the pen would speed up and brake
- * on every chord.
+ * A segment is a chord of a curve if the tangent circle limits both its ends and both turn in the same
+ * direction. The curve's speed then applies inside the segment too; otherwise the pen would accelerate and
+ * brake on every chord.
  */
 export function limitJunctions(path: RunPath, accel: number, deviation: number): void {
   const { segmentCount: n, length, ux, uy, v2, cap2 } = path;
   const accelDeviation = accel * deviation;
   const halfAccel = accel / 2;
-  // The tangent limit of the vertex before, signed by its turn, where it is a curve's; else 0.
+  // The tangent limit of the previous vertex, signed by its turn direction, if it belongs to a curve;
+  // otherwise 0.
   let curveBefore = 0;
   v2[0] = 0;
   for (let i = 1; i < n; i++) {

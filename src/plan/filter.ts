@@ -4,15 +4,16 @@
  *   impulses   u(t) = Σ Aᵢ q(t − tᵢ)              Σ Aᵢ = 1
  *   box        u(t) = 1/w ∫ q over [t − w, t]     = (Q(t) − Q(t − w)) / w        Q: the integral of q
  *
- * Both are a sum of taps: copies of the motion (or of its integral), each delayed and weighted. For an input of constant
- * acceleration a block, u has one constant jerk between any two instants at which a tap passes a block's end. So the
- * output is blocks again, exactly. It takes as much longer as the last tap is delayed.
+ * Both are a sum of taps: copies of the motion (or of its integral), each delayed and weighted. If the input
+ * has constant acceleration per block, u has constant jerk between any two instants at which a tap passes the
+ * end of a block. So the output consists of blocks again, exactly. It is longer than the input by the delay
+ * of the last tap.
  *
- * With weights Aᵢ ≥ 0, as in a box, the output keeps every convex limit of the input: |v| ≤ V, |a| ≤ A. The velocity of a
- * box's output is a difference of positions, its acceleration (v(t) − v(t − w))/w, its jerk (a(t) − a(t − w))/w: at most
- * 2A/w.
+ * With weights Aᵢ ≥ 0, as in a box, the output obeys every convex limit of the input: |v| ≤ V, |a| ≤ A. For a
+ * box, the output's velocity is a difference of positions, its acceleration (v(t) − v(t − w))/w, and its jerk
+ * (a(t) − a(t − w))/w, at most 2A/w.
  *
- * How far a box leaves the line: the mean of A u²/2 over |u| ≤ w/2, which is A w²/24; not at all on a straight.
+ * Deviation of a box from the path: the mean of A u²/2 over |u| ≤ w/2, which is A w²/24; zero on a straight.
  *
  * Source: finite-impulse-response filtering of feed rates, common in machine-tool controls.
  */
@@ -25,11 +26,11 @@ export interface Tap {
 }
 
 export interface Kernel {
-  /** In order of their delays, the first one 0. */
+  /** Sorted by delay; the first delay is 0. */
   readonly taps: readonly Tap[];
-  /** What the taps are copies of: the motion itself, or its integral over time. */
+  /** What the taps copy: the motion itself, or its integral over time. */
   readonly of: "motion" | "integral";
-  /** By how much the output is late in the mean, s. */
+  /** Mean delay of the output, s. */
   readonly meanDelayS: number;
 }
 
@@ -47,12 +48,12 @@ export function impulseKernel(taps: readonly Tap[]): Kernel {
   return { taps, of: "motion", meanDelayS };
 }
 
-/** Ends of blocks nearer in time than this fall together, s. */
+/** Block ends closer in time than this are treated as one, s. */
 const SAME_S = 1e-12;
 
 /**
- * Appends the filtered run to `out`, which has jerk columns. `from` holds the run's blocks only, and the run ends at rest
- * at `end`. `from` gets two rows more: rest at the end, and rest before the start.
+ * Appends the filtered run to `out`, which must have jerk columns. `from` holds only the blocks of this run,
+ * which ends at rest at `end`. Two rows are added to `from`: rest at the end, and rest before the start.
  */
 export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, out: BlockColumns): void {
   const { taps, meanDelayS } = kernel;
@@ -61,7 +62,8 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
   const { alongMm } = from;
   const { rate, change } = alongRates(from, count);
-  // Where in the input each tap is: the block, for how long already, and for how long still.
+  // Position of each tap in the input: its block, the seconds since the start of that block, and the seconds
+  // left in it.
   const n = taps.length;
   const weights = Float64Array.from(taps, ({ weight }) => weight);
   const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
@@ -98,7 +100,8 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
       const vy1 = pvy[k]! + t * ay1;
       const alongV1 = rate[k]! + t * change[k]!;
       if (isIntegral) {
-        // Weights sum to zero here: places are taken from the output's own, so that far ones lose no digits.
+        // The weights sum to zero, so positions are taken relative to the output's position: this keeps
+        // precision far from the origin.
         vx += weight * (px[k]! - x + (t * (pvx[k]! + vx1)) / 2);
         vy += weight * (py[k]! - y + (t * (pvy[k]! + vy1)) / 2);
         ax += weight * vx1;
@@ -118,7 +121,8 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
       }
     }
     if (isOneBlock) {
-      // The mean within one block is known exactly; small errors of differences would add up over a long one.
+      // Within a single block the mean is known exactly; rounding errors of differences would add up over a
+      // long block.
       const k = block[0]!;
       const t = since[0]! - meanDelayS;
       ax = pax[k]!;
@@ -138,7 +142,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
       since[i]! += dt;
       left[i]! -= dt;
       if (left[i]! > SAME_S) continue;
-      // After the rest before the start comes block 0.
+      // Block 0 follows the rest before the start.
       block[i] = block[i]! > count ? 0 : block[i]! + 1;
       since[i] = 0;
       left[i] = durationS[block[i]!]!;
@@ -146,14 +150,14 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   }
 }
 
-/** Two rows behind the last block: at rest where the run ends, and at rest where it begins. */
+/** Adds two rows after the last block: at rest at the end of the run, and at rest at its start. */
 function addRests(from: BlockColumns, end: RunEnd): void {
   const [x0, y0, along0] = [from.x[0]!, from.y[0]!, from.alongMm[0]!];
   from.push(Infinity, end.x, end.y, 0, 0, 0, 0, end.alongMm);
   from.push(Infinity, x0, y0, 0, 0, 0, 0, along0);
 }
 
-/** How fast each block passes the drawing's own line at its start, mm/s, and how that changes, mm/s². */
+/** Speed along the drawing's own line at the start of each block, mm/s, and its rate of change, mm/s². */
 function alongRates(
   { durationS, vx, vy, alongMm }: BlockColumns,
   count: number,

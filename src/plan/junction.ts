@@ -1,4 +1,4 @@
-/** Mode `junction`: vertices passed at a corner speed, straight segments between; the fastest to plan. */
+/** Mode `junction`: straight segments, with a corner speed at each vertex. The fastest mode to plan. */
 import type { BlockColumns } from "./block-columns.js";
 import { limitJunctions } from "./corner.js";
 import { capSegments, type RunLimits } from "./limits.js";

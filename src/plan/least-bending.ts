@@ -1,26 +1,28 @@
 /**
- * The line that bends least between bounds: how far to move each point of a polyline to its left.
+ * The line of least bending between bounds: how far to move each point of a polyline to its left.
  *
- *   y     mm     the points' moves, low ≤ y ≤ high; fixed where low = high, as both ends must be
+ *   y     mm     the points' offsets, low ≤ y ≤ high; fixed where low = high, which both ends must be
  *   φ     rad    the polyline's turn at each point, to the left
  *   ℓ     mm     lengths of its segments
  *
- *   tᵢ = φᵢ + (yᵢ₊₁ − yᵢ)/ℓᵢ − (yᵢ − yᵢ₋₁)/ℓᵢ₋₁       turn afterwards, to first order
- *   Σ wᵢ tᵢ²      wᵢ = (ℓᵢ₋₁ + ℓᵢ)/2 / min(ℓᵢ₋₁, ℓᵢ)²     is made least: ∫ κ² ds, with κ as the shorter segment has it
+ *   tᵢ = φᵢ + (yᵢ₊₁ − yᵢ)/ℓᵢ − (yᵢ − yᵢ₋₁)/ℓᵢ₋₁       new turn, to first order
+ *   Σ wᵢ tᵢ²      wᵢ = (ℓᵢ₋₁ + ℓᵢ)/2 / min(ℓᵢ₋₁, ℓᵢ)²     is minimised: ∫ κ² ds, κ by the shorter segment
  *
- * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. In turns the problem without
- * bounds, a symmetric system of five diagonals with the same factors each time, and the bounds. A few rounds come near
- * enough, since within bounds distant points hardly matter to each other. Linear, and the same backwards as forwards.
+ * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. Each round solves the
+ * problem without bounds, a symmetric five-diagonal system whose factors stay the same, and then applies the
+ * bounds. A few rounds are accurate enough, since between bounds distant points hardly affect each other.
+ * Linear time; the result does not depend on the direction of the polyline.
  */
 
 const ROUNDS = 4;
-/** Weight of the bounds, as a share of the diagonal. */
+/** Penalty weight of the bounds, as a share of the diagonal. */
 const BOUND = 0.3;
 const RELAXATION = 1.8;
 
 /**
- * What is known of each point, beside each other in memory: the solution's first half; 1/D, and the two diagonals of L in their
- * column; what one round hands to the next; the right side; the weight of the bounds, 0 where the point is fixed; the bounds.
+ * The fields of each point, adjacent in memory: the half-solved system; 1/D and the two subdiagonals of L in
+ * this column; the value carried from one round to the next; the right-hand side; the weight of the bounds, 0
+ * for a fixed point; the bounds.
  */
 const FIELDS = 9;
 const HALFWAY = 0;
@@ -32,7 +34,10 @@ const RIGHT = 5;
 const HELD = 6;
 const LOW = 7;
 const HIGH = 8;
-/** Until it is factored, in the same places: weight, that times the turn, 1 where the point is free and 0 where it is fixed; 1/ℓ. */
+/**
+ * Before factoring, the same slots hold: the weight; weight × turn; 1 for a free point and 0 for a fixed one;
+ * 1/ℓ.
+ */
 const WEIGHT = HALFWAY;
 const BENDING = INVERSE;
 const FREE = BELOW1;
@@ -66,7 +71,9 @@ export class LeastBending {
     this.finish(n);
   }
 
-  /** Rows: weights, and turns with what points that are fixed elsewhere than on the line do to them. */
+  /**
+   * Fills the rows with weights and turns. Points that are fixed away from the line contribute to the turns.
+   */
   private begin(n: number, length: Float64Array): void {
     const { low, high, turn, rows } = this;
     let before = length[0]!;
@@ -80,8 +87,8 @@ export class LeastBending {
     for (let i = 1; i < n; i++, r += FIELDS) {
       const after = length[i]!;
       const c = 1 / after;
-      const most = Math.max(a, c);
-      const weight = ((before + after) / 2) * most * most;
+      const max = Math.max(a, c);
+      const weight = ((before + after) / 2) * max * max;
       const low2 = low[i + 1]!;
       const high2 = high[i + 1]!;
       const free2 = isFree(low2, high2);
@@ -109,12 +116,14 @@ export class LeastBending {
   }
 
   /**
-   * The system's factors; and the first way forth, on which no point has moved yet. Whether a point is fixed changes so often
-   * that products take less time than branches. Nothing is looked up before the loop: V8 may compile this while it runs for the
-   * first time, and would throw that away for what it has not seen yet.
+   * Factors the system, and does the first forward substitution, where no point has moved yet. Multiplying by
+   * 0 or 1 is faster here than branching, because fixed and free points alternate often. Nothing is read
+   * before the loop: V8 may compile this function during its first run, and would discard that code at values
+   * it has not seen yet.
    */
   private factor(n: number, rows: Float64Array): void {
-    // D L's first diagonal in the column before, the second one's in the two before; L's likewise; the solution's first half.
+    // D times L's first subdiagonal in the previous column, and the second one in the previous two; the same
+    // for L; the half-solved system.
     let first1 = 0;
     let second1 = 0;
     let second2 = 0;
@@ -123,7 +132,7 @@ export class LeastBending {
     let below2Before = 0;
     let s1 = 0;
     let s2 = 0;
-    // Of the point before, and of the point itself.
+    // Of the previous point and of the current point.
     let weight0 = 0;
     let weight1 = 0;
     let bending0 = 0;
@@ -175,8 +184,8 @@ export class LeastBending {
   }
 
   /**
-   * Solves the system's second half, and brings each point within its bounds: from where it would be, over-relaxed and with all
-   * that was cut off before (the dual variable), to y. HALFWAY is the next right side then.
+   * Backward substitution, then clamps each point to its bounds: y is the over-relaxed solution plus
+   * everything clamped off before (the dual variable). Afterwards HALFWAY holds the next right-hand side.
    */
   private goBack(n: number): void {
     const { rows } = this;
@@ -195,7 +204,7 @@ export class LeastBending {
     }
   }
 
-  /** Solves the first half. */
+  /** Forward substitution. */
   private goForth(n: number): void {
     const { rows } = this;
     // The first and the last point are fixed, with 0 in the system.
@@ -215,7 +224,7 @@ export class LeastBending {
     }
   }
 
-  /** As `goBack`, the last time. */
+  /** The last `goBack`, which writes the result. */
   private finish(n: number): void {
     const { rows, y } = this;
     y[0] = this.low[0]!;

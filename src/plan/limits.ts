@@ -1,4 +1,4 @@
-/** The limits of one run in the planner's own units, from settings and machine. */
+/** The limits of one run in the planner's units, derived from settings and machine. */
 import { TICKS_PER_S } from "../units.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { RunPath } from "./run-path.js";
@@ -11,23 +11,23 @@ export interface RunLimits {
   readonly jerk: number;
   /** δ, mm. */
   readonly corner: number;
-  /** What one motor can do, mm/s along its own axis. */
+  /** Max speed of one motor, mm/s along its own axis. */
   readonly motorSpeed: number;
   readonly mixed: boolean;
-  /** mm/s, where the path is marked for easing. */
+  /** mm/s, on the parts of the path that are marked for easing. */
   readonly easeSpeed: number;
 }
 
-/** Merged blocks may exceed their limits by this much. */
+/** Merged blocks may exceed their limits by this factor. */
 export const SLACK = 1.0009;
 
-/** Share of the board's highest step rate that a plan uses: rounding to whole rates must not pass it. */
+/** Share of the board's max step rate that a plan uses, so that rounding to whole rates cannot exceed it. */
 const STEP_RATE_SHARE = 0.98;
 
 /**
- * A motor of a mixed machine (H-bot, CoreXY) sees |x ± y|: up to √2 times the carriage's acceleration. So its
- * own acceleration limit is kept in every direction by A ≤ limit/√2; its speed limit is kept direction
- * by direction, in `capSegments`.
+ * On a mixed machine (H-bot, CoreXY) each motor moves |x ± y|: up to √2 times the carriage's acceleration.
+ * The motor's acceleration limit therefore holds in every direction if A ≤ limit/√2. Its speed limit is
+ * applied per direction in `capSegments`.
  */
 export function runLimits(
   limits: MotionLimits,
@@ -60,18 +60,24 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
   };
 }
 
-/** Whether the motors can go at V whichever way: in the worst one makes √2 (mixed) or 1 (direct) times the carriage's speed. */
+/**
+ * Whether the motors can reach V in every direction. In the worst direction a motor runs at √2 (mixed) or 1
+ * (direct) times the carriage's speed.
+ */
 export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
   speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
 
-/** Whether the motors can go at (vx, vy), in a merged block. */
+/** Whether the motors can reach (vx, vy), with the slack of a merged block. */
 export function canStep({ motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
   const ax = Math.abs(vx);
   const ay = Math.abs(vy);
   return (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK;
 }
 
-/** Fills `path.cap2` with the speed² that each segment's direction allows: V, and what the motors can step. */
+/**
+ * Fills `path.cap2` with the max speed² of each segment: V, the easing speed, and the motors' limit in its
+ * direction.
+ */
 export function capSegments(path: RunPath, limits: RunLimits): void {
   const { segmentCount: n, cap2, ux, uy } = path;
   const max2 = limits.speed * limits.speed;

@@ -1,12 +1,12 @@
 /**
- * Exact look-ahead: the fastest speeds at the vertices under |a| ≤ A along the path.
+ * Exact look-ahead: the highest speeds at the vertices under |a| ≤ A along the path.
  *
- * Method: v² changes by at most 2 A ℓ over a segment of length ℓ. One pass from the end backwards
- * makes every vertex slow enough to brake for what follows, one pass forwards slow enough to be
- * reached. Each limit is lowered only as far as any feasible profile must lower it, so no other
- * feasible profile is faster anywhere. Linear, no back-tracking.
+ * Method: v² changes by at most 2 A ℓ over a segment of length ℓ. A backward pass lowers each vertex so that
+ * the pen can brake for what follows; a forward pass lowers it to what the pen can reach. Each limit is
+ * lowered only as far as every feasible profile must lower it, so no feasible profile is faster anywhere.
+ * Linear, no backtracking.
  *
- *   v2   in: largest speed² at each vertex, (mm/s)²; out: the speed² to pass it at
+ *   v2   in: max speed² at each vertex, (mm/s)²; out: the planned speed²
  *
  *   v² ^   limit ....      ....          backward:  v²ᵢ   ≤ v²ᵢ₊₁ + 2 A ℓᵢ
  *      |     ___:   :_____:   :          forward:   v²ᵢ₊₁ ≤ v²ᵢ   + 2 A ℓᵢ

@@ -1,5 +1,6 @@
 /**
- * Fewer, longer blocks: neighbouring blocks of a run are replaced by two blocks of constant acceleration (a pair).
+ * Fewer, longer blocks: replaces neighbouring blocks of a run by two blocks of constant acceleration (a
+ * pair).
  *
  *   blocks  |--|-|--|-|--|-|--|-|--|        from state (p₀, v₀) to state (p₁, v₁) in T seconds
  *   pair    |-----T/2-----|-----T/2-----|
@@ -7,16 +8,18 @@
  *   velocity in the middle   w = 2 Δp/T − (v₀ + v₁)/2
  *   accelerations            a₁ = 2 (w − v₀)/T        a₂ = 2 (v₁ − w)/T
  *
- * A pair ends exactly in the state in which the replaced blocks end, so no error is carried forward. It is allowed where
+ * A pair ends in exactly the same state as the blocks it replaces, so no error is carried forward. It is
+ * allowed if
  *
- *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so its ends are the extremes)
- *   it leaves the planned line by at most ε
+ *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so the extremes are at the ends)
+ *   it deviates from the planned line by at most ε
  *
- * From each block on, a group about as long as the last one is tried; it grows until it fails, or shrinks until it holds
- * (greedy, no backtracking). Linear in the number of blocks.
+ * At each block, start with a group about as long as the previous one. The group grows until it fails, or
+ * shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
  *
- * A pair may take a little longer than its blocks (STRETCH). An arc drawn at V or under A leaves no room for a motion that
- * swings a little around its mean: with no extra time there would be few pairs on curves.
+ * A pair may take a little longer than its blocks (STRETCH). A pair's motion oscillates slightly around the
+ * mean, and an arc drawn at V or at A leaves no room for that: without extra time there would be few pairs on
+ * curves.
  */
 import type { BlockColumns } from "./block-columns.js";
 import { canStep, SLACK, type RunLimits } from "./limits.js";
@@ -25,13 +28,13 @@ import type { RunEnd } from "./run-path.js";
 /** A pair may take longer than its blocks by this share. */
 const STRETCH = 0.012;
 
-/** Longest pair, s: inside a block the place along the drawing is interpolated. */
+/** Longest pair, s: the position along the drawing is only interpolated inside a block. */
 const LONGEST_S = 0.6;
 
 /** Factor from one trial length to the next. */
 const GROWTH = 1.25;
 
-/** Blocks in the first group that is tried. */
+/** Blocks in the first trial group. */
 const FIRST_GROUP = 8;
 
 export interface MergeRules {
@@ -39,11 +42,14 @@ export interface MergeRules {
   readonly toleranceMm: number;
   /** s. */
   readonly floorS: number;
-  /** False where velocity jumps at vertices (`junction`): a pair must then be near the plan at equal times. */
+  /** False if velocity jumps at vertices (`junction`): a pair must then match the plan at equal times. */
   readonly isSmooth: boolean;
 }
 
-/** Two blocks of `halfS` seconds each, with velocity (wx, wy) between them, in the place of the blocks before `end`. */
+/**
+ * Two blocks of `halfS` seconds each, with velocity (wx, wy) between them. They replace the blocks before
+ * `end`.
+ */
 interface Pair {
   readonly end: number;
   readonly halfS: number;
@@ -60,7 +66,7 @@ export function mergeBlocks(
   rules: MergeRules,
 ): void {
   const last = blocks.count;
-  // A row for the state in which the last block ends, so that every block has one behind it.
+  // Add a row for the end state of the last block, so that every block has a successor.
   blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
   blocks.count = first;
   blocks.clockS = blocks.startS[first]!;
@@ -70,7 +76,7 @@ export function mergeBlocks(
     const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
     if (pair === null) {
       blocks.moveToEnd(i);
-      size = Math.max(FEWEST, size >> 1);
+      size = Math.max(MIN_GROUP, size >> 1);
       i += 1;
     } else {
       writePair(blocks, i, pair);
@@ -80,10 +86,13 @@ export function mergeBlocks(
   }
 }
 
-/** A group of this many blocks is always worth a pair. */
-const FEWEST = 3;
+/** Merging a group of at least this many blocks always saves some. */
+const MIN_GROUP = 3;
 
-/** The longest pair from block i on that is found by trying from `guess` on; null where there is none. */
+/**
+ * The longest pair starting at block i that is found by growing or shrinking from `guess`; null if there is
+ * none.
+ */
 function longestPair(
   blocks: BlockColumns,
   i: number,
@@ -108,7 +117,7 @@ function longestPair(
   return longest;
 }
 
-/** The pair in the place of blocks [i, m); null where it is not worth it or breaks a limit. */
+/** The pair that replaces blocks [i, m); null if it saves nothing or breaks a limit. */
 function pairOver(
   blocks: BlockColumns,
   i: number,
@@ -124,8 +133,8 @@ function pairOver(
 }
 
 /**
- * The pair that takes `wholeS` seconds; null where V, A or a motor's limit is broken, or a half turns back (the place along
- * the drawing is interpolated by speed).
+ * The pair that takes `wholeS` seconds. Null if V, A or a motor limit is broken, or if a half reverses
+ * direction (the position along the drawing is interpolated by speed).
  */
 function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limits: RunLimits): Pair | null {
   const { x, y, vx, vy } = blocks;
@@ -136,10 +145,10 @@ function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limi
   const wx = (2 * (x[m]! - x[i]!)) / wholeS - (vx0 + vx1) / 2;
   const wy = (2 * (y[m]! - y[i]!)) / wholeS - (vy0 + vy1) / 2;
   const halfS = wholeS / 2;
-  const mostChange = limits.accel * SLACK * halfS;
+  const maxChange = limits.accel * SLACK * halfS;
   const isWithin =
-    isShorter(wx - vx0, wy - vy0, mostChange) &&
-    isShorter(vx1 - wx, vy1 - wy, mostChange) &&
+    isShorter(wx - vx0, wy - vy0, maxChange) &&
+    isShorter(vx1 - wx, vy1 - wy, maxChange) &&
     isShorter(wx, wy, limits.speed * SLACK) &&
     vx0 * wx + vy0 * wy >= 0 &&
     wx * vx1 + wy * vy1 >= 0 &&
@@ -147,29 +156,33 @@ function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limi
   return isWithin ? { end: m, halfS, wx, wy } : null;
 }
 
-const isShorter = (x: number, y: number, most: number): boolean => x * x + y * y <= most * most;
+const isShorter = (x: number, y: number, maxLength: number): boolean =>
+  x * x + y * y <= maxLength * maxLength;
 
-/** A pair must be fewer blocks; or as many, where one of them is shorter than the floor and the pair's are not. */
+/**
+ * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.
+ */
 function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
   const wholeS = startS[m]! - startS[i]!;
   if (wholeS > LONGEST_S) return false;
-  if (m - i >= FEWEST) return true;
+  if (m - i >= MIN_GROUP) return true;
   return m - i === 2 && wholeS >= 2 * floorS && Math.min(durationS[i]!, durationS[i + 1]!) < floorS;
 }
 
 /**
- * Whether the pair stays within ε of the planned line, checked once a block. At the block's start the difference e of the
- * two motions is known. Within the block it is a parabola, so it leaves the straight line between its values at the ends
- * by at most |e″| d²/8.
+ * Whether the pair stays within ε of the planned line, checked once per block. The difference e of the two
+ * motions is known at the block's start. Within the block e is a parabola, so it deviates from the straight
+ * line between its end values by at most |e″| d²/8.
  *
- * Early or late on the line will do: paper does not show when a place was drawn. Being off by s mm along the line then
- * counts A s²/v², twice what a line may bend that is drawn at v under A (the line may be drawn slower nearby).
+ * Being early or late along the line is allowed, since only the drawn line matters. An offset of s mm along
+ * the line counts as A s²/v²: twice the max deviation of a line drawn at v under A (it may be drawn slower
+ * nearby).
  */
 function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, rules: MergeRules): boolean {
   const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
   const { end: m, halfS, wx, wy } = pair;
   const { accel } = limits;
-  const most = rules.toleranceMm;
+  const tolerance = rules.toleranceMm;
   const x0 = x[i]!;
   const y0 = y[i]!;
   const vx0 = vx[i]!;
@@ -185,7 +198,7 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
   const wholeS = 2 * halfS;
   const start = startS[i]!;
   const stretch = wholeS / (startS[m]! - start);
-  const slow2 = rules.isSmooth ? 16 * most * accel : Infinity;
+  const slow2 = rules.isSmooth ? 16 * tolerance * accel : Infinity;
   for (let k = i; k < m; k++) {
     const d = durationS[k]!;
     const t = (startS[k]! - start) * stretch;
@@ -193,14 +206,14 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
     const u = isFirst ? t : t - wholeS;
     const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k]! : x1 + u * (vx1 + (u * a2x) / 2) - x[k]!;
     const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k]! : y1 + u * (vy1 + (u * a2y) / 2) - y[k]!;
-    // Of the block with the knot in it, the half whose acceleration differs more counts.
+    // In the block that contains the pair's middle, use the half whose acceleration differs more.
     const hasKnot = isFirst && t + d > halfS;
     const isMoreLater =
       hasKnot && lengthOf(a2x - ax[k]!, a2y - ay[k]!) > lengthOf(a1x - ax[k]!, a1y - ay[k]!);
     const countsFirst = isFirst && !isMoreLater;
     const ex = (((countsFirst ? a1x : a2x) - ax[k]!) * d * d) / 8;
     const ey = (((countsFirst ? a1y : a2y) - ay[k]!) * d * d) / 8;
-    const rest = most - Math.abs(ex) - Math.abs(ey);
+    const rest = tolerance - Math.abs(ex) - Math.abs(ey);
     if (rest > 0 && dx * dx + dy * dy <= rest * rest) continue;
     const ux = vx[k]!;
     const uy = vy[k]!;
@@ -208,7 +221,7 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
     if (v2 < slow2) return false;
     const across = Math.abs(dx * uy - dy * ux) + Math.abs(ex * uy - ey * ux);
     const along = Math.abs(dx * ux + dy * uy) + Math.abs(ex * ux + ey * uy);
-    if (across / Math.sqrt(v2) + (accel * along * along) / (v2 * v2) > most) return false;
+    if (across / Math.sqrt(v2) + (accel * along * along) / (v2 * v2) > tolerance) return false;
   }
   return true;
 }

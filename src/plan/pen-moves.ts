@@ -1,4 +1,4 @@
-/** A plan's pen moves, written in columns and read as objects where there are few. */
+/** A plan's pen moves: stored in columns, and read as objects where there are few. */
 import type { PenMove, PenMoveColumns } from "./trajectory.js";
 
 export class PenMoveWriter implements PenMoveColumns {
@@ -9,7 +9,7 @@ export class PenMoveWriter implements PenMoveColumns {
   readonly waitS: Float64Array;
   readonly heightPct: Float64Array;
 
-  /** @param max moves that will be pushed at most */
+  /** @param max the max number of moves that will be pushed */
   constructor(max: number) {
     this.beforeRun = new Uint32Array(max);
     this.up = new Uint8Array(max);
@@ -51,10 +51,10 @@ export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
   return writer.finish();
 }
 
-/** Rounding between a command's plan time and the trajectory's. */
+/** Rounding difference between a command's plan time and the trajectory's. */
 const SAME_TIME_S = 1e-7;
 
-/** True when every pen move started before `tS` leaves the pen up. */
+/** True if the last pen move before `tS` lifts the pen, or there is none. */
 export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
   let up = true;
   for (let i = 0; i < penMoves.count && penMoves.startS[i]! < tS - SAME_TIME_S; i++)

@@ -1,9 +1,9 @@
 /**
- * The pen as a motion: how high it goes, and how long the carriage waits for it.
+ * The pen's motion: its height, and how long the carriage waits for it.
  *
- *   lift time = delay + way / rate        way: between the down and up heights, % of the servo's range
+ *   lift time = delay + distance / rate     distance: between the down and up heights, % of the servo's range
  *
- * The carriage starts when `clearPct` of the lift is over. A hop lifts by a part of the full way only, and takes
+ * The carriage starts after `clearPct` of the lift time. A hop lifts only part of the full height, and takes
  * that part of the full time.
  */
 import type { PenSettings } from "../settings/pen.js";
@@ -13,7 +13,7 @@ export interface PenTiming {
   readonly waitS: number;
 }
 
-/** The settings that hold for one layer. */
+/** The pen settings of one layer. */
 export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
   const own = pen.layers?.[layerId];
   if (own === undefined) return pen;
@@ -26,7 +26,7 @@ export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
   };
 }
 
-/** The height between strokes for a way of `travelMm`. */
+/** The pen-up height for a travel of `travelMm`. */
 export function upHeight(pen: PenSettings, travelMm: number): number {
   const { hop } = pen;
   return hop && travelMm <= hop.longestMm ? Math.min(pen.upPct, hop.upPct) : pen.upPct;
@@ -37,23 +37,23 @@ export function liftTiming(pen: PenSettings, heightPct: number): PenTiming {
   return { heightPct, waitS: (wholeS * (pen.clearPct ?? 100)) / 100 };
 }
 
-/** @param fromPct the height from which the pen is dropped */
+/** @param fromPct the height before the drop */
 export function dropTiming(pen: PenSettings, fromPct: number): PenTiming {
   return { heightPct: pen.downPct, waitS: moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS) };
 }
 
-/** The servo's last frame, and its rest. */
+/** The servo's last pulse frame, plus settling. */
 const RESEAT_S = 0.06;
 
-/** A pen that is down goes to another height, `byPct` away, at the rate at which `pen` is dropped. */
+/** The wait for a pen that is already down to change its height by `byPct`, at the drop rate of `pen`. */
 export function reseatWaitS(pen: PenSettings, byPct: number): number {
   if (pen.dropPctPerS) return RESEAT_S + byPct / pen.dropPctPerS;
-  const wayPct = pen.upPct - pen.downPct;
-  return RESEAT_S + (wayPct > 0 ? ((pen.dropMs / 1000) * byPct) / wayPct : 0);
+  const rangePct = pen.upPct - pen.downPct;
+  return RESEAT_S + (rangePct > 0 ? ((pen.dropMs / 1000) * byPct) / rangePct : 0);
 }
 
 function moveTime(pen: PenSettings, upPct: number, delayMs: number, ratePctPerS?: number | null): number {
-  const way = upPct - pen.downPct;
-  if (ratePctPerS) return delayMs / 1000 + way / ratePctPerS;
-  return ((delayMs / 1000) * way) / (pen.upPct - pen.downPct);
+  const distancePct = upPct - pen.downPct;
+  if (ratePctPerS) return delayMs / 1000 + distancePct / ratePctPerS;
+  return ((delayMs / 1000) * distancePct) / (pen.upPct - pen.downPct);
 }

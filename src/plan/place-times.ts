@@ -1,6 +1,6 @@
 import type { Place, Trajectory } from "./trajectory.js";
 
-/** Finds a place's time in a trajectory quickly, as often as progress is told. */
+/** Finds the time of a place in a trajectory, fast enough for frequent progress reports. */
 export class PlaceTimes {
   private readonly runOfStroke = new Map<number, number>();
 
@@ -11,13 +11,13 @@ export class PlaceTimes {
     }
   }
 
-  /** Seconds from a place to the end; 0 for a stroke that this trajectory does not draw. */
+  /** Seconds from a place to the end; 0 if this trajectory does not draw the stroke. */
   leftFrom(place: Place): number {
     const atS = this.timeOf(place);
     return atS === null ? 0 : this.trajectory.totalS - atS;
   }
 
-  /** Seconds at which the pen is at a place; null for a stroke that this trajectory does not draw. */
+  /** The time at which the pen is at a place, s; null if this trajectory does not draw the stroke. */
   timeOf(place: Place): number | null {
     const run = this.runOfStroke.get(place.stroke);
     if (run === undefined) return null;

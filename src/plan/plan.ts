@@ -1,10 +1,10 @@
 /**
- * Strokes to motion: the sequence of runs and pen moves. How one run moves is the mode's matter.
+ * Strokes to motion: the sequence of runs and pen moves. The motion mode decides how each run moves.
  *
  *   travel | drop | draw stroke 0 | lift | travel | drop | draw stroke 1 | lift | travel home
  *
- * A travel of no length has no run. A dot (a stroke of one place) is a draw run without blocks. Where a
- * stroke begins exactly where the last of the same layer ended, the pen stays down between them.
+ * A travel of zero length has no run. A dot (a stroke of a single point) is a draw run without blocks. If a
+ * stroke begins exactly where the previous one of the same layer ended, the pen stays down.
  */
 import { PlotwrightError } from "../errors.js";
 import { pointCount, settingsIdOf, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
@@ -21,28 +21,34 @@ import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
 export interface PlanOptions {
-  /** Where in the drawing to begin, in the middle of a stroke too; default: its beginning. */
+  /** Where in the drawing to begin, possibly in the middle of a stroke; default: the start of the drawing. */
   readonly from?: Place | undefined;
-  /** Where the carriage is, mm in the machine frame; default 0, 0. The pen is up there. */
+  /** Position of the carriage, mm in the machine frame; default 0, 0. The pen is up there. */
   readonly startX?: number | undefined;
   readonly startY?: number | undefined;
-  /** Where the carriage is less than this beside `from`, mm, the line goes on from the carriage, without a travel; default 0. */
+  /**
+   * If the carriage is closer than this to `from`, mm, the line continues from the carriage without a travel;
+   * default 0.
+   */
   readonly penBesideMm?: number | undefined;
-  /** Begin with a lift: nobody knows where the pen is. Default false: it is up. */
+  /** Begin with a lift, because the pen's height is unknown. Default false: the pen is up. */
   readonly liftFirst?: boolean | undefined;
-  /** End at `endX`, `endY` with the pen up; default true. False: rest where the last stroke ends. */
+  /**
+   * Travel to `endX`, `endY` at the end, with the pen up; default true. False: stop where the last stroke
+   * ends.
+   */
   readonly returnHome?: boolean | undefined;
-  /** mm in the machine frame; default 0, 0, which is home. */
+  /** mm in the machine frame; default 0, 0 (home). */
   readonly endX?: number | undefined;
   readonly endY?: number | undefined;
-  /** Its motors' limits are kept then too: steps a second, and `motorAccelStepsPerS2`. */
+  /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
-  /** Looked at before every stroke. An AbortSignal fits. */
+  /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
 
 /**
- * Plans the motion that draws `strokes` in their order, from rest to rest. Linear in the number of points.
+ * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points.
  *
  * @throws PlotwrightError "bad-setting" for settings that contradict each other, "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
@@ -68,7 +74,11 @@ export function plan(
   return builder.finish();
 }
 
-/** A straight move with the pen up, from rest to rest. Throws `bad-setting` for settings that contradict each other. */
+/**
+ * A straight move with the pen up, from rest to rest.
+ *
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other
+ */
 export function planTravel(
   from: readonly [x: number, y: number],
   to: readonly [x: number, y: number],
@@ -103,9 +113,11 @@ class PlanBuilder {
   /** By layer index. */
   private readonly drawLimits: readonly RunLimits[];
   private readonly pens: readonly PenSettings[];
-  /** Seconds before a layer's first stroke; not again before one that is a part of it. */
+  /**
+   * Wait before a layer's first stroke, s. Layers that are further parts of another one (`partOf`) have none.
+   */
   private readonly waitsS: readonly number[];
-  /** The pen that draws, or drew last. */
+  /** The pen settings of the current or last stroke. */
   private pen: PenSettings;
   private penUp = true;
   private heightPct: number;
@@ -130,18 +142,21 @@ class PlanBuilder {
     );
     this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
-    // A travel and a stroke each, and the way home; a lift, a wait and a drop each, and one at either end.
+    // Runs: a travel and a stroke each, and the travel home. Pen moves: a lift, a wait and a drop each, and
+    // one at either end.
     const count = strokeCount(strokes);
     this.firstBlock = new Uint32Array(2 * count + 2);
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
     this.penMoves = new PenMoveWriter(3 * count + 2);
-    // One segment fewer than points in every stroke, and a travel to it; and the way home.
+    // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
     this.blocks = new BlockColumns(pointCount(strokes) + 1, motion.mode === "scurve");
     this.writer = new RunWriter(motion.mode, motion.fit ?? null);
   }
 
-  /** @param penBesideMm a stroke begun in the middle goes on from the carriage, where that is nearer than this */
+  /**
+   * @param penBesideMm a stroke begun in the middle continues from the carriage if that is closer than this
+   */
   draw(stroke: number, fromAlong: number, penBesideMm: number): void {
     const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke]!, strokes.offsets[stroke + 1]!, fromAlong);
@@ -175,7 +190,7 @@ class PlanBuilder {
     this.y = y;
   }
 
-  /** @param travelMm how far it goes with the pen up: a short hop may lift less */
+  /** @param travelMm length of the travel with the pen up: a short hop may lift less */
   lift(travelMm: number): void {
     if (this.penUp) return;
     this.heightPct = upHeight(this.pen, travelMm);
@@ -191,7 +206,7 @@ class PlanBuilder {
     return stroke === 0 || layer[stroke - 1] !== layer[stroke];
   }
 
-  /** With the pen up: it is told once more to be where it is. */
+  /** With the pen up: repeat the command to go to the current height. */
   private wait(waitS: number): void {
     if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS });
   }

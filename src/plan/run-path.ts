@@ -2,19 +2,19 @@
  * The polyline of one run, ready for planning: points, segment lengths, unit directions.
  *
  *   x, y     mm, n + 1 points          length   mm, n segments, at least 2 SHORTEST_MM
- *   ux, uy   unit directions           v2       (mm/s)², n + 1: limit of speed² at each point, then speed²
- *   cap2     (mm/s)², n: limit of speed² inside each segment, never below `v2` at its ends
+ *   ux, uy   unit directions           v2       (mm/s)², n + 1: max speed² at each point, then planned speed²
+ *   cap2     (mm/s)², n: max speed² inside each segment, never below `v2` at its ends
  *
- * One object is filled again for every run, so planning allocates nothing per stroke.
+ * One object is reused for every run, so planning allocates nothing per stroke.
  */
 
 /**
- * Places nearer than this are one place: no travel is made between them. Points of a stroke nearer than
- * twice this to the last kept one are left out: a direction taken from them is noise.
+ * Points closer than this are the same point: there is no travel between them. Points of a stroke closer than
+ * twice this to the previous one are skipped, because their direction would be noise.
  */
 export const SHORTEST_MM = 5e-7;
 
-/** Where a run ends, mm, and how many segments of the drawing it stands for. */
+/** Where a run ends, mm, and how many segments of the drawing it covers. */
 export interface RunEnd {
   readonly x: number;
   readonly y: number;
@@ -33,11 +33,11 @@ export class RunPath {
   cap2 = new Float64Array(0);
   /** mm along the whole stroke at the first point. */
   startAlong = 0;
-  /** Segments before this and from that one on are to be drawn at the easing speed. */
+  /** Segments before `easeUntil` and from `easeFrom` on are drawn at the easing speed. */
   easeUntil = 0;
   easeFrom = Infinity;
 
-  /** The straight way between two points, at least SHORTEST_MM apart. */
+  /** A straight line between two points, at least SHORTEST_MM apart. */
   setLine(x0: number, y0: number, x1: number, y1: number): void {
     this.reserve(2);
     const l = Math.hypot(x1 - x0, y1 - y0);
@@ -55,10 +55,10 @@ export class RunPath {
   }
 
   /**
-   * Points [first, end) of `xy`, from `fromAlong` mm along them.
-   * Afterwards `segmentCount` is 0 where nothing is left to move, and x[0], y[0] is the start in any case.
+   * Loads points [first, end) of `xy`, starting `fromAlong` mm along them. Afterwards `segmentCount` is 0 if
+   * nothing is left to draw; x[0], y[0] is the start in any case.
    *
-   * @throws RangeError when a coordinate is not finite, or so large that lengths are not
+   * @throws RangeError if a coordinate is not finite, or so large that a length is not
    */
   load(xy: Float64Array, first: number, end: number, fromAlong: number): void {
     this.reserve(end - first + 3);
@@ -109,7 +109,7 @@ export class RunPath {
     this.segmentCount = n;
   }
 
-  /** Takes everything over from another path but its points; `measure` once those are set. */
+  /** Copies everything from another path except its points; call `measure` after setting them. */
   beLike(other: RunPath): void {
     this.reserve(other.segmentCount + 1);
     this.segmentCount = other.segmentCount;
@@ -118,7 +118,7 @@ export class RunPath {
     this.easeFrom = other.easeFrom;
   }
 
-  /** Lengths and directions from the points, no two neighbours of which are one place. */
+  /** Computes lengths and directions from the points; neighbours must be distinct. */
   measure(): void {
     const { segmentCount: n, x, y, length, ux, uy } = this;
     for (let i = 0; i < n; i++) {
@@ -132,7 +132,7 @@ export class RunPath {
     }
   }
 
-  /** Moves the first point a little (less than SHORTEST_MM), to where the pen really is. */
+  /** Moves the first point by less than SHORTEST_MM, to the actual position of the pen. */
   startAt(x: number, y: number): void {
     this.x[0] = x;
     this.y[0] = y;
@@ -143,7 +143,9 @@ export class RunPath {
     this.uy[0] = (this.y[1]! - y) / l;
   }
 
-  /** Goes before the first point to (x, y), a little beside the drawing; the way from there stands for none of it. */
+  /**
+   * Prepends the point (x, y), slightly beside the drawing. The new segment covers no part of the drawing.
+   */
   comeFrom(x: number, y: number): void {
     const { segmentCount: n } = this;
     for (const column of [this.x, this.y]) column.copyWithin(1, 0, n + 1);
@@ -167,7 +169,7 @@ export class RunPath {
     return along;
   }
 
-  /** Marks the first and last `mm` for easing; cuts the segments in which those end. */
+  /** Marks the first and last `mm` for easing, and splits the segments where those end. */
   ease(mm: number): void {
     if (this.segmentCount === 0) return;
     const whole = this.endAlong() - this.startAlong;
@@ -179,7 +181,7 @@ export class RunPath {
     this.easeFrom = this.cutAt(whole - mm);
   }
 
-  /** Makes a point `mm` after the first one, unless there is one very near; returns its index. */
+  /** Adds a point `mm` after the first one, unless one is very close; returns its index. */
   private cutAt(mm: number): number {
     const { x, y, length, ux, uy } = this;
     let i = 0;
@@ -212,6 +214,6 @@ export class RunPath {
 
 function notFinite(index: number, x: number, y: number): RangeError {
   return new RangeError(
-    `point ${index} of the strokes is (${x}, ${y}): coordinates must be finite and of a sane size, in mm`,
+    `point ${index} of the strokes is (${x}, ${y}): coordinates must be finite and of a realistic size, in mm`,
   );
 }

@@ -1,6 +1,6 @@
 /**
- * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged where that is asked for
- * (merge.ts), and in `scurve` mode filtered over time (filter.ts).
+ * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged if the settings
+ * ask for it (merge.ts), and in `scurve` mode filtered over time (filter.ts).
  */
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
@@ -46,7 +46,7 @@ export class RunWriter {
 
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const first = out.count;
-    // A single straight has no corners: its blocks are the same in both modes.
+    // A single straight has no corners, so its blocks are the same in both modes.
     if (this.mode === "junction" || path.segmentCount === 1) writeJunctionRun(path, limits, out);
     else this.blend.write(path, limits, out);
     if (this.rules !== null && path.segmentCount > 1) {

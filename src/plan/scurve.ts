@@ -1,14 +1,15 @@
 /**
- * Mode `scurve`: |j| ≤ J at every instant and acceleration without jumps. Blocks of constant acceleration, as in `blend`,
- * are filtered by a box over time (filter.ts).
+ * Mode `scurve`: |j| ≤ J at every instant, and continuous acceleration. Blocks of constant acceleration, as
+ * in `blend`, are filtered by a box over time (filter.ts).
  *
- *   line with corners   box of w = 2 A'/J, since a can go from −A' to A' within it
- *                       the box leaves the line by A' w²/24 = A'³/6J², which gets the share of δ below; corners get the rest
- *   single straight     box of w = A'/J: the speed is chosen so that the steady phase lasts for w, so a never goes
- *                       from A' to −A' within a box, and the box does not leave a straight
+ *   line with corners   box of w = 2 A'/J, since a can go from −A' to A' within w
+ *                       the box deviates by A' w²/24 = A'³/6J²: its share of δ is given below
+ *   single straight     box of w = A'/J: with a speed for which the steady phase lasts w, a never goes
+ *                       from A' to −A' within a box; on a straight the box does not deviate
  *
- * The share of δ: the more the box gets, the greater A', and the less is left for corners. On the samples 3/4 takes the
- * least time in all (1/2: 2 % more; 0.85: about as much). As J grows, w falls to 0, A' is A, and the mode becomes `blend`.
+ * The share of δ: the larger the box's share, the larger A', and the less remains for corners. On the sample
+ * drawings 3/4 takes the least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A'
+ * to A, and the mode becomes `blend`.
  */
 import { boxKernel, type Kernel } from "./filter.js";
 import { capSegments, type RunLimits } from "./limits.js";
@@ -17,7 +18,7 @@ import type { RunPath } from "./run-path.js";
 /** Share of δ for the box. */
 const BOX_SHARE = 3 / 4;
 
-/** The limits to plan blocks of constant acceleration with, and the filter for them. */
+/** The limits for planning the blocks of constant acceleration, and the filter for them. */
 export interface FilteredPlan {
   readonly limits: RunLimits;
   readonly kernel: Kernel;
@@ -38,8 +39,8 @@ function forLine(limits: RunLimits): FilteredPlan {
 }
 
 /**
- * The fastest profile under |j| ≤ J. It is A'/J shorter than with w = 2 A'/J: of the accelerations that it could have, A' is
- * the greatest that a short straight (L) or a low limit of speed (V) leaves time to reach.
+ * The fastest profile under |j| ≤ J. It is shorter by A'/J than with w = 2 A'/J. A' is the largest
+ * acceleration that a short straight (L) or a low speed limit (V) leaves time to reach.
  */
 function forStraight(path: RunPath, limits: RunLimits): FilteredPlan {
   const { jerk } = limits;
@@ -48,7 +49,7 @@ function forStraight(path: RunPath, limits: RunLimits): FilteredPlan {
   const length = path.length[0]!;
   const accel = Math.min(limits.accel, Math.cbrt((length * jerk * jerk) / 2), Math.sqrt(top * jerk));
   const width = accel / jerk;
-  // v/A' to speed up, as long to brake, w at speed v: v²/A' + v w = L.
+  // v/A' to accelerate, the same to brake, and w at speed v: v²/A' + v w = L.
   const speed = (accel / 2) * (Math.sqrt(width * width + (4 * length) / accel) - width);
   return { limits: { ...limits, accel, speed: Math.min(limits.speed, speed) }, kernel: boxKernel(width) };
 }

@@ -1,86 +1,95 @@
 /**
- * The line that corner curves are planned on: within δ of the drawing, but softer, so that it can be drawn faster.
+ * The line on which corner curves are planned: within δ of the drawing, but softer, so that it can be drawn
+ * faster.
  *
- *   δ     mm    corner deviation            s     sin(φ/2), φ the turn at a point
- *   ℓ/2   mm    half of the shorter segment at a point
- *   room  mm    how far from its own point each corner's curve may pass
+ *   δ     mm    corner deviation            s     sin(φ/2), φ the turn angle at a point
+ *   ℓ/2   mm    half the shorter segment at a point
+ *   room  mm    max distance between a corner's curve and its own point
  *
- *          ·       P' moved, outwards          A sharp corner's curve may pass at δ inside of the corner P. Moved
- *        ·   ·                                 outwards by up to δ, it is rounder by as much.
+ *          ·       P' moved outwards           A sharp corner's curve may pass δ inside P. If P moves
+ *        ·   ·                                 outwards by up to δ, the curve can be rounder.
  *      ·   P   ·
- *    ·   / ‿ \   ·  the curve, of P'           Bends are moved to where the line bends least (least-bending.ts): tight
- *      /       \                               places become wider, and small unevenness goes, which would only be
- *    /  drawing  \                             braked and sped up for.
+ *    ·   / ‿ \   ·  the curve, of P'           Bends move to where the line bends least
+ *      /       \                               (least-bending.ts): tight bends become wider, and small
+ *    /  drawing  \                             unevenness, which only costs speed, disappears.
  *
- * Three kinds of points: corners too sharp for their curve to use half of a segment (ℓ s/2 > 2 δ), moved outwards; bends
- * below SMOOTH that A slows down, moved to bend less; others stay. Points of bends are also moved along the line
- * (EVEN), for a curve at a point can be no longer than the shorter segment allows.
+ * There are three kinds of points. Corners too sharp for their curve to use half a segment (ℓ s/2 > 2 δ) move
+ * outwards. Bends below SMOOTH whose speed is limited by A move to bend less. All others stay. Points of
+ * bends also move along the line (EVEN), since the curve at a point can be no longer than the shorter segment
+ * allows.
  *
- * Why that stays within δ. Every point P' is within δ of its P, so each segment P'Q' lies in the stadium of PQ: the
- * places within δ of it, which is convex. A corner's curve crosses the bisector at some M. If M is within δ of P, the
- * control points of the part before it (two on the segment, and M) lie in the stadium of the segment before P, and so does
- * that part; the other part likewise. M is at most `room` from P', inwards, so with b the unit vector of that direction
+ * Why this stays within δ: every point P' is within δ of its P, so each segment P'Q' lies in the stadium of
+ * PQ, the set of points within δ of PQ, which is convex. A corner's curve crosses the bisector at a point M.
+ * If M is within δ of P, the control points of the part before it (two on the segment, and M) lie in the
+ * stadium of the segment before P, and so does that part; likewise for the other part. M is at most `room`
+ * from P', inwards, so with b the unit vector of that direction
  *
  *     room = −d·b + √(δ² − |d|² + (d·b)²)       d = P' − P
  *
- * Where a point has first been moved along the line by τ, segments leave the drawing by at most τ (s + half of the next
- * point's s); that much is taken from δ at the point and at its neighbours.
+ * If a point first moves along the line by τ, segments leave the drawing by at most τ (s + half the next
+ * point's s). That amount is subtracted from δ at the point and at its neighbours.
  */
 import { capSegments, type RunLimits } from "./limits.js";
 import { LeastBending } from "./least-bending.js";
 import { RunPath } from "./run-path.js";
 
-/** Largest s of a bend that counts as a curve's (41°). */
+/** Max s of a bend that is part of a curve (41°). */
 const SMOOTH = 0.35;
-/** Curves that A lets be drawn at this many times V², or faster, are left alone. */
+/** Curves that can be drawn under A at this many times V², or faster, are left unchanged. */
 const FAST = 4;
-/** Share of the difference of two lengths that a point is moved along the line to even them out. */
+/**
+ * A point moves along the line by this share of the difference between its two segments' lengths, to even
+ * them out.
+ */
 const EVEN = 0.3;
-/** Moving along the line must leave that share of δ. */
+/** Moving along the line must leave this share of δ. */
 const LEFT = 0.75;
-/** Two neighbours are not moved apart or together by more than this share of their segment. */
+/** Max relative displacement of two neighbours, as a share of their segment. */
 const SHEAR = 0.5;
-/** Below this s it is not yet said to which side the line will bend. */
+/** Below this s the direction of the bend is uncertain. */
 const HARDLY = 0.015;
-/** Added to an s that is divided by: where the line goes straight on the quotient stays finite, elsewhere it is of no account. */
+/**
+ * Added to an s before dividing by it, so that the quotient stays finite on straight lines; negligible
+ * elsewhere.
+ */
 const NOT_ZERO = 1e-6;
 
-/** A point that may be moved to bend less, among mm outwards. */
+/** A `kind` that marks a point of a bend, instead of mm outwards. */
 const FREE = -1;
 
-/** What there is to gain on a path. */
+/** What can be softened on a path. */
 const NOTHING = 0;
 const CORNERS = 1;
 const BENDS = 2;
 
 export class SoftLine {
-  /** mm: how much of the drawing each segment stands for. */
+  /** mm of the drawing that each segment covers. */
   along = new Float64Array(0);
   private readonly even = new RunPath();
   private readonly soft = new RunPath();
   private readonly bending = new LeastBending();
   /** s at each point of the drawing, then of the evened line. */
   private sine = new Float64Array(0);
-  /** mm outwards at corners; FREE where the line may bend, 0 where points stay. */
+  /** mm outwards at corners; FREE at bends; 0 for points that stay. */
   private kind = new Float64Array(0);
-  /** mm of δ that moving along the line takes at each point, and what it leaves there. */
+  /** mm of δ that moving along the line uses up at each point, and mm of δ that are left there. */
   private taken = new Float64Array(0);
   private left = new Float64Array(0);
   /** mm from the evened line. */
   private shiftX = new Float64Array(0);
   private shiftY = new Float64Array(0);
-  /** Of each segment of the evened line: 1 where its ends would be moved apart too far. */
+  /** Per segment of the evened line: 1 if its ends would move too far relative to each other. */
   private isSheared = new Uint8Array(0);
 
   /**
-   * The line to plan on: as many points as `path`, and from end to end; `path` itself where nothing is gained. `cap2` is
-   * filled. Good until the next call.
+   * The line to plan on, with the same number of points as `path` and the same ends; `path` itself if nothing
+   * can be softened. `cap2` is filled. Valid until the next call.
    */
   of(path: RunPath, limits: RunLimits): RunPath {
     const n = path.segmentCount;
     this.reserve(n + 1);
     capSegments(path, limits);
-    const curves = this.sort(path, limits);
+    const curves = this.classify(path, limits);
     if (curves === NOTHING) return this.same(path, limits);
     this.evenOut(path, limits.corner);
     this.bound(limits.corner);
@@ -94,8 +103,8 @@ export class SoftLine {
   }
 
   /**
-   * mm that the curve of the returned line's corner i may take of its segments, `half` at most: no more than passes within `room`.
-   * (bx, by) is u1 − u0, 2 s long.
+   * mm of each adjacent segment that the curve at corner i of the returned line may use: at most `half`, and
+   * such that the curve passes within `room`. (bx, by) is u1 − u0, of length 2 s.
    */
   reach(i: number, bx: number, by: number, s: number, half: number): number {
     const dx = this.shiftX[i]!;
@@ -104,7 +113,7 @@ export class SoftLine {
     const along = dx * bx + dy * by;
     const rest = left * left - dx * dx - dy * dy;
     const deep = (half * s) / 2;
-    // room ≥ deep, in squares: mostly so.
+    // Usually room ≥ deep, compared here in squares.
     if (rest >= deep * deep + (half * along) / 2) return half;
     const inwards = along / (2 * s);
     const room = Math.sqrt(Math.max(0, rest + inwards * inwards)) - inwards;
@@ -120,8 +129,8 @@ export class SoftLine {
     return path;
   }
 
-  /** Says of each point how it may move. */
-  private sort(path: RunPath, { accel, corner }: RunLimits): number {
+  /** Sets the kind of each point; returns what can be softened. */
+  private classify(path: RunPath, { accel, corner }: RunLimits): number {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
     const { sine, kind } = this;
     let found = NOTHING;
@@ -160,8 +169,9 @@ export class SoftLine {
   }
 
   /**
-   * Moves points of bends along the line, away from the nearer neighbour. Here and in `shift` segments are measured in the loop that
-   * places their points: a function for both, or a loop of its own, takes a tenth longer.
+   * Moves points of bends along the line, away from the nearer neighbour. Here and in `shift`, segments are
+   * measured in the same loop that places their points: a shared function or a separate loop takes 10 %
+   * longer.
    */
   private evenOut(path: RunPath, corner: number): void {
     const { segmentCount: n, x, y, length, ux, uy } = path;
@@ -185,8 +195,8 @@ export class SoftLine {
         const after = length[i]!;
         const s = sine[i]!;
         leaves = s + Math.max(sine[i - 1]!, sine[i + 1]!) / 2;
-        const most = Math.min((SHEAR / 2) * Math.min(before, after), mayLeave / (leaves + NOT_ZERO));
-        tau = between(EVEN * (after - before), -most, most);
+        const limit = Math.min((SHEAR / 2) * Math.min(before, after), mayLeave / (leaves + NOT_ZERO));
+        tau = between(EVEN * (after - before), -limit, limit);
         const per = tau * halfPerCosine(s * s);
         qx += per * (ux[i - 1]! + ux[i]!);
         qy += per * (uy[i - 1]! + uy[i]!);
@@ -206,7 +216,7 @@ export class SoftLine {
     }
   }
 
-  /** Turns of the evened line, and how far its points may go to the left and to the right. */
+  /** Computes the turns of the evened line, and how far its points may move to the left and to the right. */
   private bound(corner: number): void {
     const { segmentCount: n, length, ux, uy } = this.even;
     const { sine, kind, taken, left, bending } = this;
@@ -214,14 +224,14 @@ export class SoftLine {
     const { low, high, turn } = bending;
     sine[0] = turn[0] = low[0] = high[0] = 0;
     sine[n] = turn[n] = low[n] = high[n] = 0;
-    // How far a curve of its own radius passes inside of a point, of this point and its neighbours: more than is left then
-    // would have it slow down again.
+    // How far inside its point a curve of that radius passes, for this point and its neighbours. With less
+    // room than this the pen would have to slow down again.
     let depth0 = 0;
     let depth1 = 0;
     let taken0 = 0;
     let taken1 = 0;
     for (let k = 1; k <= n; k++) {
-      // Point k is the neighbour of the one before it, which is bounded here.
+      // Point k is the last neighbour of point k − 1, whose bounds are set here.
       let depth2 = 0;
       let taken2 = 0;
       if (k < n) {
@@ -268,7 +278,9 @@ export class SoftLine {
     }
   }
 
-  /** From the evened line to the soft one. Neighbours that would be sheared stay; false where even that does not help. */
+  /**
+   * From the evened line to the soft one. Sheared neighbours stay in place; false if even that does not help.
+   */
   private move(n: number): boolean {
     const { even, soft, shiftX, shiftY } = this;
     if (this.shift(n)) return true;
@@ -281,7 +293,7 @@ export class SoftLine {
     return true;
   }
 
-  /** Moves all points; whether no segment is sheared. */
+  /** Moves all points; returns whether no segment is sheared. */
   private shift(n: number): boolean {
     const { even, soft, sine, kind, shiftX, shiftY } = this;
     const { x, y, ux, uy, length } = even;
@@ -306,7 +318,7 @@ export class SoftLine {
         dx = -per * (uy[i - 1]! + uy[i]!);
         dy = per * (ux[i - 1]! + ux[i]!);
       } else if (left !== 0) {
-        // Outwards, which is to the right in a turn to the left.
+        // Outwards, which is to the right in a left turn.
         const per = -Math.abs(left) / (2 * sine[i]!);
         dx = per * (ux[i]! - ux[i - 1]!);
         dy = per * (uy[i]! - uy[i - 1]!);
@@ -321,20 +333,20 @@ export class SoftLine {
       dy0 = dy;
       const qx = x[i]! + dx;
       const qy = y[i]! + dy;
-      const wayX = qx - px;
-      const wayY = qy - py;
-      const l = Math.sqrt(wayX * wayX + wayY * wayY);
+      const stepX = qx - px;
+      const stepY = qy - py;
+      const l = Math.sqrt(stepX * stepX + stepY * stepY);
       const per = 1 / l;
       softLength[i - 1] = l;
-      sx1[i - 1] = wayX * per;
-      sy1[i - 1] = wayY * per;
+      sx1[i - 1] = stepX * per;
+      sy1[i - 1] = stepY * per;
       sx[i] = px = qx;
       sy[i] = py = qy;
     }
     return !isSheared;
   }
 
-  /** How many segments would be; both ends of each then stay, whichever side one comes from. */
+  /** Returns the number of sheared segments, and resets both ends of each. */
   private stayWhereSheared(n: number): number {
     const { length } = this.even;
     const { shiftX, shiftY, isSheared } = this;
@@ -366,7 +378,7 @@ export class SoftLine {
   }
 }
 
-/** 1/(2 cos(φ/2)) from s², for bends: less than 0.01 % too little. */
+/** 1/(2 cos(φ/2)) from s², for bends: too small by less than 0.01 %. */
 function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }

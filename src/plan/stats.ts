@@ -1,15 +1,15 @@
-/** A trajectory in a few numbers, for people and for `plan --json`. */
+/** Summary figures of a trajectory, for people and for `plan --json`. */
 import { blockLength, type Trajectory } from "./trajectory.js";
 
 export interface TrajectoryStats {
-  /** Way with the pen down, mm. */
+  /** Distance with the pen down, mm. */
   readonly drawMm: number;
-  /** Way with the pen up, mm. */
+  /** Distance with the pen up, mm. */
   readonly travelMm: number;
   readonly penLiftCount: number;
   /** mm/s */
   readonly maxSpeed: number;
-  /** mm/s², within blocks: the jump of direction at a `junction` corner is not in it. */
+  /** mm/s², within blocks; excludes the velocity jump at a `junction` corner. */
   readonly maxAccel: number;
   readonly durationS: number;
 }
@@ -22,14 +22,14 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   let speed2 = 0;
   let accel2 = 0;
   for (let run = 0; run < runs.count; run++) {
-    let way = 0;
+    let lengthMm = 0;
     for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) {
-      way += blockLength(trajectory, k, trajectory.durationS[k]!);
+      lengthMm += blockLength(trajectory, k, trajectory.durationS[k]!);
       speed2 = Math.max(speed2, blockMaxSpeed2(trajectory, k));
       accel2 = Math.max(accel2, blockMaxAccel2(trajectory, k));
     }
-    if (runs.stroke[run]! < 0) travelMm += way;
-    else drawMm += way;
+    if (runs.stroke[run]! < 0) travelMm += lengthMm;
+    else drawMm += lengthMm;
   }
   return {
     drawMm,
@@ -41,25 +41,30 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   };
 }
 
-/** An order to be up where the pen is up already is a wait, and the first one only makes sure: neither is a lift. */
+/**
+ * Moving up when the pen is already up is a wait, and the first pen move only makes sure that the pen is up:
+ * neither counts as a lift.
+ */
 function liftCount({ penMoves }: Trajectory): number {
   let lifts = 0;
   for (let k = 1; k < penMoves.count; k++) if (penMoves.up[k]! > penMoves.up[k - 1]!) lifts++;
   return lifts;
 }
 
-/** With no jerk speed² is a convex parabola in time: largest at an end. With jerk the inside is sampled. */
+/**
+ * Without jerk, speed² is a convex parabola in time: its max is at an end. With jerk the inside is sampled.
+ */
 function blockMaxSpeed2(trajectory: Trajectory, k: number): number {
   const { jx, jy } = trajectory;
   const inner = jx && jy && (jx[k] !== 0 || jy[k] !== 0) ? 8 : 1;
-  let most = 0;
+  let max2 = 0;
   for (let i = 0; i <= inner; i++) {
     const t = (trajectory.durationS[k]! * i) / inner;
     const vx = trajectory.vx[k]! + t * (trajectory.ax[k]! + (t * (jx ? jx[k]! : 0)) / 2);
     const vy = trajectory.vy[k]! + t * (trajectory.ay[k]! + (t * (jy ? jy[k]! : 0)) / 2);
-    most = Math.max(most, vx * vx + vy * vy);
+    max2 = Math.max(max2, vx * vx + vy * vy);
   }
-  return most;
+  return max2;
 }
 
 function blockMaxAccel2(trajectory: Trajectory, k: number): number {

@@ -3,8 +3,8 @@
  *
  *   t from a block's start:  p(t) = p0 + v0 t + a t²/2 + j t³/6
  *
- * Blocks stand in runs. A run begins and ends at rest with the pen held up (travel) or down
- * (draw); between two runs the pen may move, and the carriage waits for it:
+ * Blocks are grouped in runs. A run begins and ends at rest, with the pen up (travel) or down (draw). Between
+ * two runs the pen may move, and the carriage waits for it:
  *
  *   run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
  */
@@ -12,7 +12,7 @@ export interface Trajectory {
   readonly blockCount: number;
   /** Seconds each block takes. All columns have `blockCount` used entries (arrays may be longer). */
   readonly durationS: Float64Array;
-  /** Start place, mm in the machine frame. */
+  /** Start position, mm in the machine frame. */
   readonly x: Float64Array;
   readonly y: Float64Array;
   /** Start velocity, mm/s. */
@@ -29,11 +29,11 @@ export interface Trajectory {
   /** mm along the run's source polyline at the block's start. */
   readonly alongMm: Float64Array;
   readonly runs: RunColumns;
-  /** In order of time; `penMovesOf` gives them as objects. */
+  /** In order of time; `penMovesOf` returns them as objects. */
   readonly penMoves: PenMoveColumns;
-  /** The whole, pen waits included. */
+  /** Total duration, pen waits included. */
   readonly totalS: number;
-  /** Where it ends, mm. */
+  /** End position, mm. */
   readonly endX: number;
   readonly endY: number;
 }
@@ -48,7 +48,7 @@ export interface RunColumns {
   readonly startS: Float64Array;
 }
 
-/** Pen moves as columns; all have `count` used entries (arrays may be longer). See `PenMove`. */
+/** Pen moves as columns, each with `count` used entries (arrays may be longer). See `PenMove`. */
 export interface PenMoveColumns {
   readonly count: number;
   readonly beforeRun: Uint32Array;
@@ -59,7 +59,7 @@ export interface PenMoveColumns {
   readonly heightPct: Float64Array;
 }
 
-/** The pen is lifted or dropped before run `beforeRun` (= runs.count: after the last one). */
+/** A lift or drop before run `beforeRun` (= runs.count: after the last one). */
 export interface PenMove {
   readonly beforeRun: number;
   readonly up: boolean;
@@ -71,7 +71,7 @@ export interface PenMove {
   readonly heightPct: number;
 }
 
-/** A place in the drawing from which a plan can go on: a stroke, and mm along its polyline. */
+/** A place in the drawing from which a plan can resume: a stroke, and mm along its polyline. */
 export interface Place {
   readonly stroke: number;
   readonly alongMm: number;
@@ -85,7 +85,7 @@ export interface MotionState {
   vy: number;
   ax: number;
   ay: number;
-  /** True from the instant the lift is commanded until the drop is. */
+  /** True from the start of a lift until the start of a drop. */
   penUp: boolean;
   /** −1 while travelling or waiting for the pen. */
   stroke: number;
@@ -98,10 +98,10 @@ export function newMotionState(): MotionState {
 
 /**
  * The state at `tS` seconds from the start: O(log blocks). Before the start and after the end: at rest there.
- * While the carriage waits for the pen it stands where the last run ended, with `stroke` −1.
- * Give `out` to have it filled instead of a new object.
+ * While the carriage waits for the pen it is where the last run ended, with `stroke` −1. Pass `out` to fill
+ * an existing object.
  *
- * @throws RangeError when `tS` is NaN
+ * @throws RangeError if `tS` is NaN
  */
 export function stateAt(
   trajectory: Trajectory,
@@ -115,7 +115,7 @@ export function stateAt(
   const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]!);
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k]!;
-  // A block's own end belongs to the block, except where another one or a wait follows at once.
+  // The end of a block belongs to that block, unless another block or a wait follows immediately.
   if (t >= trajectory.durationS[k]! && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
     blockState(trajectory, k, trajectory.durationS[k]!, out);
     return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
@@ -143,7 +143,7 @@ export function blockState(trajectory: Trajectory, k: number, t: number, out: Mo
   return out;
 }
 
-/** mm along the source polyline: by the share of the block's own length that is behind. */
+/** mm along the source polyline, interpolated by the length of the block covered so far. */
 function alongAt(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k]!;
   const duration = trajectory.durationS[k]!;
@@ -153,15 +153,15 @@ function alongAt(trajectory: Trajectory, k: number, t: number): number {
   return whole > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / whole) : along;
 }
 
-/** Length along the source polyline that block `k` stands for; the last of a run counts by its own length. */
+/** Length along the source polyline that block `k` covers; for the last block of a run, its own length. */
 function blockAlongSpan(trajectory: Trajectory, k: number, ownLength: number): number {
   if (k + 1 >= trajectory.blockCount || endsRun(trajectory, k)) return ownLength;
   return trajectory.alongMm[k + 1]! - trajectory.alongMm[k]!;
 }
 
 /**
- * Length in mm of the first `t` seconds of block `k`: exact for straight blocks, else by Gauss's rule, piece by piece where
- * the way turns back (|v| has a kink there).
+ * Length in mm of the first `t` seconds of block `k`: exact for straight blocks, otherwise by Gauss
+ * quadrature, split where the path reverses (|v| has a kink there).
  */
 export function blockLength(
   trajectory: Pick<Trajectory, "vx" | "vy" | "ax" | "ay" | "jx" | "jy">,
@@ -174,7 +174,8 @@ export function blockLength(
   const ay = trajectory.ay[k]!;
   const jx = trajectory.jx ? trajectory.jx[k]! : 0;
   const jy = trajectory.jy ? trajectory.jy[k]! : 0;
-  // v(u) · d = c + b u + q u²: where the velocity is across its direction at first, or that in which it sets out from rest.
+  // v(u) · d = c + b u + q u², with d the initial direction (from rest: the acceleration). At its roots the
+  // velocity is perpendicular to d.
   const c = vx * vx + vy * vy;
   const dx = c > 0 ? vx : ax;
   const dy = c > 0 ? vy : ay;
@@ -193,7 +194,7 @@ export function blockLength(
   return sum;
 }
 
-/** Of a way that does not turn back between these two instants. */
+/** Length of a path that does not reverse between the two instants. */
 function lengthBetween(
   from: number,
   to: number,
@@ -214,7 +215,7 @@ function lengthBetween(
   return sum * (to - from);
 }
 
-// Gauss–Legendre of three points on [0, 1]: exact up to the fifth degree, so for every straight block.
+// Three-point Gauss–Legendre on [0, 1]: exact up to degree five, so for every straight block.
 const GAUSS_NODES = [0.5 - Math.sqrt(0.15), 0.5, 0.5 + Math.sqrt(0.15)];
 const GAUSS_WEIGHTS = [5 / 18, 8 / 18, 5 / 18];
 

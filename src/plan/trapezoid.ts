@@ -1,31 +1,34 @@
 /**
- * A straight between known speeds, as blocks: accelerate, cruise, brake; any may be missing.
+ * A straight between known end speeds, as blocks: accelerate, cruise, brake; any may be missing.
  *
  *   v ^      ______           peak² = min(cap², (v0² + v1²)/2 + A ℓ)
  *     |     /      \          accelerate over (peak² − v0²)/2A, brake over (peak² − v1²)/2A,
  *  v0 |____/        \____ v1  cruise over the rest
  *     +-----------------> s
  *
- * The caller's look-ahead has made sure that |v1² − v0²| ≤ 2 A ℓ. Each block takes its acceleration from its own end
- * speeds and exact length, (w1² − w0²)/2d, not from A: rounding then never opens a gap between blocks.
+ * The caller's look-ahead guarantees |v1² − v0²| ≤ 2 A ℓ. The acceleration of each block is computed from its
+ * own end speeds and exact length, (w1² − w0²)/2d, not from A, so that rounding never opens a gap between
+ * blocks.
  */
 import type { BlockColumns } from "./block-columns.js";
 
-/** A change of speed² below this share of it, or a cruise below this share of the straight, is rounding. */
+/**
+ * A relative change of speed² below this, or a cruise below this share of the straight, is a rounding error.
+ */
 const NEGLIGIBLE = 1e-11;
 
 export interface Straight {
-  /** Where it begins, mm; its unit direction; its length, mm. */
+  /** Start, mm; unit direction; length, mm. */
   x: number;
   y: number;
   ux: number;
   uy: number;
   length: number;
-  /** Speeds at its ends, mm/s, and the limit of speed² between them. */
+  /** Speeds at both ends, mm/s, and the max speed² between them. */
   v0: number;
   v1: number;
   cap2: number;
-  /** mm of the drawing at its beginning, and for each mm of it. */
+  /** mm along the drawing at the start, and per mm of the straight. */
   alongMm: number;
   alongPerMm: number;
 }
@@ -49,13 +52,13 @@ export function writeStraight(straight: Straight, accel: number, out: BlockColum
   const start2 = v0 * v0;
   const end2 = v1 * v1;
   const peak2 = Math.min((start2 + end2) / 2 + accel * length, Math.max(cap2, start2, end2));
-  const least2 = NEGLIGIBLE * peak2;
-  const rise = peak2 - start2 > least2 ? (peak2 - start2) / (2 * accel) : 0;
-  const fall = peak2 - end2 > least2 ? (peak2 - end2) / (2 * accel) : 0;
+  const negligible2 = NEGLIGIBLE * peak2;
+  const rise = peak2 - start2 > negligible2 ? (peak2 - start2) / (2 * accel) : 0;
+  const fall = peak2 - end2 > negligible2 ? (peak2 - end2) / (2 * accel) : 0;
   const peak = Math.sqrt(peak2);
   const cruise = length - rise - fall;
-  const cruises = cruise > Math.max(NEGLIGIBLE * length, least2 / (2 * accel));
-  // The last phase ends where the straight ends: it takes what the others leave.
+  const cruises = cruise > Math.max(NEGLIGIBLE * length, negligible2 / (2 * accel));
+  // The last phase gets the remaining length, so that it ends exactly at the end of the straight.
   let from = 0;
   let speed = v0;
   if (rise > 0 && (fall > 0 || cruises)) {

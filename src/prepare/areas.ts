@@ -1,4 +1,4 @@
-/** The areas that filled shapes cover on the paper: what is hatched, and what hides. */
+/** The areas of filled shapes on the paper, used for hatching and for hiding lines. */
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
 import { RULE_EVENODD, type Drawing } from "../drawing/drawing.js";
 import { boxContains, type Box } from "../geometry/box.js";
@@ -7,8 +7,8 @@ import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../ge
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
- * Region of each filled shape, in paint order, under its rule, cut to its clip and to `limit`.
- * `lines` are the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG.
+ * Region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. `lines` are
+ * the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG.
  */
 export function filledAreas(
   lines: Lines,

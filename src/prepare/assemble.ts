@@ -1,4 +1,7 @@
-/** The steps of `prepare` once lines belong to layers: sorted, counted, switched off, handed over. */
+/**
+ * The steps of `prepare` after lines are assigned to layers: sort, count, filter by visibility, build the
+ * StrokeSet.
+ */
 import type { Drawing } from "../drawing/drawing.js";
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
@@ -7,7 +10,7 @@ import type { PrepareSettings } from "../settings/prepare.js";
 import { setFor } from "./set-for.js";
 import { inkPortions } from "./spread.js";
 
-/** A layer of the file with what it holds on this paper, whether it is drawn or hidden. */
+/** A layer of the file, visible or hidden, with figures about its lines on this paper. */
 export interface PreparedLayer extends FileLayer {
   readonly visible: boolean;
   readonly strokeCount: number;
@@ -15,10 +18,11 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Lines sorted by layer, in the file's order within each; their tag is the layer from here on. */
+/** Sorts lines by layer, keeping the file's order within each; from here on their tag is the layer. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
   const layer = new Uint32Array(lines.tag.length);
-  // Written out, since what is spread is an object of another kind to V8: all that reads lines would be compiled anew.
+  // No object spread here: to V8 the result would have a different hidden class, and all code that reads
+  // lines would be recompiled.
   const tagged = { xy: lines.xy, offsets: lines.offsets, tag: layer };
   if (table.layers.length === 1) return tagged;
   for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
@@ -36,7 +40,7 @@ const isSorted = (values: Uint32Array): boolean => {
   return true;
 };
 
-/** Without strokes shorter than that, dots among them; 0 keeps all. */
+/** Removes strokes shorter than this, including dots; 0 keeps all. */
 export function dropShort(lines: Lines, shorterThan: number): Lines {
   if (!(shorterThan > 0)) return lines;
   const kept: number[] = [];
@@ -72,12 +76,13 @@ export function visibleOnly(lines: Lines, isVisible: readonly boolean[]): Lines 
 export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): string {
   if (drawing.paths.count === 0) return "The file has no lines to draw.";
   if (!isVisible.some(Boolean)) return "All layers are hidden: nothing will be drawn.";
-  return "Nothing is left to draw on this paper: look at the margins, the hidden layers and the shortest stroke.";
+  return "Nothing is left to draw on this paper: check the margins, the hidden layers and the shortest stroke.";
 }
 
 /**
- * The strokes with the visible layers only, numbered anew. With `reinkMm` a layer becomes several,
- * "red", "red (2)" …, so that the stop between layers is the stop to take up ink. `shifts` by layer id.
+ * The strokes of the visible layers, with the layers renumbered. With `reinkMm` a layer is split into
+ * several, "red", "red (2)" …, so that the stop between layers serves for taking up ink. `shifts` by layer
+ * id.
  */
 export function strokeSetOf(
   lines: Lines,
@@ -127,8 +132,8 @@ function unshifted(
 
 const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, name, color });
 
-/** A 16-bit index is all that a stroke has for its layer. */
-const MOST_PORTIONS = 65_536;
+/** A stroke stores its layer as a 16-bit index. */
+const MAX_PORTIONS = 65_536;
 
 function inkedStrokeSet(
   given: Lines,
@@ -142,10 +147,10 @@ function inkedStrokeSet(
   let i = 0;
   for (let k = 0; k < layers.length; k++) {
     if (!isVisible[k]) continue;
-    // A layer without strokes stays, as without portions.
+    // A layer without strokes is kept, as it is without portions.
     out.push(plainLayer(layers[k]));
     for (let part = 0; i < layer.length && lines.tag[i] === k; i++) {
-      if (portion[i] > part && out.length < MOST_PORTIONS) {
+      if (portion[i] > part && out.length < MAX_PORTIONS) {
         part = portion[i];
         const { id, name, color } = layers[k];
         out.push({ id: `${id}~${part + 1}`, name: `${name} (${part + 1})`, color, partOf: id });

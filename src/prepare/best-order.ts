@@ -1,12 +1,14 @@
 /**
- * Order "best": the order "fast", made better for as long as there is time.
+ * Order "best": starts from the order "fast" and improves it as long as there is time.
  *
- * Layer by layer, each from where the layer before ends to where the next one begins, so that every gain in
- * a layer is a gain in the whole. Closed lines take part as points, the place where they are begun; from
- * time to time each is begun anew at the corner that suits its neighbours best, and the search goes on.
+ * It works layer by layer, each from the end of the previous layer to the start of the next, so that every
+ * gain within a layer is a gain overall. A closed line counts as a point, its start point. From time to time
+ * the start point of each closed line moves to the corner closest to its neighbours, and the search
+ * continues.
  *
- * With a clock the search ends after `orderS`; without one after about as much work, and then the result is
- * the same in every run: page, server and a job taken up again after a crash see the same strokes.
+ * With a clock the search ends after `orderS`; without one after about the same amount of work. Without a
+ * clock the result is the same in every run, so page, server and a job resumed after a crash see the same
+ * strokes.
  */
 import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
@@ -15,14 +17,17 @@ import { TourSearch } from "./tour-search.js";
 import { entryPoint, exitPoint, tagRanges, type Tour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** Kicks that stand for a second without a clock: about what a desk machine does in one. */
+/** Kicks that count as one second when there is no clock: about the speed of a desktop computer. */
 const KICKS_PER_S = 70_000;
-/** Kicks per stroke: a small drawing is as good as it gets long before the time is up. */
-const MOST_KICKS = 1_000;
-const ENDS_BETWEEN_LOOKS = 4_096;
-/** Longer tours are searched in blocks only: turning stretches of them would take all the time. */
-const MOST_AT_ONCE = 50_000;
-/** Of the time, for the whole ring at once. */
+/** Max kicks per stroke: a small drawing reaches its best order long before the time is up. */
+const MAX_KICKS = 1_000;
+const ENDS_PER_CHECK = 4_096;
+/**
+ * Tours with more strokes than this are searched in blocks only: reversing stretches of them would take all
+ * the time.
+ */
+const MAX_WHOLE_TOUR = 50_000;
+/** Share of the time for searching the whole ring at once. */
 const FIRST_SHARE = 0.3;
 
 /** Improves `tour` in place. `seconds` counts by `work.nowS`. */
@@ -58,7 +63,7 @@ const spotAt = (lines: Lines, p: number): Spot => ({ x: lines.xy[2 * p], y: line
 const entryOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, entryPoint(lines, tour, i));
 const exitOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, exitPoint(lines, tour, i));
 
-/** How much searching one layer may have, and what the caller hears of it. */
+/** The search budget of one layer, and the progress reports. */
 class Budget {
   constructor(
     private readonly work: Work,
@@ -70,11 +75,11 @@ class Budget {
   ) {}
 
   get kicks(): number {
-    const most = this.strokes * MOST_KICKS;
-    return this.work.nowS ? most : Math.max(1, Math.min(most, this.seconds * KICKS_PER_S));
+    const max = this.strokes * MAX_KICKS;
+    return this.work.nowS ? max : Math.max(1, Math.min(max, this.seconds * KICKS_PER_S));
   }
 
-  /** Share of the budget used after so many kicks, 0 … 1; throws when cancelled. */
+  /** Share of the budget used after `kicks` kicks, 0 … 1; throws when cancelled. */
   used(kicks: number): number {
     stopIfCancelled(this.work);
     if (this.work.enough?.aborted) return 1;
@@ -99,7 +104,7 @@ function improveRange(
   if (count < 2) return;
   const ring = new Int32Array(2 * count + 2);
   const xy = new Float64Array(2 * ring.length);
-  // The stroke that stands for the rest of the plot: entered where this layer ends, left where it begins.
+  // A stroke that represents the rest of the plot: entered where this layer ends, left where it begins.
   ring.set([2 * count, 2 * count + 1]);
   xy.set([to.x, to.y, from.x, from.y], 4 * count);
   for (let k = 0; k < count; k++) {
@@ -109,27 +114,30 @@ function improveRange(
     ring[2 * k + 3] = 2 * (i - first) + 1 - backwards;
     setEnds(lines, tour, i, first, xy);
   }
-  search(ring, xy, budget, () => freeStart && beginAnew(lines, tour, ring, first, count, xy));
+  search(ring, xy, budget, () => freeStart && restartClosed(lines, tour, ring, first, count, xy));
   readRing(tour, ring, first);
 }
 
-/** The whole ring first, then block by block until the time is up. `beginClosed` may move closed lines in between. */
+/**
+ * Searches the whole ring first, then block by block until the time is up. `beginClosed` may change where
+ * closed lines begin.
+ */
 function search(ring: Int32Array, xy: Float64Array, budget: Budget, beginClosed: () => boolean): void {
   const random = randomFrom(3);
   let kicks = 0;
   do {
-    if (ring.length <= 2 * MOST_AT_ONCE) {
+    if (ring.length <= 2 * MAX_WHOLE_TOUR) {
       const whole = new TourSearch(xy, ring, random);
-      while (!whole.improve(ENDS_BETWEEN_LOOKS) && budget.used(kicks) < 1) continue;
+      while (!whole.improve(ENDS_PER_CHECK) && budget.used(kicks) < 1) continue;
       setHomeFirst(ring, whole.ring);
     }
   } while (beginClosed() && budget.used(kicks++) < FIRST_SHARE);
-  const goOn = (more: number): boolean => budget.used((kicks += more)) < 1;
-  while (goOn(0) && improveBlocks(ring, xy, random, goOn)) beginClosed();
+  const hasTime = (more: number): boolean => budget.used((kicks += more)) < 1;
+  while (hasTime(0) && improveBlocks(ring, xy, random, hasTime)) beginClosed();
   beginClosed();
 }
 
-/** Copies a ring so that home, its last stroke by number, stands at the front and is entered at its even end. */
+/** Copies a ring so that home, its last stroke by number, comes first and is entered at its even end. */
 function setHomeFirst(ring: Int32Array, found: Int32Array): void {
   const home = found.length - 2;
   const place = found.indexOf(home);
@@ -137,7 +145,7 @@ function setHomeFirst(ring: Int32Array, found: Int32Array): void {
   for (let k = 0, p = place; k < found.length; k++, p = (p + step) % found.length) ring[k] = found[p];
 }
 
-/** Coordinates of both ends of line `i`; of a closed line, where it is begun. */
+/** Sets the coordinates of both ends of line `i`; for a closed line both are its start point. */
 function setEnds(lines: Lines, tour: Tour, i: number, first: number, xy: Float64Array): void {
   const closed = isClosedLine(lines, i);
   const a = lines.offsets[i] + tour.start[i];
@@ -145,8 +153,11 @@ function setEnds(lines: Lines, tour: Tour, i: number, first: number, xy: Float64
   xy.set([lines.xy[2 * a], lines.xy[2 * a + 1], lines.xy[2 * b], lines.xy[2 * b + 1]], 4 * (i - first));
 }
 
-/** Begins each closed line at the corner nearest to its neighbours in the ring; true when any has moved. */
-function beginAnew(
+/**
+ * Starts each closed line at the corner closest to its neighbours in the ring; returns true if any start has
+ * moved.
+ */
+function restartClosed(
   lines: Lines,
   tour: Tour,
   ring: Int32Array,
@@ -175,17 +186,17 @@ function bestStart(lines: Lines, i: number, xy: Float64Array, before: number, af
   for (let p = first; p < lines.offsets[i + 1] - 1; p++) {
     const x = lines.xy[2 * p];
     const y = lines.xy[2 * p + 1];
-    const way =
+    const travel =
       distance(x, y, xy[2 * before], xy[2 * before + 1]) + distance(x, y, xy[2 * after], xy[2 * after + 1]);
-    if (way < shortest) {
-      shortest = way;
+    if (travel < shortest) {
+      shortest = travel;
       best = p - first;
     }
   }
   return best;
 }
 
-/** The ring, home at its front, as a tour. */
+/** Writes the ring, which begins with home, into the tour. */
 function readRing(tour: Tour, ring: Int32Array, first: number): void {
   for (let p = 2; p < ring.length; p += 2) {
     const i = first + (ring[p] >> 1);

@@ -1,5 +1,5 @@
 /**
- * How far shapes reach, exactly: a cubic's extremes are where its derivative is zero, not its controls.
+ * Exact bounding boxes: a cubic's extremes are where its derivative is zero, not at its control points.
  *
  *   B′(t)/3 = a t² + b t + c,  a = −p0 + 3p1 − 3p2 + p3,  b = 2 (p0 − 2p1 + p2),  c = p1 − p0
  */
@@ -7,8 +7,8 @@ import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
 
 /**
- * Box of verbs [verbFrom, verbTo) with coordinates from `at`, under `map`, into `out` from `outAt` on: x0, y0, x1, y1.
- * Moves that draw nothing do not count.
+ * Box of verbs [verbFrom, verbTo), whose coordinates start at `at`, transformed by `map`. Written to `out`
+ * from `outAt` on: x0, y0, x1, y1. Moves that draw nothing do not count.
  */
 export function boundsOfVerbs(
   verbs: Uint8Array,
@@ -41,12 +41,12 @@ export function boundsOfVerbs(
     const endY = b * coords[endAt] + d * coords[endAt + 1] + f;
     if (verb === VERB_CUBIC) {
       const [ux, uy, wx, wy] = [coords[at], coords[at + 1], coords[at + 2], coords[at + 3]];
-      const turnsX = turnsOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
-      x0 = Math.min(x0, turnsX.low);
-      x1 = Math.max(x1, turnsX.high);
-      const turnsY = turnsOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
-      y0 = Math.min(y0, turnsY.low);
-      y1 = Math.max(y1, turnsY.high);
+      const rangeX = extremesOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
+      x0 = Math.min(x0, rangeX.low);
+      x1 = Math.max(x1, rangeX.high);
+      const rangeY = extremesOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
+      y0 = Math.min(y0, rangeY.low);
+      y1 = Math.max(y1, rangeY.high);
     }
     x = endX;
     y = endY;
@@ -64,42 +64,42 @@ export function boundsOfVerbs(
   out[outAt + 3] = y1;
 }
 
-/** Beyond this the squares below might overflow; the controls then stand for the curve, as a bound. */
+/** Beyond this the squares below might overflow; the control points then serve as a bound. */
 const OVERFLOWING = 1e100;
 
-/** Written anew by each call of `turnsOf`. */
-const turns = { low: 0, high: 0 };
+/** Reused by each call of `extremesOf`. */
+const range = { low: 0, high: 0 };
 
-/** How far one coordinate of a curve goes where it turns; its ends, at least, where it does not. */
-function turnsOf(
+/** The range of one coordinate of a curve: its ends, and its extremes between them. */
+function extremesOf(
   p0: number,
   p1: number,
   p2: number,
   p3: number,
 ): { readonly low: number; readonly high: number } {
-  turns.low = Math.min(p0, p3);
-  turns.high = Math.max(p0, p3);
-  if (p1 >= turns.low && p1 <= turns.high && p2 >= turns.low && p2 <= turns.high) return turns;
+  range.low = Math.min(p0, p3);
+  range.high = Math.max(p0, p3);
+  if (p1 >= range.low && p1 <= range.high && p2 >= range.low && p2 <= range.high) return range;
   if (Math.abs(p1) > OVERFLOWING || Math.abs(p2) > OVERFLOWING) {
-    turns.low = Math.min(turns.low, p1, p2);
-    turns.high = Math.max(turns.high, p1, p2);
-    return turns;
+    range.low = Math.min(range.low, p1, p2);
+    range.high = Math.max(range.high, p1, p2);
+    return range;
   }
   const a = p3 - p0 + 3 * (p1 - p2);
   const b = 2 * (p0 - 2 * p1 + p2);
   const c = p1 - p0;
   const root = Math.sqrt(Math.max(b * b - 4 * a * c, 0));
-  // The form without cancellation: one root by q/a, the other by c/q.
+  // Avoids cancellation: one root is q/a, the other c/q.
   const q = -(b + (b >= 0 ? root : -root)) / 2;
-  addTurn(p0, p1, p2, p3, q / a);
-  addTurn(p0, p1, p2, p3, c / q);
-  return turns;
+  addExtreme(p0, p1, p2, p3, q / a);
+  addExtreme(p0, p1, p2, p3, c / q);
+  return range;
 }
 
-function addTurn(p0: number, p1: number, p2: number, p3: number, t: number): void {
+function addExtreme(p0: number, p1: number, p2: number, p3: number, t: number): void {
   if (!(t > 0 && t < 1)) return;
   const s = 1 - t;
   const value = s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
-  turns.low = Math.min(turns.low, value);
-  turns.high = Math.max(turns.high, value);
+  range.low = Math.min(range.low, value);
+  range.high = Math.max(range.high, value);
 }

@@ -1,13 +1,13 @@
-/** Does the drawing fit the machine? Asked before anything moves. */
+/** Checks that the drawing fits the machine, before anything moves. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { PlotwrightError } from "../errors.js";
 import { boxOfPoints } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
 
-/** mm; rounding and a carriage's own play, not a reason to refuse a plot. */
+/** mm; rounding and the play of the carriage are no reason to refuse a plot. */
 const SLACK = 0.01;
 
-/** Throws `out-of-bounds`, with the figures, when a stroke leaves the machine's travel. */
+/** Throws `out-of-bounds`, with the figures, if a stroke leaves the machine's travel. */
 export function checkBounds(
   strokes: StrokeSet,
   machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,

@@ -6,7 +6,10 @@ import { LineBuilder, lineCount } from "../geometry/polyline.js";
 import { cleanRings, combine, regionOf, ringOf, type Region } from "../geometry/region.js";
 import { flattenVerbs } from "./flatten.js";
 
-/** Answers the region that clips a shape, nested clips included, or null; each region is made once, when asked for. */
+/**
+ * Returns a function that gives the region that clips a shape, nested clips included, or null. Each region is
+ * computed on first use.
+ */
 export function clipRegions(
   drawing: Drawing,
   map: Affine,
@@ -35,7 +38,7 @@ function nestedRings(drawing: Drawing, clip: number, map: Affine, toleranceMm: n
   return rings;
 }
 
-/** The union of the region's shapes, each filled under its own rule. */
+/** The union of the clip's shapes, each filled by its own rule. */
 function ringsOfClip(clip: ClipRegion, map: Affine, toleranceMm: number): Paths64 {
   const builder = new LineBuilder();
   const range = {
@@ -57,6 +60,6 @@ function ringsOfClip(clip: ClipRegion, map: Affine, toleranceMm: number): Paths6
     else shape.rings.push(ringOf(lines, i));
   }
   const filled = [...shapes.values()].map(({ rings, rule }) => cleanRings(rings, rule));
-  // Clean rings wind the same way round, so shapes that overlap do not cancel.
+  // Clean rings wind in the same direction, so overlapping shapes do not cancel.
   return filled.length === 1 ? filled[0] : cleanRings(filled.flat(), FillRule.NonZero);
 }

@@ -1,4 +1,7 @@
-/** What clip paths leave of the lines. A fill without a line of its own has the clip's edge as part of its outline. */
+/**
+ * Cuts lines by clip paths. For a fill without a stroke of its own, the clip's edge becomes part of its
+ * outline.
+ */
 import type { Drawing } from "../drawing/drawing.js";
 import { LineBuilder, lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { SCALE, cutLine, type Region } from "../geometry/region.js";
@@ -6,10 +9,10 @@ import { ANYWHERE } from "./shapes.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
-/** mm that may go without the shape counting as cut: rounding. */
+/** mm that may be lost before the shape counts as cut: rounding. */
 const UNCUT = 0.001;
 
-/** `lines` are the shapes' outlines, tag = shape; `clipOf` is the region that clips a shape, null for none. */
+/** `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null. */
 export function clipLines(
   lines: Lines,
   drawing: Drawing,
@@ -36,7 +39,7 @@ function cutAll(lines: Lines, from: number, to: number, clip: Region, builder: L
   for (let i = from; i < to; i++) cutLine(lines, i, clip, false, builder);
 }
 
-/** The outline as it is where the clip leaves it whole, else that of what is left of the area. */
+/** Copies the outline if the clip leaves it whole; otherwise adds the outline of the clipped area. */
 function clipFill(
   lines: Lines,
   from: number,

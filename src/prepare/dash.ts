@@ -1,16 +1,16 @@
-/** Dashed lines as the dashes that they are. */
+/** Splits dashed lines into their dashes. */
 import type { DashPattern } from "../drawing/drawing.js";
 import type { Box } from "../geometry/box.js";
 import { insideRange } from "../geometry/clip.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
 import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
 
-/** A pattern finer than this per period, mm, is drawn solid: no pen resolves it. */
+/** A pattern with a shorter period than this, mm, is drawn solid: no pen resolves it. */
 const FINEST_PERIOD = 0.05;
 
 /**
- * Cuts every line whose tag has a pattern (lengths in mm on paper); dots and other lines pass unchanged.
- * Dashes outside `box` are passed over, as a long line has no end of them.
+ * Splits every line whose tag has a pattern (lengths in mm on paper); dots and other lines pass unchanged.
+ * Dashes outside `box` are skipped, since a very long line would have no end of them.
  */
 export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern | null, box: Box): Lines {
   const builder = new LineBuilder();
@@ -23,12 +23,12 @@ export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern 
   return builder.finish();
 }
 
-/** The pattern on the paper; `map` takes the file's page to it, without stretching it. */
+/** The pattern on the paper; `map` takes the file's page to the paper, without distortion. */
 export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern {
   const scale = meanScale(map);
   const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
   if (measure === undefined) return pattern;
-  // A way on the paper is turned back to the page, and measured there.
+  // A vector on the paper is turned back to the page, and measured there.
   const det = determinant(map);
   const back = { a: map.d / det, b: -map.b / det, c: -map.c / det, d: map.a / det, e: 0, f: 0 };
   return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), back) };
@@ -38,7 +38,7 @@ const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, 
 
 class Dasher {
   private index = 0;
-  /** What is left of the present length, mm. */
+  /** Remainder of the current dash or gap, mm. */
   private left = 0;
   private readonly period: number;
 
@@ -90,7 +90,7 @@ class Dasher {
     let along = 0;
     while (length - along > this.left) {
       along += this.left;
-      // A dash ends or begins here; one of no length ends where it began and leaves a dot.
+      // A dash ends or begins here. A dash of zero length ends where it began and leaves a dot.
       this.builder.point(x0 + ((x1 - x0) * along) / length, y0 + ((y1 - y0) * along) / length);
       if (this.isDrawing) this.builder.end(this.tag);
       this.index = (this.index + 1) % this.pattern.lengths.length;
@@ -100,7 +100,7 @@ class Dasher {
     if (this.isDrawing) this.builder.point(x1, y1);
   }
 
-  /** Goes on along the pattern without drawing. */
+  /** Advances along the pattern without drawing. */
   private pass(length: number): void {
     this.endDash();
     let into = this.pattern.lengths[this.index] - this.left + length;
@@ -118,7 +118,7 @@ class Dasher {
     let into = ((offset % this.period) + this.period) % this.period;
     for (this.index = 0; this.index < lengths.length - 1; this.index++) {
       const length = lengths[this.index];
-      // Right at the start of a dash of no length it is still to come.
+      // At the start of a dash of zero length, that dash is still to be drawn.
       if (into < length || (into === 0 && length === 0)) break;
       into -= length;
     }

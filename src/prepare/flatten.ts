@@ -1,4 +1,4 @@
-/** Shapes to polylines: curves become chords to a tolerance in mm, after the map onto the paper. */
+/** Shapes to polylines: curves become chords within a tolerance in mm, after mapping to the paper. */
 import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { flattenCubic } from "../geometry/cubic.js";
@@ -16,9 +16,9 @@ export interface VerbRange {
 }
 
 /**
- * One line for each subpath of the shapes where `wanted` is set; its tag is the shape.
- * A subpath of no length is a dot. A shape without stroke is drawn as the outline of its fill,
- * so its subpaths are closed, and dots of it are nothing.
+ * One line for each subpath of the shapes where `wanted` is set; its tag is the shape. A subpath of zero
+ * length is a dot. A shape without stroke is drawn as the outline of its fill: its subpaths are closed, and
+ * its dots are dropped.
  */
 export function flattenShapes(
   paths: DrawingPaths,
@@ -44,17 +44,17 @@ export function flattenShapes(
   return builder.finish();
 }
 
-/** Shapes taken at once. */
-const MOST_AT_ONCE = 1 << 16;
+/** Max shapes added in one call. */
+const MAX_AT_ONCE = 1 << 16;
 
-/** The first shape from `shape` on that is not wanted, or not a stroke of straight pieces only and not closed. */
+/** The first shape from `shape` on that is not wanted, or is not an open stroke of straight segments only. */
 function polylinesEnd(
   { count, verbs, verbOffsets, stroke }: DrawingPaths,
   wanted: Uint8Array,
   shape: number,
 ): number {
-  const most = Math.min(count, shape + MOST_AT_ONCE);
-  for (; shape < most && wanted[shape] === 1 && stroke[shape] >= 0; shape++) {
+  const max = Math.min(count, shape + MAX_AT_ONCE);
+  for (; shape < max && wanted[shape] === 1 && stroke[shape] >= 0; shape++) {
     const end = verbOffsets[shape + 1];
     let v = verbOffsets[shape] + 1;
     if (v >= end) break;
@@ -64,7 +64,7 @@ function polylinesEnd(
   return shape;
 }
 
-/** Adds a line for each subpath; `tagOf` is given the number of the subpath, counted by VERB_MOVE. */
+/** Adds a line for each subpath; `tagOf` gets the number of the subpath, counted by VERB_MOVE. */
 export function flattenVerbs(
   range: VerbRange,
   map: Affine,

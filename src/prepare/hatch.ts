@@ -1,15 +1,15 @@
 /**
- * Filling an area with parallel lines one pen width apart.
+ * Fills an area with parallel lines one pen width apart.
  *
- *    ┌─────────────┐    The area is first made smaller by half a pen, so that ink ends where the shape does.
- *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    Lines lie at whole multiples of the spacing from the paper's corner, whatever the
- *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    shape: neighbours with the same hatch run on into each other.
+ *    ┌─────────────┐    The area first shrinks by half a pen width, so that ink ends at the shape's edge.
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    Lines lie at whole multiples of the spacing from the paper's corner, for every
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    shape, so that the hatches of neighbouring shapes line up.
  *    └─────────────┘
  *
- * Method: turn the rings so that hatch lines are level, cut every edge by the levels that it crosses, sort
- * the crossings of each level and draw between the first and second, third and fourth … The rings are
- * clean (they do not cross each other), so inside and outside alternate. Every other line runs backwards,
- * and where two neighbouring lines end close to each other they are drawn without lifting the pen.
+ * Method: rotate the rings so that hatch lines are horizontal, intersect every edge with the levels that it
+ * crosses, sort the crossings of each level, and draw between the first and second, third and fourth … The
+ * rings are clean (they do not cross each other), so inside and outside alternate. Every other line runs
+ * backwards, and where two neighbouring lines end close to each other they are drawn without lifting the pen.
  *
  * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
  */
@@ -18,13 +18,16 @@ import { LineBuilder } from "../geometry/polyline.js";
 import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
 import type { HatchSettings } from "../settings/prepare.js";
 
-/** mm; a finer pen does not exist, and a smaller number would only fill the memory. */
+/** mm; no pen is finer, and a smaller spacing would only fill the memory. */
 const FINEST_SPACING = 0.05;
-/** Neighbouring lines are linked when their ends are nearer than so many spacings. */
+/** Neighbouring lines are linked if their ends are closer than this many spacings. */
 const LONGEST_LINK = 2;
-/** mm: links along a straight border are looked at so much further in, as on it inside and outside are a matter of rounding. */
+/**
+ * mm: links are checked this much further inside, because along a straight border rounding decides between
+ * inside and outside.
+ */
 const HAIR = 1e-3;
-/** A sharp corner of the inset is cut off this many widths away. */
+/** A sharp corner of the inset is cut off at this many widths. */
 const MITER_LIMIT = 2;
 
 /** Adds the hatch of `area` to `builder` under `tag`. */
@@ -34,13 +37,13 @@ export function hatchArea(area: Region, hatch: HatchSettings, tag: number, build
   const inner = inset(area.rings, spacing / 2);
   if (inner.rings.length === 0) return;
   const angle = (hatch.angleDeg * Math.PI) / 180;
-  hatchOneWay(inner, spacing, angle, tag, builder);
-  if (hatch.cross) hatchOneWay(inner, spacing, angle + Math.PI / 2, tag, builder);
+  hatchDirection(inner, spacing, angle, tag, builder);
+  if (hatch.cross) hatchDirection(inner, spacing, angle + Math.PI / 2, tag, builder);
 }
 
-/** The area without a border of that width, mm. */
+/** The area without a border of this width, mm. */
 function inset(rings: Paths64, width: number): Region {
-  // Clipper.inflatePaths does the same, but brings all of the library into the page's worker.
+  // Clipper.inflatePaths does the same, but adds the whole library to the page's worker bundle.
   const offset = new ClipperOffset(MITER_LIMIT);
   offset.addPaths(rings, JoinType.Miter, EndType.Polygon);
   const inner: Paths64 = [];
@@ -48,7 +51,13 @@ function inset(rings: Paths64, width: number): Region {
   return regionOf(inner);
 }
 
-function hatchOneWay(area: Region, spacing: number, angle: number, tag: number, builder: LineBuilder): void {
+function hatchDirection(
+  area: Region,
+  spacing: number,
+  angle: number,
+  tag: number,
+  builder: LineBuilder,
+): void {
   const cos = Math.cos(angle);
   const sin = Math.sin(angle);
   const levels = crossings(area.rings, spacing, cos, sin);
@@ -60,7 +69,10 @@ function hatchOneWay(area: Region, spacing: number, angle: number, tag: number, 
   writer.finish();
 }
 
-/** For each level the u where ring edges cross it. A vertex on a level counts for the edge below it only. */
+/**
+ * For each level, the u values where ring edges cross it. A vertex on a level counts only for the edge below
+ * it.
+ */
 function crossings(rings: Paths64, spacing: number, cos: number, sin: number): Map<number, number[]> {
   const levels = new Map<number, number[]>();
   for (const ring of rings) {
@@ -87,7 +99,7 @@ interface Chain {
   level: number;
 }
 
-/** Links lines of neighbouring levels into zigzags as long as the way between lies inside. */
+/** Links lines of neighbouring levels into zigzags, as long as the link lies inside the area. */
 class HatchWriter {
   private open: Chain[] = [];
 
@@ -117,7 +129,7 @@ class HatchWriter {
     this.open = [];
   }
 
-  /** The chain of the level before that can go on along this line, or a new one. */
+  /** The chain of the previous level that can continue along this line, or a new one. */
   private chainFor(before: readonly Chain[], n: number, u0: number, u1: number, v: number): Chain {
     let best: Chain | null = null;
     let bestGap = LONGEST_LINK * this.spacing;
@@ -142,7 +154,7 @@ class HatchWriter {
     return best;
   }
 
-  /** Whether a short link stays in the area: looked at in its middle and quarters. */
+  /** Whether a short link stays in the area, checked at its middle and quarters. */
   private isInside(u0: number, v0: number, u1: number, v1: number): boolean {
     return [0.25, 0.5, 0.75].every((t) => {
       const u = u0 + t * (u1 - u0);

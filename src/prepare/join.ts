@@ -1,27 +1,27 @@
 /**
- * Joining lines whose ends meet, within a layer, so that the pen stays down.
+ * Joins lines whose ends meet, within a layer, so that the pen stays down.
  *
- * Every end is paired with at most one other end nearby; chains of paired lines become one line.
- * Round one pairs ends at the same place, the straightest continuation first: where lines cross in a
- * mesh, the pen then runs on through instead of turning. Round two pairs what is left, nearest first.
+ * Every end is paired with at most one other end nearby; chains of paired lines become one line. Round one
+ * pairs ends at the same point, the straightest continuation first: where lines cross in a mesh, the pen then
+ * runs straight through instead of turning. Round two pairs the remaining ends, nearest first.
  *
- * Symbols: end 2i is the first point of line i, end 2i + 1 its last.
- * `far[e]` is the other end of the chain that ends in e (kept for chain ends only), so that a chain
- * is never joined to itself unless that closes a real loop.
+ * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain
+ * that ends in e (valid for chain ends only), so that a chain is never joined to itself unless this closes a
+ * real loop.
  *
- * Nothing is moved: joining adds the gap, at most `radius`, as a straight piece.
- * Dots and closed lines stay as they are.
+ * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are
+ * unchanged.
  */
 import { LineBuilder, SAME_POINT, distance, lineLength, type Lines } from "../geometry/polyline.js";
 import { tagRanges } from "./tour.js";
 
-/** More candidates than this at one place are not compared: it keeps a star of 100 000 rays linear. */
+/** Max candidates compared at one point: keeps a star of 100 000 rays linear. */
 const MOST_CANDIDATES = 24;
-/** A chain shorter than this many radii is not closed on itself: its ends are near because it is short. */
+/** A chain shorter than this many radii is not closed: its ends are close only because it is short. */
 const SHORTEST_LOOP = 4;
 const UNPAIRED = -1;
 
-/** Lines of one tag must stand together. `radius` in mm; 0 joins only what meets to the bit (or nearly). */
+/** Lines of one tag must be contiguous. `radius` in mm; 0 joins only ends that coincide (or nearly). */
 export function joinLines(lines: Lines, radius: number): Lines {
   const builder = new LineBuilder();
   for (const [first, end] of tagRanges(lines)) {
@@ -44,7 +44,10 @@ function joinRange(lines: Lines, first: number, end: number, radius: number, bui
   writeChains(lines, first, end, near, pairing.partner, builder);
 }
 
-/** Each chain where the first of its lines stands; `near` are the ends that may be paired, in their order. */
+/**
+ * Writes each chain at the position of the first of its lines; `near` are the ends that may be paired, in
+ * order.
+ */
 function writeChains(
   lines: Lines,
   first: number,
@@ -65,7 +68,9 @@ function writeChains(
   builder.copyRange(lines, first + from, end);
 }
 
-/** The ends of the lines that are neither dots nor closed. Writes where each end is, x, y, x, y …, into `places`. */
+/**
+ * The ends of the lines that are neither dots nor closed. Writes their positions, x, y, x, y …, to `places`.
+ */
 function joinableEnds({ xy, offsets }: Lines, first: number, end: number, places: Float64Array): Uint32Array {
   const ends = new Uint32Array(2 * (end - first));
   let count = 0;
@@ -85,8 +90,8 @@ function joinableEnds({ xy, offsets }: Lines, first: number, end: number, places
 }
 
 /**
- * Those of `ends` that have another within the radius (or a hair more): in most drawings a few. Cells as in `EndGrid`,
- * but so wide that an end's surroundings mostly lie in two or less of them.
+ * The `ends` that have another one within the radius (plus a margin for rounding): a few in most drawings.
+ * Uses cells as in `EndGrid`, but so wide that the surroundings of an end usually lie in at most two of them.
  */
 function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint32Array {
   const heads = new Int32Array(2 ** Math.ceil(Math.log2(2 * ends.length + 1))).fill(-1);
@@ -99,7 +104,7 @@ function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint3
   for (let k = 0; k < ends.length; k++) {
     const x = xy[2 * ends[k]];
     const y = xy[2 * ends[k] + 1];
-    // A little more than the radius, for rounding.
+    // Slightly more than the radius, for rounding.
     const reach = 1.01 * radius + 1e-15 * (Math.abs(x) + Math.abs(y));
     const side = reach * perMm;
     const column = Math.floor(x * perMm);
@@ -124,7 +129,10 @@ function crowdedEnds(xy: Float64Array, ends: Uint32Array, radius: number): Uint3
   return crowded.subarray(0, count);
 }
 
-/** Chains the ends of each cell, by place in `ends`: the first one at `heads[hash]`, the next after k at `next[k]`. */
+/**
+ * Links the ends of each cell, by index in `ends`: the first one at `heads[hash]`, the one after k at
+ * `next[k]`.
+ */
 function linkByCell(
   xy: Float64Array,
   ends: Uint32Array,
@@ -150,15 +158,15 @@ class Pairing {
   readonly partner: Int32Array;
   private readonly far: Int32Array;
   private readonly length: Float64Array;
-  /** The unit vector in which the line of each end leaves it. */
+  /** Unit vector from each end, out of its line. */
   private readonly out: Float64Array;
   private readonly grid: EndGrid;
 
-  /** `near` are the ends that may be paired, of `joinable` in all; nothing is known of the others. */
+  /** @param near the ends that may be paired, of `joinable` in all; the others are ignored */
   constructor(
     lines: Lines,
     first: number,
-    /** Place of each end. */
+    /** Position of each end. */
     private readonly xy: Float64Array,
     private readonly near: Uint32Array,
     joinable: number,
@@ -216,7 +224,7 @@ class Pairing {
           before = other;
           const gap = distance(x, y, this.xy[2 * other], this.xy[2 * other + 1]);
           if (gap > reach || other === e || !this.mayPair(e, other)) continue;
-          // Straight on means that the two lines leave the place in opposite directions.
+          // Straight on means that the two lines leave the point in opposite directions.
           const cost = straightest
             ? this.out[2 * e] * this.out[2 * other] + this.out[2 * e + 1] * this.out[2 * other + 1]
             : gap;
@@ -248,18 +256,18 @@ class Pairing {
 }
 
 /**
- * Ends by cells as wide as the join radius, the cells in a hash table: what is within the radius of a place
- * is in at most four cells. Two cells may share a chain; distances sort that out.
+ * Ends in cells as wide as the join radius, with the cells in a hash table: everything within the radius of a
+ * point is in at most four cells. Two cells may share a list; the distance check handles that.
  */
 class EndGrid {
-  /** The next end in the same chain, −1 at its end. */
+  /** The next end in the same list, −1 at its end. */
   readonly next: Int32Array;
   private readonly heads: Int32Array;
 
   constructor(
     xy: Float64Array,
     ends: Uint32Array,
-    /** How many ends the table is made for. */
+    /** Number of ends that the table is sized for. */
     size: number,
     private readonly cell: number,
   ) {
@@ -280,7 +288,7 @@ class EndGrid {
     return this.heads[this.bucketOf(column, row)];
   }
 
-  /** Takes `end` out of its chain, `before` standing before it (−1: nothing does). It still leads to the next. */
+  /** Removes `end` from its list, where `before` precedes it (−1: none). Its own link stays. */
   unlink(column: number, row: number, before: number, end: number): void {
     if (before < 0) this.heads[this.bucketOf(column, row)] = this.next[end];
     else this.next[before] = this.next[end];
@@ -291,7 +299,7 @@ class EndGrid {
   }
 }
 
-/** Writes the chain that line `i` is in, in line i's own direction, beginning at its loose end if it has one. */
+/** Writes the chain that contains line `i`, in line i's direction, starting at its free end if it has one. */
 function writeChain(
   lines: Lines,
   first: number,

@@ -1,16 +1,16 @@
 /**
- * Layer names that carry orders for the plot, as AxiDraw users write them.
+ * Layer names with codes that control the plot, as AxiDraw users write them.
  * (https://wiki.evilmadscientist.com/AxiDraw_Layer_Control)
  *
  *   name   = "%" text                       the layer is not plotted
  *          | ["!"] [number] { code } text   "!" waits for the operator before the layer
  *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; of several valid ones
- *          | "+s" 1…110   pen-down speed, percent      the last holds; one out of range is passed over
+ *          | "+s" 1…110   pen-down speed, percent      the last one applies; codes out of range are ignored
  *          | "+d" 1…      wait before the layer, ms
- *   number = digits: which layers "plot layer N" takes
- *   text   = whatever is left, as people read it
+ *   number = digits: the N of "plot layer N"
+ *   text   = the rest, the readable name
  *
- * Codes follow one another without a space; the first thing that is not a code begins the text.
+ * Codes follow each other without a space; the text starts at the first thing that is not a code.
  */
 export interface LayerCodes {
   readonly skip: boolean;
@@ -42,7 +42,9 @@ export function parseLayerName(name: string): LayerCodes {
   return { skip: false, pause, number, penDownPct, drawSpeedPct, delayMs, text: rest };
 }
 
-/** The name that `parseLayerName` reads back; a space goes before text that would be taken for a code. */
+/**
+ * The name that `parseLayerName` reads back; a space separates text that would otherwise be read as a code.
+ */
 export function formatLayerName(codes: LayerCodes): string {
   if (codes.skip) return `%${codes.text}`;
   const head = [
@@ -58,7 +60,7 @@ export function formatLayerName(codes: LayerCodes): string {
     : `${head} ${codes.text}`;
 }
 
-/** The name as people read it: without the codes, its number kept. */
+/** The readable name: without the codes, with its number. */
 export function shownLayerName(name: string): string {
   const { number, text } = parseLayerName(name);
   return `${number ?? ""}${text}`.trim() || name;
@@ -74,5 +76,5 @@ export const NO_CODES: LayerCodes = {
   text: "",
 };
 
-/** A code counts only when something follows its letter, as in the software that it comes from. */
+/** A code counts only if something follows its letter, as in the AxiDraw software. */
 const CODE = /^\+([hsd])(?=.)(\d*)/is;

@@ -1,10 +1,10 @@
-/** A layer drawn more than once: for more ink, with no more travel than it takes. */
+/** Layers drawn more than once, for more ink, with as little travel as possible. */
 import { LineBuilder, distance, type Lines } from "../geometry/polyline.js";
 import { tagRanges } from "./tour.js";
 
 /**
- * Each tag's lines as often as `passesOf` tells. Every second pass goes back the way the pen came, last line
- * first and each backwards, where that saves travel: it begins where the pass before ends.
+ * Repeats each tag's lines `passesOf` times. Every second pass runs backwards, last line first and each line
+ * reversed, if that saves travel: it begins where the previous pass ends.
  */
 export function repeatLines(lines: Lines, passesOf: (tag: number) => number): Lines {
   const ranges = tagRanges(lines);
@@ -18,16 +18,19 @@ export function repeatLines(lines: Lines, passesOf: (tag: number) => number): Li
   return builder.finish();
 }
 
-/** Whether back and forth is less travel than beginning anew each time, the way to the next tag counted. */
+/**
+ * Whether going back and forth takes less travel than starting over each time, including the travel to the
+ * next tag.
+ */
 function goesBack(lines: Lines, first: number, end: number, passes: number, next: number | null): boolean {
   const { xy, offsets } = lines;
   const start = offsets[first];
   const stop = offsets[end] - 1;
   const to = next === null ? null : offsets[next];
-  const way = (a: number, b: number | null): number =>
+  const travel = (a: number, b: number | null): number =>
     distance(xy[2 * a], xy[2 * a + 1], b === null ? 0 : xy[2 * b], b === null ? 0 : xy[2 * b + 1]);
-  const anew = (passes - 1) * way(stop, start) + way(stop, to);
-  return way(passes % 2 === 0 ? start : stop, to) <= anew;
+  const forwards = (passes - 1) * travel(stop, start) + travel(stop, to);
+  return travel(passes % 2 === 0 ? start : stop, to) <= forwards;
 }
 
 function copyPass(lines: Lines, first: number, end: number, back: boolean, builder: LineBuilder): void {

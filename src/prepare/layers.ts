@@ -1,21 +1,21 @@
-/** Which layer each shape belongs to: by group of the file, by stroke colour, or all in one. */
+/** Assigns each shape to a layer: by group of the file, by stroke colour, or all in one. */
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_MOVE, type Drawing, type DrawingPaths } from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
 import { distance } from "../geometry/polyline.js";
 import { parseLayerName } from "./layer-codes.js";
 import type { LayerMode, PrepareSettings } from "../settings/prepare.js";
 
-/** StrokeSet keeps a layer index in 16 bits; what is beyond shares the last layer. */
-const MOST_LAYERS = 65_535;
+/** StrokeSet stores a layer index in 16 bits; further layers share the last index. */
+const MAX_LAYERS = 65_535;
 
-/** A layer as the file has it. */
+/** A layer as it is in the file. */
 export interface FileLayer extends StrokeLayer {
-  /** How many colours its lines have; its `color` is the one that most of their length is drawn in. */
+  /** How many colours its lines have; `color` is the one with the greatest length of line. */
   readonly colorCount: number;
 }
 
 export interface LayerTable {
-  /** Only layers that hold a shape, in the file's order. */
+  /** Only layers that contain a shape, in the file's order. */
   readonly layers: readonly FileLayer[];
   /** Index into `layers` for every shape. */
   readonly ofShape: Uint16Array;
@@ -32,7 +32,7 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   let runMm = 0;
   for (let shape = 0; shape < paths.count; shape++) {
     runMm += Math.max(lengthOf(paths, shape), DOT_MM);
-    // Most are as the next one: what a run of them has is added up once.
+    // Most shapes have the same layer and ink as the next one: a run of them is added once.
     const next = shape + 1;
     const isAlike =
       next < paths.count &&
@@ -51,7 +51,7 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   for (let key = 0; key < keyCount; key++) {
     const inks = inksOfKey[key];
     if (!inks) continue;
-    if (layers.length < MOST_LAYERS) layers.push(layerOf(drawing, mode, key, inks));
+    if (layers.length < MAX_LAYERS) layers.push(layerOf(drawing, mode, key, inks));
     indexOfKey[key] = layers.length - 1;
   }
   const ofShape = new Uint16Array(paths.count);
@@ -60,7 +60,10 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   return { layers, ofShape };
 }
 
-/** Which layers are drawn: those that nobody switched off, and whose name does not say "%". */
+/**
+ * Which layers are drawn: those that are not hidden in the settings and whose name does not begin with "%"
+ * (unless shown explicitly).
+ */
 export function visibleLayers(
   { layers }: LayerTable,
   { hiddenLayers, shownLayers }: Pick<PrepareSettings, "hiddenLayers" | "shownLayers">,
@@ -70,12 +73,12 @@ export function visibleLayers(
   return layers.map(({ id, name }) => !hidden.has(id) && (shown.has(id) || !parseLayerName(name).skip));
 }
 
-/** The layers in the order in which they are drawn: those in `wanted` first, the rest as in the file. */
+/** The layers in drawing order: those in `wanted` first, the rest in the file's order. */
 export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTable {
   if (wanted.length === 0) return table;
   const rankOf = new Map([...new Set(wanted)].map((id, rank) => [id, rank]));
   const rank = ({ id }: StrokeLayer): number => rankOf.get(id) ?? wanted.length;
-  // Array.sort is stable: what is not wanted keeps the file's order.
+  // Array.sort is stable, so layers that are not in `wanted` keep the file's order.
   const order = table.layers.map((_, k) => k).sort((a, b) => rank(table.layers[a]) - rank(table.layers[b]));
   const placeOf = new Uint16Array(order.length);
   order.forEach((layer, place) => (placeOf[layer] = place));
@@ -85,10 +88,10 @@ export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTabl
   };
 }
 
-/** What a dot counts for beside lines, in the question which colour a layer is mostly drawn in. */
+/** Length assigned to a dot when choosing a layer's main colour, mm. */
 const DOT_MM = 0.1;
 
-/** The length of a shape's lines on the file's page; a curve's is that of its control points' polygon. */
+/** The length of a shape's lines on the file's page; for a curve, that of its control polygon. */
 function lengthOf({ verbs, coords, verbOffsets, coordOffsets }: DrawingPaths, shape: number): number {
   let lengthMm = 0;
   let start = coordOffsets[shape];
@@ -105,11 +108,11 @@ function lengthOf({ verbs, coords, verbOffsets, coordOffsets }: DrawingPaths, sh
 const between = (coords: Float64Array, from: number, to: number): number =>
   distance(coords[from], coords[from + 1], coords[to], coords[to + 1]);
 
-/** The colour that a shape is drawn in: its stroke, else its fill (its outline is drawn then). */
+/** The colour that a shape is drawn in: its stroke, or else its fill (then its outline is drawn). */
 const inkOf = ({ stroke, fill }: DrawingPaths, shape: number): number =>
   stroke[shape] >= 0 ? stroke[shape] : fill[shape];
 
-/** `inks`: the length drawn in each colour. */
+/** @param inks the length drawn in each colour */
 function layerOf(
   drawing: Drawing,
   mode: LayerMode,

@@ -1,13 +1,13 @@
 /**
- * Order "fast": always on to the nearest end that is left. Either end of an open line will do, and any
- * point of a closed one. 20 000 strokes take some hundredths of a second (point-strips.ts).
+ * Order "fast": always goes to the nearest remaining end. A line can be entered at either end, a closed one
+ * at any point. 20 000 strokes take some hundredths of a second (point-strips.ts).
  */
 import { PointStrips } from "../geometry/point-strips.js";
 import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
 import type { Tour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** Where the pen is, and how far it has travelled, mm. */
+/** The pen's position, and its travel so far, mm. */
 export interface PenPlace {
   readonly x: number;
   readonly y: number;
@@ -15,9 +15,9 @@ export interface PenPlace {
 }
 
 /**
- * Orders lines [first, end), writing into `tour` (same range of `order`), beginning at a place (mm).
- * Closed lines are begun at any point, or without `freeStart` at their own. Answers where the pen ends, after how much
- * travel.
+ * Orders lines [first, end), writing the same range of `tour.order`, from a start position (mm). A closed
+ * line may start at any point, or without `freeStart` only at its own. Returns the final position of the pen
+ * and its travel.
  */
 export function nearestOrder(
   lines: Lines,
@@ -41,7 +41,7 @@ export function nearestOrder(
     const high = entries.firstOf[line - first + 1];
     points.removeAll(low, high);
     tour.order[k] = line;
-    // Without branches: a rare one is not known to V8 when it compiles this, so it would have to do that twice.
+    // Branch-free: V8 compiles this before it has seen a rare branch, and would have to compile it again.
     const closed = entries.isClosed[line - first];
     tour.start[line] = closed * (entry - low);
     tour.reversed[line] = (1 - closed) * Number(entry > low);
@@ -59,11 +59,11 @@ interface Entries {
   readonly line: Uint32Array;
   /** Line `first + i` has entries [firstOf[i], firstOf[i + 1]). */
   readonly firstOf: Uint32Array;
-  /** 1 for each line that is closed. */
+  /** 1 for a closed line. */
   readonly isClosed: Uint8Array;
 }
 
-/** Every point at which a line can be begun: both ends, one for a dot, all corners of a closed line. */
+/** All points where a line can start: both ends, one for a dot, all points of a closed line. */
 function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean): Entries {
   const { xy, offsets } = lines;
   const most = offsets[end] - offsets[first];

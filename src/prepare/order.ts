@@ -1,7 +1,7 @@
 /**
- * The order of drawing, layer by layer: less pen-up travel, the same lines.
+ * Drawing order, layer by layer: less pen-up travel, the same lines.
  *
- * Whatever is asked for, the result is never longer than the order of the file: the shorter is kept.
+ * In every mode the result is never longer than the file's order: the shorter of the two is used.
  */
 import { distance, type Lines } from "../geometry/polyline.js";
 import { improveTour } from "./best-order.js";
@@ -11,9 +11,9 @@ import { fileTour, tagRanges, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 
 /**
- * Lines of one tag (layer) must stand together; they still do afterwards, tags in the same order.
+ * Lines of one tag (layer) must be contiguous; they still are afterwards, with the tags in the same order.
  *
- * @param asDrawnMm the travel of the lines as they stand
+ * @param asDrawnMm the travel of the lines in their current order
  */
 export function orderLines(lines: Lines, asDrawnMm: number, settings: OrderSettings, work: Work): Tour {
   if (settings.order === "none") return fileTour(lines);
@@ -28,7 +28,7 @@ export function orderLines(lines: Lines, asDrawnMm: number, settings: OrderSetti
 
 type OrderSettings = Pick<PrepareSettings, "order" | "orderS" | "reloop">;
 
-/** Answers the travel, home and back. */
+/** Returns the travel, from home and back. */
 function nearestTour(lines: Lines, tour: Tour, freeStart: boolean, work: Work): number {
   let place: PenPlace = { x: 0, y: 0, travelMm: 0 };
   for (const [first, end] of tagRanges(lines)) {

@@ -1,8 +1,8 @@
 /**
- * The pens of a drawing: which layer is drawn with which, where the plot stops to change them, and by how
- * much a pen that sits askew in the holder has to be moved.
+ * The pens of a drawing: which pen draws which layer, where the plot stops to change pens, and the correction
+ * for a pen that sits off-centre in the holder.
  *
- * Plotting layers a (red) b (red) c (black) stops once, before c's first stroke:
+ * With layers a (red), b (red) and c (black) the plot stops once, before c's first stroke:
  *
  *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    5
  *   layers    a     | b   | c            "layers"  3, 5
@@ -18,48 +18,48 @@ export type PenStopMode = (typeof PEN_STOP_MODES)[number];
 export interface PlotPen {
   readonly id: string;
   readonly name: string;
-  /** "#rrggbb", or null where it has none of its own: the layer's then. */
+  /** "#rrggbb", or null to use the layer's colour. */
   readonly color: string | null;
-  /** Of its line. */
+  /** Line width. */
   readonly widthMm: number;
-  /** How far from where it should its line lands on paper: to the right, and away from home. */
+  /** Offset of its line on paper from the intended position: to the right, and away from home. */
   readonly offsetXMm: number;
   readonly offsetYMm: number;
 }
 
 export interface PenSetup {
   readonly pens: readonly PlotPen[];
-  /** Pen id by layer id. A layer without one is drawn with whatever pen is in the holder. */
+  /** Pen id by layer id. A layer without one is drawn with the pen that is in the holder. */
   readonly layerPens: Readonly<Record<string, string>>;
-  /** "pens": where another pen is needed than the one in the holder, and where a layer's name begins with "!". */
+  /** "pens": stop where a different pen is needed, and before a layer whose name begins with "!". */
   readonly penStops: PenStopMode;
-  /** By layer id: a stop before it, or none, whatever its pen and name say. Does not count under "never". */
+  /** By layer id: whether to stop before it, overriding its pen and name. Ignored under "never". */
   readonly layerStops: Readonly<Record<string, boolean>>;
 }
 
 export const NO_PENS: PenSetup = { pens: [], layerPens: {}, penStops: "pens", layerStops: {} };
 
-/** The plot waits, with the pen up, before it draws that stroke. */
+/** The plot waits, with the pen up, before it draws this stroke. */
 export interface PenStop {
   readonly strokeIndex: number;
   readonly layerId: string;
   /** Without its codes. */
   readonly layerName: string;
-  /** The pen to put in; null where the layer has none of its own. */
+  /** The pen to insert; null if the layer has none assigned. */
   readonly penName: string | null;
-  /** The pen's colour, else the layer's. */
+  /** The pen's colour, or else the layer's. */
   readonly color: string | null;
 }
 
-/** The pen that draws a layer, or null for whichever is in the holder. */
+/** The pen that draws a layer; null for the one in the holder. */
 export function penOf({ pens, layerPens }: PenSetup, layer: StrokeLayer): PlotPen | null {
   const id = setFor(layerPens, settingsIdOf(layer));
   return id === undefined ? null : (pens.find((pen) => pen.id === id) ?? null);
 }
 
 /**
- * Where the plot waits for the operator, in order; nothing before the first stroke unless its layer asks for it.
- * Linear in strokes.
+ * Where the plot waits for the operator, in order. There is no stop before the first stroke unless its layer
+ * asks for one. Linear in strokes.
  */
 export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenStop[] {
   if (setup.penStops === "never") return [];
@@ -79,7 +79,7 @@ export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenSto
 }
 
 function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, needsOther: boolean): boolean {
-  // The further parts of a layer are there for a stop to take up ink.
+  // The further parts of a layer exist only to stop for ink.
   if (layer.partOf !== undefined) return true;
   const own = setFor(setup.layerStops, layer.id);
   if (own !== undefined) return own;
@@ -95,7 +95,7 @@ const stopAt = (strokeIndex: number, layer: StrokeLayer, pen: PlotPen | null): P
   color: pen?.color ?? layer.color,
 });
 
-/** What `prepare` needs of a job's settings: its own, and by how much each layer's pen is to be corrected. */
+/** The settings for `prepare` from a job's settings, including the pen offset correction of each layer. */
 export function prepareSettingsOf(
   settings: Pick<PenSetup, "pens" | "layerPens"> & { readonly prepare: PrepareSettings },
 ): PrepareSettings {

@@ -1,11 +1,11 @@
 /**
- * Where the drawing lies on the paper: one map from the file's page to the machine frame.
+ * Places the drawing on the paper: one map from the file's page to the machine frame.
  *
- *   home ┌──────────────── x        paper    top left corner at home, turned by `landscape`
- *        │  ┌───────────┐           inside   the paper less its margins
- *        │  │  inside   │           fit      what is drawn fills `inside`, centred
+ *   home ┌──────────────── x        paper    top left corner at home, oriented by `landscape`
+ *        │  ┌───────────┐           inside   the paper minus its margins
+ *        │  │  inside   │           fit      the drawing's content fills `inside`, centred
  *        y  └───────────┘           true     page corner on paper corner
- *                                   place    the drawing's own box where the numbers say, then turned about its middle
+ *                                   place    the content's box as given, then turned about its centre
  */
 import { VERB_LINE, type ClipRegion, type Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
@@ -29,22 +29,22 @@ export interface Placement {
   readonly map: Affine;
   readonly paper: Box;
   readonly inside: Box;
-  /** What is drawn, on the paper, before the turn of a placed box; empty for an empty drawing. */
+  /** Box of the content on the paper, before a placed box is turned; empty for an empty drawing. */
   readonly frame: Box;
-  /** Box of all shapes on the paper, before any clipping; of everything where a shape draws nothing. */
+  /** Box of all shapes on the paper, before any clipping; infinite if a shape draws nothing. */
   readonly whole: Box;
-  /** Box of each shape there, x0, y0, x1, y1; empty for a shape that draws nothing. */
+  /** Box of each shape on the paper, x0, y0, x1, y1; empty for a shape that draws nothing. */
   readonly shapeBoxes: () => Float64Array;
 }
 
-/** Width and height as the paper lies: the long side along x in landscape, along y otherwise. */
+/** Width and height as the paper lies: the long side along x in landscape, otherwise along y. */
 export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
   const long = Math.max(paper.widthMm, paper.heightMm);
   const short = Math.min(paper.widthMm, paper.heightMm);
   return landscape ? { widthMm: long, heightMm: short } : { widthMm: short, heightMm: long };
 }
 
-/** Throws `bad-setting` when the margins leave no room. */
+/** Throws `bad-setting` if the margins leave no room. */
 export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
   const paper = paperBox(settings);
   const inside = insideMargins(paper, settings);
@@ -58,7 +58,7 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
       : onCorner(pageBox(drawing, turn));
   const frame = isEmptyBox(content) ? content : movedBox(content, after);
   const place = { paper, inside, frame };
-  const last = aboutMiddle(frame, settings.place?.turnDeg ?? 0);
+  const last = aboutCentre(frame, settings.place?.turnDeg ?? 0);
   if (last === null) {
     return {
       ...place,
@@ -72,8 +72,8 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
   return { ...place, map, whole: moved.whole, shapeBoxes: () => moved.boxes };
 }
 
-/** Null for no turn. */
-function aboutMiddle(box: Box, turnDeg: number): Affine | null {
+/** A turn about the centre of the box; null for no turn. */
+function aboutCentre(box: Box, turnDeg: number): Affine | null {
   if (turnDeg === 0 || isEmptyBox(box)) return null;
   const x = (box.x0 + box.x1) / 2;
   const y = (box.y0 + box.y1) / 2;
@@ -110,7 +110,7 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
 
 const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity };
 
-/** As `Placement` has them. */
+/** Boxes for `Placement`. */
 function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: Float64Array; readonly whole: Box } {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
   const { a, b, c, d, e, f } = map;
@@ -134,7 +134,7 @@ function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: Float64Arr
       wholeY1 = Math.max(wholeY1, box.y1);
       continue;
     }
-    // Straight pieces only, as in most large drawings: no call for each.
+    // Straight segments only, as in most large drawings: inlined to avoid a call for each shape.
     let x0 = Infinity;
     let y0 = Infinity;
     let x1 = -Infinity;
@@ -168,18 +168,20 @@ export const boxAt = (boxes: Float64Array, i: number): Box => ({
   y1: boxes[4 * i + 3],
 });
 
-/** Box of all that the file draws, hidden layers included: layers plotted one by one must still meet. */
+/**
+ * Box of everything the file draws, including hidden layers: layers plotted one at a time must still align.
+ */
 function contentBox(drawing: Drawing, boxes: Float64Array, whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
   const { count, clip: clipOf } = drawing.paths;
-  // Far away too where one shape is empty.
+  // A shape that draws nothing makes `whole` infinite, so it counts as far away too.
   if (page === null && clipBoxes.length === 0 && !isFarAway(whole)) return whole;
   let content = EMPTY_BOX;
   for (let i = 0; i < count; i++) {
     const at = 4 * i;
     const { x0, y0, x1, y1 } = content;
-    // Most lie within what has been seen.
+    // Most shapes lie within the box found so far.
     const isSeen = boxes[at] >= x0 && boxes[at + 1] >= y0 && boxes[at + 2] <= x1 && boxes[at + 3] <= y1;
     if (isSeen) continue;
     let box = boxAt(boxes, i);
@@ -198,14 +200,14 @@ function clipBox(clip: ClipRegion, map: Affine): Box {
   return boxAt(box, 0);
 }
 
-/** mm. What reaches further than this (a thousand kilometres) is a fault of the file, not a drawing. */
+/** mm. Anything beyond this (a thousand kilometres) is an error in the file. */
 const FAR_AWAY = 1e9;
 
-/** True for boxes that no paper could hold, so that they must not decide the scale. */
+/** True for boxes that no paper could hold, so that they do not determine the scale. */
 export const isFarAway = ({ x0, y0, x1, y1 }: Box): boolean =>
   !(x0 > -FAR_AWAY && y0 > -FAR_AWAY && x1 < FAR_AWAY && y1 < FAR_AWAY);
 
-/** Rounding must not push a line that lies on the border over it, where the crop would take it: 3 nm on 300 mm. */
+/** Keeps rounding from pushing a line on the border across it, where it would be cropped: 3 nm on 300 mm. */
 const FIT_SHARE = 1 - 1e-11;
 
 function fitted(content: Box, inside: Box): Affine {
@@ -244,7 +246,7 @@ export function pageCorners(drawing: Drawing, map: Affine): number[] {
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 
-/** Under maps that scale and move only. */
+/** Only for maps that scale and translate. */
 function movedBoxes(boxes: Float64Array, { a, d, e, f }: Affine): Float64Array {
   const moved = new Float64Array(boxes.length);
   for (let i = 0; i < boxes.length; i += 4) {
@@ -256,7 +258,7 @@ function movedBoxes(boxes: Float64Array, { a, d, e, f }: Affine): Float64Array {
   return moved;
 }
 
-/** Likewise. */
+/** Only for maps that scale and translate. */
 const movedBox = (box: Box, map: Affine): Box => ({
   x0: map.a * box.x0 + map.e,
   y0: map.d * box.y0 + map.f,

@@ -1,9 +1,9 @@
 /**
- * From what the file says to what the pen draws: the list of steps below, in that order.
+ * From the file's drawing to pen strokes: the steps below, in that order.
  *
- * Lines carry their shape as tag until they are sorted by layer, and their layer from then on. Hidden
- * layers go all the way to the counts, so that the page can show what a switch would bring; only then
- * they drop out. They hide nothing, and nothing hides them.
+ * The tag of a line is its shape until lines are sorted by layer, and its layer from then on. Hidden layers
+ * are processed up to the counts, so that the page can show what showing them would add; they are dropped
+ * only then. They hide nothing, and nothing hides them.
  */
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
@@ -49,21 +49,21 @@ import { stopIfCancelled, type Work } from "./work.js";
 
 export interface Prepared {
   readonly strokes: StrokeSet;
-  /** All layers of the file under the layer mode, hidden ones too, in the order of drawing. */
+  /** All layers of the file under the layer mode, including hidden ones, in drawing order. */
   readonly layers: readonly PreparedLayer[];
-  /** The paper as it lies: after `landscape`. */
+  /** The paper after `landscape` is applied. */
   readonly paperWidthMm: number;
   readonly paperHeightMm: number;
-  /** Pen-up way from home through all strokes and home: as the file has them, and as they are drawn. */
+  /** Pen-up travel from home through all strokes and back home: in the file's order, and as drawn. */
   readonly travelMmUnordered: number;
   readonly travelMm: number;
   readonly drawMm: number;
-  /** What this paper and these settings leave out; the drawing's own warnings are not repeated. */
+  /** What is left out with this paper and these settings; the drawing's own warnings are not repeated. */
   readonly warnings: readonly string[];
 }
 
 /**
- * Lays the drawing on the paper and makes it into strokes in drawing order (mm in the machine frame).
+ * Places the drawing on the paper and turns it into strokes in drawing order (mm in the machine frame).
  * Throws PlotwrightError `bad-setting` (no room inside the margins) and `cancelled`.
  */
 export function prepare(
@@ -127,7 +127,7 @@ export function prepare(
   lines = repeatLines(spread, passesOf);
   const isOnceEach = lines === spread;
   let travelMm = travelAsDrawn(lines);
-  // A way that is shorter once may end where passes have to begin anew.
+  // An order that is shorter for one pass may end where starting the next pass takes longer.
   if (settings.spread === "none" && travelMm > unordered) {
     lines = asInFile;
     travelMm = unordered;
@@ -150,7 +150,7 @@ export function prepare(
 const drawnMm = (layers: readonly PreparedLayer[]): number =>
   layers.reduce((sum, { visible, drawMm }) => (visible ? sum + drawMm : sum), 0);
 
-/** The same work with its progress between two fractions of the whole. */
+/** The same work, with its progress mapped to a part of the whole. */
 const within = (work: Work, from: number, to: number): Work => ({
   ...work,
   onProgress: work.onProgress && ((done, step) => work.onProgress?.(from + done * (to - from), step)),

@@ -1,5 +1,5 @@
 /**
- * Random numbers that are the same in every run, so that a plan can be made again from the same drawing.
+ * Random numbers that are the same in every run, so that a plan can be reproduced from the same drawing.
  * (Mulberry32 by T. Ettinger, public domain)
  */
 export function randomFrom(seed: number): () => number {

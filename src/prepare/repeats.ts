@@ -1,18 +1,18 @@
 /**
- * Leaving out what is drawn already: of every straight piece the parts that lie within a tolerance of an
- * earlier piece that runs the same way (or backwards). Shared borders and doubled shapes are inked once.
+ * Drops what is already drawn: the parts of every straight piece that lie within a tolerance of an earlier
+ * piece with the same (or opposite) direction. Shared borders and doubled shapes are drawn once.
  *
  *      earlier  ────────────────────
  *      this         ═══════════════════════     within tolerance over [t0, t1]: dropped there,
  *                   t0            t1            the rest stays
  *
- * Pieces stand in a tree of boxes (Flatbush); only pieces of the same tag (layer) are compared.
+ * Pieces are indexed in a tree of boxes (Flatbush); only pieces of the same tag (layer) are compared.
  */
 import Flatbush from "flatbush";
 import { LineBuilder, distance, lineCount, type Lines } from "../geometry/polyline.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** `tolerance` in mm; 0 keeps all. Dots go when an earlier dot lies within the tolerance. */
+/** `tolerance` in mm; 0 keeps everything. A dot is dropped if an earlier dot lies within the tolerance. */
 export function dropRepeats(lines: Lines, tolerance: number, work: Work): Lines {
   if (!(tolerance > 0) || lineCount(lines) === 0) return lines;
   const pieces = piecesOf(lines);
@@ -82,7 +82,7 @@ function isDotRepeated(lines: Lines, pieces: Pieces, piece: number, tolerance: n
   });
 }
 
-/** Adds to the line under construction what of the piece is new, ending the line before each gap. */
+/** Adds the new parts of the piece to the line under construction, ending the line before each gap. */
 function addNewParts(
   lines: Lines,
   pieces: Pieces,
@@ -100,7 +100,7 @@ function addNewParts(
   const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
   let at = 0;
   for (const [from, to] of covered) {
-    // A rest shorter than the tolerance is not worth a pen lift: the gap is as good as covered.
+    // A remainder shorter than the tolerance is not worth a pen lift: it counts as covered.
     if ((from - at) * length > tolerance) addPart(builder, x(at), y(at), x(from), y(from));
     if (builder.openPoints > 1) builder.end(tag);
     else builder.drop();
@@ -114,7 +114,7 @@ function addPart(builder: LineBuilder, x0: number, y0: number, x1: number, y1: n
   builder.point(x1, y1);
 }
 
-/** Sorted, merged ranges of t in which the piece runs along earlier ones. */
+/** Sorted, merged ranges of t where the piece runs along earlier ones. */
 function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: number): [number, number][] {
   const { xy } = lines;
   const p = pieces.point[piece];
@@ -142,7 +142,7 @@ function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: n
   return merged;
 }
 
-/** The t of piece p over which piece q lies beside it, no farther than the tolerance at either end. */
+/** The range of t on piece p where piece q runs alongside, within the tolerance at both ends. */
 function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number): [number, number] | null {
   const x0 = xy[2 * p];
   const y0 = xy[2 * p + 1];
@@ -158,7 +158,7 @@ function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number):
   const from = Math.max(Math.min(ta, tb), 0);
   const to = Math.min(Math.max(ta, tb), 1);
   if ((to - from) * Math.sqrt(length2) <= tolerance * 1e-3) return null;
-  // Straight against straight: the distance is linear in t, so both ends of the range bound it.
+  // For two straight pieces the distance is linear in t, so checking both ends of the range is enough.
   const slope = (across(q + 1) - across(q)) / (tb - ta);
   const gapAt = (t: number): number => Math.abs(across(q) + slope * (t - ta));
   return gapAt(from) <= tolerance && gapAt(to) <= tolerance ? [from, to] : null;

@@ -1,3 +1,3 @@
-/** What a record by layer id says of a layer. Ids come from files: one may be called "constructor". */
+/** The value for a layer in a record by layer id. Ids come from files, so one may be "constructor". */
 export const setFor = <T>(record: Readonly<Record<string, T>>, id: string): T | undefined =>
   Object.hasOwn(record, id) ? record[id] : undefined;

@@ -1,4 +1,4 @@
-/** The steps of `prepare` while lines still belong to shapes: which, dashed, cropped, filled. */
+/** The steps of `prepare` while lines still belong to shapes: select, dash, crop, hatch. */
 import type { Drawing } from "../drawing/drawing.js";
 import {
   EMPTY_BOX,
@@ -19,7 +19,7 @@ import { isFarAway, pageCorners, type Placement } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "../settings/prepare.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** The box that nothing may leave, or null when nothing is cut off. */
+/** The box to which lines are cropped; null if nothing is cropped. */
 export function cropBox(settings: PrepareSettings, place: Placement): Box | null {
   const inside = settings.clipToMargins ? place.inside : null;
   if (settings.reach === null) return inside;
@@ -27,7 +27,7 @@ export function cropBox(settings: PrepareSettings, place: Placement): Box | null
   return inside ? intersectBoxes(inside, reach) : reach;
 }
 
-/** Shapes worth flattening: those that reach the place where lines are kept, and are of this world. */
+/** Shapes worth flattening: those that touch `limit` and are not absurdly far away. */
 export function shapesOnPaper(
   drawing: Drawing,
   place: Placement,
@@ -36,7 +36,7 @@ export function shapesOnPaper(
 ): Uint8Array {
   const wanted = new Uint8Array(drawing.paths.count);
   const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
-  // Never where one shape is empty.
+  // Never true if one shape is empty, since `whole` is infinite then.
   if (boxContains(within, place.whole)) return wanted.fill(1);
   const boxes = place.shapeBoxes();
   let outside = 0;
@@ -46,7 +46,7 @@ export function shapesOnPaper(
     const y0 = boxes[at + 1];
     const x1 = boxes[at + 2];
     const y1 = boxes[at + 3];
-    // Most lie wholly within.
+    // Most shapes lie entirely within.
     if (x0 >= within.x0 && y0 >= within.y0 && x1 <= within.x1 && y1 <= within.y1 && x0 <= x1 && y0 <= y1) {
       wanted[shape] = 1;
       continue;
@@ -60,7 +60,7 @@ export function shapesOnPaper(
   if (far > 0) warnings.push(`${shapes(far)} much too far from the paper (over 1000 km) and not drawn.`);
   if (outside > 0) {
     warnings.push(
-      `${shapes(outside)} wholly outside the margins and not drawn. Fit the drawing to the paper, or place it.`,
+      `${shapes(outside)} entirely outside the margins and not drawn. Fit the drawing to the paper, or place it.`,
     );
   }
   return wanted;
@@ -68,7 +68,7 @@ export function shapesOnPaper(
 
 const shapes = (count: number): string => (count === 1 ? "1 shape is" : `${count} shapes are`);
 
-/** Where dashes and hatch are worth making when nothing is cut off: 100 m around home. */
+/** The area for dashes and hatches when nothing is cropped: 100 m around home. */
 export const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
 
 export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, limit: Box | null): Lines {
@@ -81,7 +81,7 @@ export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, lim
   return dashLines(lines, patternOf, limit ?? ANYWHERE);
 }
 
-/** mm of line that may go at the margins without a word: rounding, not drawing. */
+/** mm of line that may be lost at the margins without a warning: rounding. */
 const UNNOTICED_CROP = 0.1;
 
 export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {
@@ -96,7 +96,7 @@ export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): 
   return kept;
 }
 
-/** What lies on the file's own page, turned as it may be. */
+/** Crops to the file's own page, which may be rotated. */
 export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Lines {
   const corners = pageCorners(drawing, place.map);
   const ring = [0, 2, 4, 6].map((k) => ({
@@ -107,21 +107,21 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
   return cutLines(lines, () => page);
 }
 
-/** Without the outlines of shapes that have no stroke of their own. */
+/** Removes the outlines of shapes that have no stroke of their own. */
 export function strokedOnly(lines: Lines, drawing: Drawing): Lines {
   const kept: number[] = [];
   for (let i = 0; i < lineCount(lines); i++) if (drawing.paths.stroke[lines.tag[i]] >= 0) kept.push(i);
   return pickLines(lines, kept);
 }
 
-/** How each layer is hatched; null where no layer is. */
+/** The hatch of each layer; null if no layer has one. */
 export function hatchesOf(settings: PrepareSettings, table: LayerTable): HatchSettings[] | null {
   const own = new Map(settings.layerHatches.map((hatch) => [hatch.layer, hatch]));
   const hatches = table.layers.map((layer) => own.get(layer.id) ?? settings.hatch);
   return hatches.some((hatch) => hatch.spacingMm > 0) ? hatches : null;
 }
 
-/** The lines with the hatch of each filled shape before its outline, as paint would lie. */
+/** Adds the hatch of each filled shape before its outline, in paint order. */
 export function addHatch(
   lines: Lines,
   areas: ReadonlyMap<number, Region>,

@@ -1,16 +1,16 @@
 /**
- * Fewer points, the same line to a tolerance: Douglas and Peucker's method, with a work list instead of
+ * Fewer points, the same line within a tolerance: Douglas and Peucker's method, with a work list instead of
  * recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
  *
  *        ·  far
  *      /   \           the point farthest from the chord stays if it is farther than the tolerance,
- *  a ·-------· b       and both halves are looked at again; else all between a and b go
+ *  a ·-------· b       and both halves are checked again; otherwise all between a and b are dropped
  *
- * The distance is to the chord as a segment, so a line that doubles back keeps its turning point.
+ * The distance is measured to the chord as a segment, so a line that doubles back keeps its turning point.
  */
 import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
 
-/** No dropped point is farther than `tolerance` mm from the new line; ends stay. */
+/** No dropped point is farther than `tolerance` mm from the new line; end points stay. */
 export function simplifyLines(lines: Lines, tolerance: number): Lines {
   if (!(tolerance > 0)) return lines;
   const builder = new LineBuilder();

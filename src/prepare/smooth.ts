@@ -1,10 +1,10 @@
-/** Rounder lines, and closed lines that begin elsewhere. */
+/** Rounder lines, and new start points for closed lines. */
 import { LineBuilder, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
 
 /**
- * Corner cutting (G. Chaikin, 1974): every segment is replaced by its middle half, and the halves are
- * linked; in the limit a quadratic B-spline. Ends of open lines stay, closed lines stay closed.
+ * Corner cutting (G. Chaikin, 1974): every segment is replaced by its middle half, and the halves are linked;
+ * the limit is a quadratic B-spline. Open lines keep their end points, closed lines stay closed.
  */
 export function smoothLines(lines: Lines, rounds: number): Lines {
   let smooth = lines;
@@ -43,7 +43,7 @@ function cutLineCorners(lines: Lines, i: number, builder: LineBuilder): void {
   builder.end(lines.tag[i]);
 }
 
-/** Closed lines begun at a point picked at random, the same one in every run. */
+/** Starts closed lines at a random point, the same one in every run. */
 export function reloopLines(lines: Lines): Lines {
   const random = randomFrom(1);
   const builder = new LineBuilder();

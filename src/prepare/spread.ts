@@ -1,10 +1,13 @@
-/** Orders and splits for wet ink: neighbours apart in time, and stops to take up ink. */
+/**
+ * Reorders and splits strokes for wet ink: neighbours are drawn at different times, with stops to take up
+ * ink.
+ */
 import { LineBuilder, distance, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
 import type { SpreadMode } from "../settings/prepare.js";
 import { tagRanges } from "./tour.js";
 
-/** Passes of "interleave": the pen comes by a place so many times, each time drawing every so manieth line. */
+/** Number of passes of "interleave": pass k draws every fourth line, from line k on. */
 const PASSES = 4;
 
 /** Lines of one tag stay together. */
@@ -26,7 +29,7 @@ function interleaved(first: number, end: number): number[] {
   return order;
 }
 
-/** Fisher and Yates. */
+/** Fisher–Yates shuffle. */
 function shuffled(first: number, end: number, random: () => number): number[] {
   const order = Array.from({ length: end - first }, (_, k) => first + k);
   for (let k = order.length - 1; k > 0; k--) {
@@ -38,13 +41,13 @@ function shuffled(first: number, end: number, random: () => number): number[] {
 
 export interface InkPortions {
   readonly lines: Lines;
-  /** Which portion of its tag each line is in, 0, 1, 2 … */
+  /** Index of each line's portion within its tag: 0, 1, 2 … */
   readonly portion: Uint32Array;
 }
 
 /**
- * Splits what each tag draws into portions of at most `reach` mm: a line that no longer fits begins a
- * new portion, and one longer than a whole portion is cut.
+ * Splits the lines of each tag into portions of at most `reach` mm: a line that no longer fits starts a new
+ * portion, and a line longer than a portion is cut.
  */
 export function inkPortions(lines: Lines, reach: number): InkPortions {
   const builder = new LineBuilder();
@@ -70,7 +73,10 @@ export function inkPortions(lines: Lines, reach: number): InkPortions {
   return { lines: builder.finish(), portion: Uint32Array.from(portions) };
 }
 
-/** Cuts line `i` every `reach` mm, calling `onCut` after each piece but the last; answers the last one's length. */
+/**
+ * Cuts line `i` every `reach` mm, calling `onCut` after each piece except the last; returns the last piece's
+ * length.
+ */
 function cutByLength(
   lines: Lines,
   i: number,

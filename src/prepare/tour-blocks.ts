@@ -1,28 +1,28 @@
 /**
- * Searching a long tour piece by piece: a block of strokes that lie together is taken out, searched as a
- * small tour of its own, and put back. On a ring of a thousand strokes a turned stretch costs microseconds
- * and all of it is in the cache; on one of twenty thousand the same step costs ten times as much.
+ * Searches a long tour block by block: a block of neighbouring strokes is taken out, searched as a separate
+ * small tour, and put back. On a ring of a thousand strokes reversing a stretch takes microseconds and
+ * everything fits in the cache; on one of twenty thousand the same step takes ten times as long.
  *
  *   ring   h ooo [s s s] oooooo [s s] oo [s] oo      s in the block, o outside, h home
  *   small    A    s s s     B    s s   C  s  D       each run of o is one stroke of the small tour
  *
- * A run of outside strokes is entered at its first end and left at its last, and costs the same whichever
- * way round it is drawn: exactly what a stroke is. So the small tour is the whole problem with the outside
- * held fast, and every mm that it saves is saved in the whole. (The idea of tour-based partitioning, after
- * K. Helsgaun's LKH; here the runs need no special case.)
+ * A run of outside strokes is entered at its first end and left at its last, and costs the same in both
+ * directions, exactly like a stroke. So the small tour is the whole problem with the outside fixed, and every
+ * mm saved in it is saved overall. (This is tour-based partitioning, after K. Helsgaun's LKH; here the runs
+ * need no special case.)
  */
 import { PointIndex } from "../geometry/point-index.js";
 import { TourSearch } from "./tour-search.js";
 
 const STROKES_IN_BLOCK = 1_000;
-/** Kicks per stroke of a block before the next block has its turn. */
+/** Kicks per stroke of a block before the next block is searched. */
 const KICKS = 8;
 const KICKS_BETWEEN_LOOKS = 512;
 
 /**
  * One pass over all strokes in blocks. `ring` is changed in place: ends in drawing order, stroke k with ends
- * 2k and 2k + 1 at `xy`; the stroke that stands for home is at its front and in no block. `goOn` is asked
- * now and then, with the number of kicks since; answers whether the pass was finished.
+ * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `goOn` is called from time
+ * to time with the number of kicks since the last call. Returns whether the pass was finished.
  */
 export function improveBlocks(
   ring: Int32Array,
@@ -34,7 +34,7 @@ export function improveBlocks(
   const strokes = ring.length / 2;
   const home = ring[0] >> 1;
   const order = strokesInSpace(xy, strokes);
-  // Another cut in every pass, so that what is a border now lies within a block next time.
+  // Different cuts in every pass, so that a block border in one pass is inside a block in the next.
   const shift = Math.floor(random() * strokes);
   const blocks = Math.max(Math.round(strokes / strokesInBlock), 1);
   const isIn = new Uint8Array(strokes);
@@ -49,7 +49,7 @@ export function improveBlocks(
   return true;
 }
 
-/** Strokes by where their middle lies, neighbours side by side. */
+/** Strokes sorted by the position of their midpoint, neighbours side by side. */
 function strokesInSpace(xy: Float64Array, strokes: number): Uint32Array {
   const middles = new Float64Array(2 * strokes);
   for (let k = 0; k < strokes; k++) {
@@ -92,7 +92,10 @@ function improveBlock(
   return more;
 }
 
-/** Places in the ring where each stroke of the small tour begins (one inside, or a run outside), and its end. */
+/**
+ * Positions in the ring where each stroke of the small tour begins (one inside, or a run outside), and the
+ * ring's end.
+ */
 function smallStrokes(ring: Int32Array, isIn: Uint8Array): number[] {
   const starts: number[] = [];
   let wasOutside = false;
@@ -105,7 +108,7 @@ function smallStrokes(ring: Int32Array, isIn: Uint8Array): number[] {
   return starts;
 }
 
-/** Writes the small tour out in full, beginning with the run that holds home at its front. */
+/** Writes the small tour back to the ring, beginning with the run that starts with home. */
 function putBack(ring: Int32Array, starts: readonly number[], small: Int32Array): void {
   const old = ring.slice();
   const place = small.indexOf(0);

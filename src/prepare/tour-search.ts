@@ -1,42 +1,42 @@
 /**
- * The kernel of order "best": local search on a tour of strokes that may be drawn either way round.
+ * The kernel of order "best": local search on a tour of strokes that may be drawn in either direction.
  *
- * Form of the problem. Every stroke k has two ends, 2k and 2k + 1. The tour is a ring of ends in which the
- * two ends of a stroke stay side by side; what is between strokes is travel:
+ * Problem: every stroke k has two ends, 2k and 2k + 1. The tour is a ring of ends in which the two ends of a
+ * stroke stay adjacent; between strokes the pen travels:
  *
  *     … 2a+1 │ 6 7 │ 12 13 │ 5 4 │ 2b …        │ travel    6 7 a stroke, 5 4 one drawn backwards
  *
- * So every end has exactly one travel edge, to its partner, and turning a stretch of the tour round
- * (2-opt) turns its strokes too: direction needs no moves of its own. One stroke stands for home: it is
- * entered where the pen must end, and left where it begins.
+ * So every end has exactly one travel edge, to its partner, and reversing a stretch of the tour (2-opt) also
+ * reverses its strokes: direction needs no moves of its own. One stroke represents home: it is entered where
+ * the pen must end, and left where it begins.
  *
- * Moves (after S. Lin, 1965, and I. Or, 1976): take out the travel edge t1 t2, go from t2 to a near end t3,
- * take out its travel edge t3 t4, and either close the ring from t4 to t1 (2-opt) or go on to a near t5,
- * take out t5 t6 and close there (the sequential 3-opt moves, among them Or's moving of a stretch with or
- * without turning it). Gains are kept positive at every step, which bounds the search (Lin and Kernighan);
- * near ends come from lists of the nearest few.
+ * Moves (after S. Lin, 1965, and I. Or, 1976): remove the travel edge t1 t2, go from t2 to a near end t3,
+ * remove its travel edge t3 t4, and either close the ring from t4 to t1 (2-opt) or continue to a near t5,
+ * remove t5 t6 and close there (the sequential 3-opt moves, including Or's relocation of a stretch with or
+ * without reversing it). Gains stay positive at every step, which limits the search (Lin and Kernighan); near
+ * ends come from lists of the nearest few.
  *
- * With rel(x) the place of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last), places of even rel are
- * entered, of odd rel left. Then rel says at once which moves give one ring again:
+ * Let rel(x) be the position of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last). Positions with
+ * even rel are entered, with odd rel left. Then rel tells which moves give a single ring again:
  *
- *     rel t3 even: 2-opt closes;  t5 behind t3 must be even, t5 before t4 odd
- *     rel t3 odd : only a third edge inside t2 … t3 makes one ring: any t5 there
+ *     rel t3 even: 2-opt closes;  t5 after t3 must be even, t5 before t4 odd
+ *     rel t3 odd : only a third edge inside t2 … t3 gives one ring: any t5 there
  *
- * Out of a local optimum: a double bridge over a short stretch, then search again around it, and take it
- * back if the tour got no shorter (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes
- * are turned stretches, kept in a log, so taking back costs no more than was done.
+ * To leave a local optimum: a double bridge over a short stretch, then a local search around it, undone if
+ * the tour got longer (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes are reversed
+ * stretches, stored in a log, so undoing costs no more than doing.
  *
- * Invariants: `tour` and `place` are inverse; ends of a stroke are neighbours in the ring at places 2i, 2i+1;
- * `length` falls with every step that is kept. Lengths in mm.
+ * Invariants: `tour` and `place` are inverse; the ends of a stroke are neighbours in the ring at positions
+ * 2i, 2i+1; `length` decreases with every accepted step. Lengths in mm.
  */
 import { PointIndex } from "../geometry/point-index.js";
 
 const NEAR = 8;
-/** Of those, how many are tried for the third edge. */
+/** How many of them are tried for the third edge. */
 const NEAR_THIRD = 5;
-/** Smaller gains are rounding. */
+/** Smaller gains are rounding errors. */
 const EPSILON = 1e-9;
-/** A double bridge cuts within so many strokes. */
+/** A double bridge cuts within this many strokes. */
 const KICK_SPAN = 12;
 
 export class TourSearch {
@@ -48,22 +48,22 @@ export class TourSearch {
   private readonly place: Int32Array;
   private near = new Int32Array(0);
   private nearDistance = new Float64Array(0);
-  /** Ends whose surroundings are still to be looked at: a ring buffer, each end in it at most once. */
+  /** Ends whose surroundings must still be searched: a ring buffer, with each end in it at most once. */
   private readonly queue: Int32Array;
   private readonly queued: Uint8Array;
   private queueFrom = 0;
   private queueSize = 0;
-  /** Turned stretches since the last mark: first and last place of each. */
+  /** Reversed stretches since the last kick: first and last position of each. */
   private log: number[] = [];
 
-  // The best move around the end that is being looked at.
+  // The best move around the current end.
   private gain = 0;
   private t3 = 0;
   private t5 = 0;
 
   /**
-   * `xy` holds the ends' coordinates, x, y of end 0, of end 1 …; kept, not copied. `order` is the ring to
-   * begin with: the ends in the order in which the pen meets them.
+   * `xy` holds the coordinates of the ends, x, y of end 0, of end 1 …; referenced, not copied. `order` is the
+   * initial ring: the ends in the order in which the pen meets them.
    */
   constructor(
     private readonly xy: Float64Array,
@@ -79,7 +79,7 @@ export class TourSearch {
     this.refresh();
   }
 
-  /** To be called when coordinates have changed: lists, length and queue are made anew. */
+  /** Call after coordinates have changed: rebuilds lists, length and queue. */
   refresh(): void {
     const { ends, xy } = this;
     this.near = new Int32Array(ends * NEAR).fill(-1);
@@ -94,12 +94,15 @@ export class TourSearch {
     for (let p = 0; p < ends; p++) this.push(this.tour[p]);
   }
 
-  /** The ring of ends as it stands. */
+  /** The current ring of ends. */
   get ring(): Int32Array {
     return this.tour;
   }
 
-  /** Improves until no move around any queued end does, or `steps` ends have been looked at; true when done. */
+  /**
+   * Improves until no move around any queued end helps, or `steps` ends have been processed; returns true
+   * when done.
+   */
   improve(steps = Infinity): boolean {
     for (let step = 0; this.queueSize > 0 && step < steps; step++) {
       const t1 = this.pop();
@@ -108,7 +111,7 @@ export class TourSearch {
     return this.queueSize === 0;
   }
 
-  /** One double bridge and the search after it; taken back unless the tour is as short as before. */
+  /** One double bridge and the following search; undone if the tour got longer. */
   kick(): void {
     const strokes = this.ends / 2;
     if (strokes < 8) return;
@@ -117,7 +120,7 @@ export class TourSearch {
     const span = Math.min(KICK_SPAN, strokes - 3);
     const start = Math.floor(this.random() * strokes);
     const cuts = [0, 0, 0].map(() => 1 + Math.floor(this.random() * span)).sort((a, b) => a - b);
-    // Three different cuts, the last at most strokes − 1 on: the stroke at `start` stays where it is.
+    // Three different cuts, the last at most strokes − 1 after `start`: the stroke at `start` stays in place.
     const c1 = cuts[0];
     const c2 = Math.max(cuts[1], c1 + 1);
     const c3 = Math.max(cuts[2], c2 + 1);
@@ -126,7 +129,7 @@ export class TourSearch {
     if (this.length > before + EPSILON) this.takeBack(before);
   }
 
-  /** Stretches b, c, d of so many strokes after stroke place `start` come out as d, c, b. */
+  /** Reorders the stretches b, c, d after stroke position `start` to d, c, b. */
   private doubleBridge(start: number, c1: number, c2: number, c3: number): void {
     const at = (stroke: number, exit: number): number => this.tour[(2 * (start + stroke) + exit) % this.ends];
     const [p, b0, b1] = [at(0, 1), at(1, 0), at(c1, 1)];
@@ -144,11 +147,12 @@ export class TourSearch {
     this.length = length;
   }
 
-  /** Looks for the best move that takes out the travel edge of t1, and makes it. */
+  /** Finds the best move that removes the travel edge of t1, and makes it. */
   private improveAround(t1: number): boolean {
     const { tour, place, near, nearDistance, ends } = this;
     const p1 = place[t1];
-    // Odd places are left: there the ring goes on forwards to the partner, at even ones backwards.
+    // At odd positions a stroke is left, and the ring continues forwards to the partner; at even ones
+    // backwards.
     const forward = (p1 & 1) === 1;
     const p2 = forward ? this.next(p1) : this.previous(p1);
     const t2 = tour[p2];
@@ -210,7 +214,7 @@ export class TourSearch {
     this.t5 = t5;
   }
 
-  /** Carries out the move found, as turned stretches. */
+  /** Makes the move that was found, as reversed stretches. */
   private makeMove(t1: number, t2: number): void {
     const { t3, t5, place } = this;
     const t4 = this.tour[this.partnerPlace(place[t3])];
@@ -244,7 +248,10 @@ export class TourSearch {
     this.turn(y1, x1, x0, n);
   }
 
-  /** The same for a ring of three stretches: exchanging any two neighbours is the same ring, so the two shortest. */
+  /**
+   * The same for a ring of three stretches: exchanging any two neighbours gives the same ring, so exchange
+   * the two shortest.
+   */
   private swapShortest(p: number, x0: number, x1: number, y0: number, y1: number, n: number): void {
     const x = this.span(x0, x1);
     const y = this.span(y0, y1);
@@ -260,16 +267,18 @@ export class TourSearch {
     return (span < 0 ? span + this.ends : span) + 1;
   }
 
-  /** Takes out travel a b and c d (b after a, d after c, in either sense), puts in a c and b d: turns b … c. */
+  /**
+   * Removes travel a b and c d (b after a, d after c, in either direction), adds a c and b d: reverses b … c.
+   */
   private turn(a: number, b: number, c: number, d: number): void {
     const { place, ends } = this;
-    // b … c runs forwards when b is entered (even), else the same stretch is c … b.
+    // b … c runs forwards if b is entered (even); otherwise the same stretch is c … b.
     const forward = (place[b] & 1) === 0;
     const first = forward ? place[b] : place[c];
     const last = forward ? place[c] : place[b];
     let inner = last - first;
     if (inner < 0) inner += ends;
-    // Turning the rest of the ring instead gives the same ring.
+    // Reversing the rest of the ring instead gives the same ring.
     if (2 * (inner + 1) <= ends) this.turnPlaces(first, last);
     else if (forward) this.turnPlaces(place[d], place[a]);
     else this.turnPlaces(place[a], place[d]);
@@ -302,7 +311,7 @@ export class TourSearch {
     return p === 0 ? this.ends - 1 : p - 1;
   }
 
-  /** Where the other end of the travel edge stands. */
+  /** Position of the other end of the travel edge. */
   private partnerPlace(p: number): number {
     return (p & 1) === 1 ? this.next(p) : this.previous(p);
   }

@@ -1,6 +1,6 @@
 /**
- * A tour: in which order, which way round, and from where each line is drawn; and how far the pen
- * travels for it. The pen starts at home (0, 0) and goes back there. Lengths in mm.
+ * A tour: the order, direction and start point of each line, and the pen's travel for it. The pen starts at
+ * home (0, 0) and returns there. Lengths in mm.
  */
 import {
   LineBuilder,
@@ -14,13 +14,13 @@ import {
 export interface Tour {
   /** Line indices in drawing order. */
   readonly order: Uint32Array;
-  /** 1 where a line is drawn backwards; by line index. */
+  /** 1 if a line is drawn backwards; by line index. */
   readonly reversed: Uint8Array;
-  /** For closed lines the point to begin at, counted from the line's first; by line index. */
+  /** For closed lines the start point, counted from the line's first point; by line index. */
   readonly start: Uint32Array;
 }
 
-/** The lines as they stand. */
+/** The lines in their current order. */
 export function fileTour(lines: Lines): Tour {
   const count = lineCount(lines);
   const order = new Uint32Array(count);
@@ -38,13 +38,13 @@ export function entryPoint(lines: Lines, tour: Tour, i: number): number {
   return tour.reversed[i] === 1 ? lines.offsets[i + 1] - 1 : lines.offsets[i];
 }
 
-/** Index of the point where it is lifted. */
+/** Index of the point where the pen is lifted. */
 export function exitPoint(lines: Lines, tour: Tour, i: number): number {
   if (tour.start[i] > 0) return lines.offsets[i] + tour.start[i];
   return tour.reversed[i] === 1 ? lines.offsets[i] : lines.offsets[i + 1] - 1;
 }
 
-/** Pen-up way from home through all lines and home again, mm. */
+/** Pen-up travel from home through all lines and back home, mm. */
 export function travelOf(lines: Lines, tour: Tour): number {
   const { xy } = lines;
   const { order } = tour;
@@ -62,7 +62,7 @@ export function travelOf(lines: Lines, tour: Tour): number {
   return order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
 }
 
-/** The same of the lines as they stand. */
+/** The same for the lines in their current order. */
 export function travelAsDrawn(lines: Lines): number {
   const { xy, offsets } = lines;
   const count = lineCount(lines);
@@ -79,7 +79,7 @@ export function travelAsDrawn(lines: Lines): number {
   return count > 0 ? travel + distance(x, y, 0, 0) : 0;
 }
 
-/** The lines as the tour draws them. */
+/** The lines in the order and direction of the tour. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
   const whole = reordered(lines, tour);
   if (whole !== null) return whole;
@@ -93,7 +93,10 @@ export function linesOfTour(lines: Lines, tour: Tour): Lines {
   return builder.finish();
 }
 
-/** Every line as long as before; null where a point repeats the one before it, which is to be left out. */
+/**
+ * Reorders lines with the same number of points; null if a point repeats the previous one, which must then be
+ * dropped.
+ */
 function reordered(lines: Lines, tour: Tour): Lines | null {
   const { order, reversed, start } = tour;
   const xy = new Float64Array(lines.xy.length);
@@ -115,7 +118,7 @@ function reordered(lines: Lines, tour: Tour): Lines | null {
       x = xy[to++] = lines.xy[from];
       y = xy[to++] = lines.xy[from + 1];
       from += step;
-      // Begun at another of its points, a closed line goes on from its end, which is its first point too.
+      // A closed line with another start point continues after its end, which is also its first point.
       if (from > last) from = first + 2;
     }
     offsets[k + 1] = to / 2;
@@ -124,7 +127,7 @@ function reordered(lines: Lines, tour: Tour): Lines | null {
   return { xy, offsets, tag };
 }
 
-/** A closed line begun at another of its points. */
+/** Copies a closed line from another start point. */
 function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder): void {
   const { xy, offsets } = lines;
   const first = offsets[i];
@@ -136,7 +139,7 @@ function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder):
   builder.end(lines.tag[i]);
 }
 
-/** Ranges [first, end) of lines that share a tag; lines of one tag stand together. */
+/** Ranges [first, end) of lines that share a tag; lines of one tag are contiguous. */
 export function tagRanges({ tag }: Lines): [number, number][] {
   const count = tag.length;
   if (count > 0 && tag[0] === tag[count - 1]) return [[0, count]];

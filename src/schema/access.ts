@@ -1,13 +1,13 @@
-/** Who may use a server on the network. */
+/** Access to a server over the network. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 
-/** "watch": sees everything, changes nothing. */
+/** "watch": can see everything and change nothing. */
 export const ROLES = ["operate", "watch"] as const;
 export const roleSchema = z.enum(ROLES);
 export type Role = z.infer<typeof roleSchema>;
 
-/** A paired browser, or a key for scripts. Its secret is shown once, when it is made. */
+/** A paired browser, or a key for scripts. The secret is shown only once, when it is created. */
 export const accessEntrySchema = z.object({
   id: z.string(),
   kind: z.enum(["session", "key"]),
@@ -21,7 +21,7 @@ export type AccessEntry = z.infer<typeof accessEntrySchema>;
 export const newKeySchema = z.object({ name: nameSchema(200), role: roleSchema });
 export type NewKey = z.infer<typeof newKeySchema>;
 
-/** What the caller is: `id` is its browser's, null for scripts. */
+/** Who the caller is: `id` is the browser's id, null for scripts. */
 export const meSchema = z.object({
   role: roleSchema,
   id: z.string().nullable(),

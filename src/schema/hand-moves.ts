@@ -1,18 +1,18 @@
-/** Moves by hand: the bodies of POST /plotters/:id/…, answered by the plotter. */
+/** Moves by hand: the bodies of POST /plotters/:id/…, answered with the plotter. */
 import { z } from "zod";
 import { plotSettingsSchema } from "./settings.js";
 
-/** Speeds, heights and machine of the move; left out: those of the last job or move. */
+/** Speeds, heights and machine of the move; default: those of the last job or move. */
 const settings = plotSettingsSchema.optional();
-const wayMm = z.number().min(-5_000).max(5_000);
+const distanceMm = z.number().min(-5_000).max(5_000);
 const placeMm = z.number().min(-5_000).max(5_000);
 
-/** …/walk: pen up, to a place in mm from home. */
+/** …/walk: pen up, to a position in mm from home. */
 export const walkRequestSchema = z.object({ xMm: placeMm, yMm: placeMm, settings });
 export type WalkRequest = z.infer<typeof walkRequestSchema>;
 
-/** …/jog: pen up, by so many mm. */
-export const jogRequestSchema = z.object({ dxMm: wayMm, dyMm: wayMm, settings });
+/** …/jog: pen up, by a distance in mm. */
+export const jogRequestSchema = z.object({ dxMm: distanceMm, dyMm: distanceMm, settings });
 export type JogRequest = z.infer<typeof jogRequestSchema>;
 
 /** …/set-home, …/cycle-pen, …/test-patch. */
@@ -28,33 +28,33 @@ export const boxMmSchema = z.object({
 });
 export type BoxMm = z.infer<typeof boxMmSchema>;
 
-/** …/frame: around a job's drawing as its settings place it, or around a box. */
+/** …/frame: around a job's drawing, placed by its settings, or around a box. */
 export const frameRequestSchema = z.union([
   z.object({ jobId: z.string().max(100), settings }),
   z.object({ boxMm: boxMmSchema, settings }),
 ]);
 export type FrameRequest = z.infer<typeof frameRequestSchema>;
 
-/** …/square: draws one, to be measured, to the right of and below where the carriage stands. */
+/** …/square: draws a square to measure, to the right of and below the carriage. */
 export const squareRequestSchema = z.object({ sizeMm: z.number().min(5).max(500), settings });
 export type SquareRequest = z.infer<typeof squareRequestSchema>;
 
-/** …/servo: a raw position, 1/12 µs, to find a servo's range by touch. */
+/** …/servo: a raw position, 1/12 µs, for finding a servo's range by trial. */
 export const servoRequestSchema = z.object({ pos: z.int().min(1).max(65_535), settings });
 export type ServoRequest = z.infer<typeof servoRequestSchema>;
 
-/** …/command: one line to the board, as a console sends it. */
+/** …/command: one line to the board, as typed in a console. */
 export const commandRequestSchema = z.object({
   line: z
     .string()
     .trim()
-    .regex(/^[\x20-\x7e]{1,255}$/, "one line of at most 255 plain characters"),
+    .regex(/^[\x20-\x7e]{1,255}$/, "one line of at most 255 ASCII characters"),
 });
 export type CommandRequest = z.infer<typeof commandRequestSchema>;
 
 export const commandAnswerSchema = z.object({
   replies: z.array(z.string()),
-  /** What plotwright makes of it, when the line touched the motors' counters; else null. */
+  /** A note if the line changed the motors' position counters; otherwise null. */
   note: z.string().nullable(),
 });
 export type CommandAnswer = z.infer<typeof commandAnswerSchema>;

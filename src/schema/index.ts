@@ -1,4 +1,4 @@
-/** Everything that crosses a wire, a disk or a file: entry "plotwright/schema". */
+/** Everything that is sent, stored or written to a file: entry "plotwright/schema". */
 export * from "./name.js";
 export * from "./settings.js";
 export * from "./job.js";

@@ -1,12 +1,12 @@
-/** A job of the queue, as the server keeps it and every browser sees it. */
+/** A job in the queue, as stored by the server and shown in every browser. */
 import { z } from "zod";
 import { plotSettingsSchema } from "./settings.js";
 
 /**
  *   queued ──start──> plotting ──> done
- *     ^                │  ^  └──> failed           board or server lost in mid-plot:
+ *     ^                │  ^  └──> failed           board or server lost during the plot:
  *     │        pause   v  │ resume                 plotting, paused ──> interrupted ──recover──> paused
- *     └─(requeue)─── paused ──cancel──> cancelled                          at the place it had come to
+ *     └─(requeue)─── paused ──cancel──> cancelled                          at the place it had reached
  */
 export const JOB_STATES = [
   "queued",
@@ -20,7 +20,7 @@ export const JOB_STATES = [
 export const jobStateSchema = z.enum(JOB_STATES);
 export type JobState = z.infer<typeof jobStateSchema>;
 
-/** States that a job never leaves: it is history then. */
+/** Final states: the job is history. */
 export const ENDED_STATES: readonly JobState[] = ["done", "failed", "cancelled"];
 
 export const jobStatsSchema = z.object({
@@ -33,7 +33,7 @@ export const jobStatsSchema = z.object({
 });
 export type JobStats = z.infer<typeof jobStatsSchema>;
 
-/** A place in the drawing, as far as the pen has come. */
+/** A place in the drawing that the pen has reached. */
 export const jobPlaceSchema = z.object({
   strokeIndex: z.int().min(0),
   /** mm along that stroke. */
@@ -41,14 +41,14 @@ export const jobPlaceSchema = z.object({
 });
 export type JobPlace = z.infer<typeof jobPlaceSchema>;
 
-/** A stop that the plot has made by itself, until somebody resumes it. */
+/** A stop made by the plot itself, until somebody resumes it. */
 export const plotWaitSchema = z.object({
-  /** Another pen has to be put in. */
+  /** Another pen must be inserted. */
   kind: z.literal("pen"),
   layerName: z.string(),
-  /** Null: no pen has been named for the layer. */
+  /** Null: no pen is assigned to the layer. */
   penName: z.string().nullable(),
-  /** CSS colour of the pen, else of the layer's first line; null when there is none. */
+  /** CSS colour of the pen, or else of the layer's first line; null if there is none. */
   color: z.string().nullable(),
 });
 export type PlotWait = z.infer<typeof plotWaitSchema>;
@@ -61,24 +61,26 @@ export const jobSchema = z.object({
   settings: plotSettingsSchema,
   /** Null until the server has planned it. */
   stats: jobStatsSchema.nullable(),
-  /** What of the file is not drawn, and what the planner had to change. Plain text. */
+  /** What is left out of the drawing, and what the planner had to change. Plain text. */
   warnings: z.array(z.string()),
-  /** Of the plot's time, 0 … 1. */
+  /** Share of the plot's time, 0 … 1. */
   progress: z.number(),
   elapsedS: z.number(),
   remainingS: z.number().nullable(),
-  /** What is happening or what went wrong, for the user; null when there is nothing to say. */
+  /** What is happening or what went wrong, for the user; null if there is nothing to report. */
   message: z.string().nullable(),
-  /** Where it goes on when held or interrupted; null when it begins at the beginning, or is plotting. */
+  /** Where it resumes when held or interrupted; null if it starts at the beginning, or is plotting. */
   place: jobPlaceSchema.nullable().default(null),
   /** Percent of the set speeds, changed while plotting. */
   speedPct: z.number().default(100),
-  /** Seconds that it really took, holds left out; null until it is done. */
+  /** Actual duration in seconds, holds excluded; null until it is done. */
   plottedS: z.number().nullable().default(null),
-  /** What it is likely to take on its plotter: the plan's time, corrected by the plots that this plotter has
-   *  ended. Kept as it was at the start, to be compared with plottedS; null until the job is planned. */
+  /**
+   * Expected duration on its plotter: the plan's time, corrected by this plotter's earlier plots. Not updated
+   * after the start, so that it can be compared with plottedS; null until the job is planned.
+   */
   expectedS: z.number().nullable().default(null),
-  /** What a paused or interrupted job waits for; null when it is held for another reason. */
+  /** What a paused or interrupted job waits for; null if it is held for another reason. */
   wait: plotWaitSchema.nullable().default(null),
   createdAt: z.string(),
   startedAt: z.string().nullable(),

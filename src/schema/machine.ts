@@ -1,4 +1,4 @@
-/** A plotter's profile as it crosses a wire, a disk or a file. */
+/** A plotter's profile, as sent, stored or written to a file. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 import { INPUT_PORTS, type MachineProfile } from "../machines/profile.js";
@@ -9,7 +9,7 @@ const switchInputSchema = z.object({
   pressed: z.union([z.literal(0), z.literal(1)]),
 });
 
-/** The board counts servo positions in 16 bits. */
+/** The board stores servo positions in 16 bits. */
 const servoPosSchema = z.int().min(1).max(65_535);
 
 const ebbControllerSchema = z
@@ -27,8 +27,8 @@ const ebbControllerSchema = z
   });
 
 const profileShape = {
-  /** A file's name too. */
-  id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "small letters, digits and -, 63 at most"),
+  /** Also used as a file name. */
+  id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "lower-case letters, digits and -, at most 63"),
   name: nameSchema(100),
   widthMm: z.number().gt(0).max(5_000),
   heightMm: z.number().gt(0).max(5_000),
@@ -40,7 +40,7 @@ const profileShape = {
   controller: ebbControllerSchema,
 };
 
-/** Profiles of format 1 have the fields of the only controller among those of the machine; format 2 has `controller`. */
+/** In format 1 the controller's fields are among the machine's; format 2 has `controller`. */
 function upgrade(stored: unknown): unknown {
   if (typeof stored !== "object" || stored === null || "controller" in stored) return stored;
   const { microstepMode, servoPosAt0Pct, servoPosAt100Pct, servoPin, homing, ...machine } = stored as Record<
@@ -56,10 +56,10 @@ export const machineProfileSchema = z.preprocess(
   z.object(profileShape),
 ) satisfies z.ZodType<MachineProfile>;
 
-/** One of GET /machines. */
+/** An entry of GET /machines. */
 export const listedMachineSchema = z.object({
   ...profileShape,
-  /** Comes with plotwright; the others can be changed and removed. */
+  /** Comes with plotwright; custom machines can be changed and removed. */
   builtIn: z.boolean(),
 });
 export type ListedMachine = z.infer<typeof listedMachineSchema>;

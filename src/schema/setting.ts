@@ -1,4 +1,4 @@
-/** Schemas made from the settings tables. */
+/** Builds schemas from the settings tables. */
 import { z } from "zod";
 import {
   rangeInWords,

@@ -1,4 +1,4 @@
-/** Settings as they cross a wire, a disk or a file: parsed here, typed as what the library takes. */
+/** Settings as sent, stored or written to a file: parsed here, with the types that the library takes. */
 import { z } from "zod";
 import {
   DEFAULT_MOTION,
@@ -40,7 +40,7 @@ const positive = (max: number) => z.number().gt(0).max(max);
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object(shapeOf(PAPER_TABLE));
 const layerId = z.string().max(500);
-/** More layers than anybody could plot. */
+/** More layers than anyone could plot. */
 const MAX_LAYERS = 10_000;
 const layerIds = z.array(layerId).max(MAX_LAYERS);
 const byLayer = <T extends z.ZodType>(value: T) =>
@@ -115,7 +115,7 @@ export const plotPenSchema = z.object({
   ...shapeOf(PLOT_PEN_TABLE),
 }) satisfies z.ZodType<PlotPen>;
 
-/** Everything that decides what a job puts on paper. Kept whole with every job. */
+/** Everything that determines what a job puts on paper. Stored completely with every job. */
 export const plotSettingsSchema = z.object({
   machine: z.string().min(1).max(100),
   prepare: prepareSettingsSchema,
@@ -126,12 +126,12 @@ export const plotSettingsSchema = z.object({
   penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
   layerStops: byLayer(z.boolean()).default({}),
   /**
-   * Motion that the board is sent ahead of the pen. A board with a queue of one (before firmware 3) plays all of it
-   * after an emergency stop; less than 300 ms stops sooner, but then the pen stands still where the computer is busy
-   * for longer than that.
+   * How much motion is sent to the board ahead of the pen. A board with a queue of one (before firmware 3)
+   * still plays all of it after an emergency stop. Less than 300 ms stops sooner, but then the pen stands
+   * still whenever the computer is busy for longer than that.
    */
   ...shapeWithDefaults(STREAM_TABLE),
-  /** The whole profile of a machine that plotwright does not know by itself; counts when `machine` is its id. */
+  /** The complete profile of a machine that is not built in; used if `machine` is its id. */
   customMachine: machineProfileSchema.nullable().default(null),
 });
 export type PlotSettings = z.infer<typeof plotSettingsSchema>;

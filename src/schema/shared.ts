@@ -1,9 +1,9 @@
-/** Jobs that several servers share: whichever has the plotter for one takes it. */
+/** Jobs that several servers share: a server that has a suitable plotter takes the job. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 import { plotSettingsSchema } from "./settings.js";
 
-/** A plotter by its name, or any plotter that is one machine. */
+/** A plotter by its name, or any plotter of one machine type. */
 export const sharedTargetSchema = z.union([
   z.object({ plotter: nameSchema(100) }),
   z.object({ machine: z.string().min(1).max(100) }),
@@ -18,23 +18,23 @@ export const newSharedJobSchema = z.object({
 });
 export type NewSharedJob = z.infer<typeof newSharedJobSchema>;
 
-/** A server that was not heard of for so long counts as gone. */
+/** A server that has not reported for this long counts as lost. */
 export const SERVER_LOST_AFTER_MS = 60_000;
 
 /**
- * waiting ──> taken ──> stored (in the queue of `server`) | refused (it can't be plotted); waiting ──> withdrawn
- *    ^──────────┴─────────┘ given back, as long as it has not begun, when its server has gone
+ * waiting ──> taken ──> stored (in the queue of `server`) | refused (not plottable); waiting ──> withdrawn
+ *    ^──────────┴─────────┘ returned when its server is lost, unless it has begun
  */
 export const sharedJobSchema = z.object({
   id: z.string(),
   name: z.string(),
   target: z.string(),
   state: z.enum(["waiting", "taken", "stored", "refused", "withdrawn"]),
-  /** Name of the server that has taken it. */
+  /** Name of the server that took it. */
   server: z.string().nullable(),
-  /** When that server was heard of last (ISO 8601); null when it never was. */
+  /** When that server last reported (ISO 8601); null if never. */
   serverSeenAt: z.string().nullable().default(null),
-  /** Its plot has begun there, so that it can't be given back. */
+  /** The plot has begun there, so the job cannot be returned. */
   hasBegun: z.boolean().default(false),
   message: z.string().nullable(),
   createdAt: z.string(),

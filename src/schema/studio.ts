@@ -1,15 +1,18 @@
-/** Of a server that is left alone: its plotters, whom it tells, and how devices pair with it. */
+/** A server that runs unattended: its plotters, its webhooks, and pairing with other devices. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 
-/** "auto": the first EiBotBoard that no other plotter has, else the virtual board; "virtual"; or a serial path. */
+/**
+ * "auto": the first EiBotBoard that no other plotter uses, or else the virtual board; "virtual"; or a serial
+ * path.
+ */
 const deviceChoiceSchema = z.string().trim().min(1).max(500);
 
-/** A board that is plugged into the server. */
+/** A board connected to the server. */
 export const deviceSchema = z.object({
   path: z.string(),
   description: z.string(),
-  /** Id of the plotter that has it. */
+  /** Id of the plotter that uses it. */
   inUseBy: z.string().nullable(),
 });
 export type Device = z.infer<typeof deviceSchema>;
@@ -17,7 +20,7 @@ export type Device = z.infer<typeof deviceSchema>;
 export const newPlotterSchema = z.object({
   name: nameSchema(100),
   device: deviceChoiceSchema,
-  /** Id of a machine profile, taken for moves by hand. */
+  /** Id of a machine profile for moves by hand. */
   machine: z.string().min(1).max(100).nullable().default(null),
 });
 export type NewPlotter = z.input<typeof newPlotterSchema>;
@@ -25,7 +28,7 @@ export type NewPlotter = z.input<typeof newPlotterSchema>;
 export const plotterPatchSchema = z
   .object({
     name: nameSchema(100),
-    /** The plotter connects anew. */
+    /** The plotter reconnects. */
     device: deviceChoiceSchema,
     machine: z.string().min(1).max(100).nullable(),
   })
@@ -42,9 +45,9 @@ export const webhookSchema = z.object({
   url: z.string(),
   events: z.array(webhookEventSchema),
   createdAt: z.string(),
-  /** Deliveries that have not arrived yet and are tried again. */
+  /** Deliveries that have not succeeded yet and are retried. */
   pendingCount: z.int(),
-  /** How the latest try went; null before the first. */
+  /** Result of the latest attempt; null before the first. */
   last: z.object({ at: z.string(), isDelivered: z.boolean(), message: z.string() }).nullable(),
 });
 export type Webhook = z.infer<typeof webhookSchema>;
@@ -56,7 +59,10 @@ export const newWebhookSchema = z.object({
 });
 export type NewWebhook = z.infer<typeof newWebhookSchema>;
 
-/** What is posted to a webhook, with the header `Plotwright-Signature: t=SECONDS,v1=HMAC-SHA256 of "SECONDS.BODY"`. */
+/**
+ * The body of a webhook request; its header is `Plotwright-Signature: t=SECONDS,v1=HMAC-SHA256 of
+ * "SECONDS.BODY"`.
+ */
 export const webhookMessageSchema = z.object({
   id: z.string(),
   event: webhookEventSchema,
@@ -66,16 +72,16 @@ export const webhookMessageSchema = z.object({
     name: z.string(),
     state: z.string(),
     message: z.string().nullable(),
-    /** Layer and pen it waits for, in words. */
+    /** The layer and pen it waits for, in words. */
     wait: z.string().nullable(),
   }),
   plotter: z.object({ id: z.string(), name: z.string() }),
 });
 export type WebhookMessage = z.infer<typeof webhookMessageSchema>;
 
-/** Links that pair another device, and the same as QR codes (SVG text). */
+/** Links for pairing another device, also as QR codes (SVG text). */
 export const pairingSchema = z.object({
-  /** False: the server listens on this computer only, so no other device can use the links. */
+  /** False: the server listens on this computer only, so other devices cannot use the links. */
   isOnLan: z.boolean(),
   operateUrl: z.string(),
   watchUrl: z.string(),

@@ -1,8 +1,8 @@
 /**
- * Kinds of entities that the DXF parser passes over or reads in part: TEXT, ATTRIB, MTEXT and HATCH; LWPOLYLINE, of
- * which it loses vertices, or never ends, where other groups stand between them; and POLYLINE, which it never ends where
- * another entity stands in place of a VERTEX or SEQEND. Read group by group (AutoCAD DXF reference, ENTITIES) and
- * registered with the parser, in whose form they come out.
+ * Handlers for entities that the DXF parser skips or reads only partly: TEXT, ATTRIB, MTEXT and HATCH;
+ * LWPOLYLINE, where it loses vertices or hangs if other groups are between them; and POLYLINE, where it hangs
+ * if another entity takes the place of a VERTEX or SEQEND. They read group by group (AutoCAD DXF reference,
+ * ENTITIES) and return entities in the parser's form.
  */
 import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
 import { aciColor } from "./aci-color.js";
@@ -25,7 +25,7 @@ export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
       const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
       const vertices: DxfPoint[] = [];
       while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
-      // Without its SEQEND the line ends where another entity begins.
+      // Without a SEQEND the line ends where another entity begins.
       if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
       return { ...commonOf("POLYLINE", groups), shape: isClosed, vertices };
     }
@@ -62,7 +62,7 @@ export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
   },
 ];
 
-/** All groups up to the next entity, where the scanner stays. */
+/** All groups up to the next entity, where the scanner stops. */
 function groupsOf(scanner: DxfScanner): DxfGroup[] {
   const groups: DxfGroup[] = [];
   let group = scanner.next();
@@ -70,7 +70,7 @@ function groupsOf(scanner: DxfScanner): DxfGroup[] {
     groups.push(group);
     group = scanner.next();
   }
-  // What an embedded object says repeats the entity's own groups with other values.
+  // An embedded object repeats the entity's own groups with other values.
   const embedded = groups.findIndex(({ code }) => code === 101);
   return embedded < 0 ? groups : groups.slice(0, embedded);
 }
@@ -96,7 +96,7 @@ const vertexOf = (groups: readonly DxfGroup[]): DxfPoint => ({
   splineControlPoint: ((numberIn(groups, 70) ?? 0) & 16) !== 0,
 });
 
-/** What every entity may have, under the parser's own names. */
+/** Properties common to all entities, under the parser's names. */
 function commonOf(type: string, groups: readonly DxfGroup[]): DxfEntity {
   const colorIndex = numberIn(groups, 62);
   const color =
@@ -144,7 +144,7 @@ function mtextOf(groups: readonly DxfGroup[]): DxfEntity {
   return {
     ...commonOf("MTEXT", groups),
     paragraphs: {
-      // Long texts come in pieces, the last of them under 1.
+      // Long texts are split into pieces; the last has code 1.
       text: groups
         .filter(({ code }) => code === 1 || code === 3)
         .map(({ value }) => String(value))

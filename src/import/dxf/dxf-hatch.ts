@@ -1,6 +1,6 @@
 /**
- * The boundaries of a HATCH: polylines, or chains of lines, arcs and splines that may stand either way round
- * (AutoCAD DXF reference, HATCH and its boundary path data). Each becomes a closed ring.
+ * The boundaries of a HATCH: polylines, or chains of lines, arcs and splines in either direction (AutoCAD DXF
+ * reference, HATCH and its boundary path data). Each becomes a closed ring.
  */
 import type { DxfEntity, DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC } from "../../drawing/drawing.js";
@@ -8,13 +8,13 @@ import { IDENTITY } from "../../geometry/affine.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 
-/** The edges of a ring, as entities; a polyline is one of them alone. */
+/** The edges of a ring, as entities; a polyline is a single one. */
 export type HatchLoop = readonly DxfEntity[];
 
 const LOOP = 92;
 const IS_POLYLINE = 2;
 const EDGE = 72;
-/** The paths stand between their count and the style of the hatch. */
+/** The paths are between their count and the style of the hatch. */
 const PATH_COUNT = 91;
 const STYLE = 75;
 const TURN = 2 * Math.PI;
@@ -33,15 +33,18 @@ export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
   );
 }
 
-/** Style 1 leaves out what is inside of islands, 2 all islands: 1 marks an outer loop, 16 an outermost island. */
+/**
+ * Style 1 ignores everything inside islands, style 2 all islands: flag 1 marks an outer loop, 16 an outermost
+ * island.
+ */
 function ofStyle(paths: readonly DxfGroup[][], style: number): readonly DxfGroup[][] {
   const marks = style === 1 ? 1 | 16 : style === 2 ? 1 : 0;
   const kept = paths.filter(([flags]) => marks === 0 || (Number(flags.value) & marks) !== 0);
-  // Not every program marks its loops.
+  // Some programs do not mark their loops.
   return kept.length > 0 ? kept : paths;
 }
 
-/** Stretches that begin with a group of that code; what is before the first is dropped. */
+/** Splits before each group with that code; groups before the first are dropped. */
 function splitAt(groups: readonly DxfGroup[], code: number): DxfGroup[][] {
   const parts: DxfGroup[][] = [];
   for (const group of groups) {
@@ -51,7 +54,7 @@ function splitAt(groups: readonly DxfGroup[], code: number): DxfGroup[][] {
   return parts;
 }
 
-/** Vertices as 10, 20 and 42, whatever stands between them. */
+/** Vertices from codes 10, 20 and 42; other groups between them are ignored. */
 export const bulgedVertices = (groups: readonly DxfGroup[]): DxfPoint[] =>
   splitAt(groups, 10).map((vertex) => ({
     x: Number(vertex[0].value),
@@ -89,7 +92,10 @@ function edgeOf([kind, ...groups]: readonly DxfGroup[]): DxfEntity | null {
   }
 }
 
-/** In the ellipse's own parameter, anticlockwise; the file counts those of clockwise arcs the other way round. */
+/**
+ * As the ellipse's parameter, anticlockwise; the file gives the angles of clockwise arcs in the opposite
+ * direction.
+ */
 function anglesOf(groups: readonly DxfGroup[], axisRatio: number): { startAngle: number; endAngle: number } {
   const [start = 0] = numbersOf(groups, 50);
   const [end = 360] = numbersOf(groups, 51);
@@ -112,7 +118,7 @@ function pointsOf(groups: readonly DxfGroup[], code: number): DxfPoint[] {
   return numbersOf(groups, code).map((x, i) => ({ x, y: ys[i] ?? 0 }));
 }
 
-/** Draws each loop as a closed ring; units of the file, y up. */
+/** Draws each loop as a closed ring, in the file's units, y up. */
 export function drawHatch(loops: readonly HatchLoop[], shape: ShapeBuffer, arcTolerance: number): void {
   for (const loop of loops) {
     const chain: Piece[] = [];
@@ -120,7 +126,7 @@ export function drawHatch(loops: readonly HatchLoop[], shape: ShapeBuffer, arcTo
       const drawn = new ShapeBuffer();
       drawDxfEntity(edge, drawn, arcTolerance);
       drawn.finish();
-      // A polyline or whole circle is a ring of its own.
+      // A polyline or full circle is a ring by itself.
       if (drawn.verbs.data[drawn.verbs.length - 1] === VERB_CLOSE) shape.append(drawn, IDENTITY);
       else if (!drawn.isEmpty) chain.push(pieceOf(drawn));
     }
@@ -128,7 +134,7 @@ export function drawHatch(loops: readonly HatchLoop[], shape: ShapeBuffer, arcTo
   }
 }
 
-/** A chain of lines and curves, which may be turned round. */
+/** A chain of lines and curves, which can be reversed. */
 interface Piece {
   readonly verbs: readonly number[];
   readonly points: readonly DxfPoint[];
@@ -142,7 +148,7 @@ function pieceOf({ verbs, coords }: ShapeBuffer): Piece {
   };
 }
 
-const turned = ({ verbs, points }: Piece): Piece => ({
+const reversed = ({ verbs, points }: Piece): Piece => ({
   verbs: [...verbs].reverse(),
   points: [...points].reverse(),
 });
@@ -151,16 +157,16 @@ const distance = (a: DxfPoint, b: DxfPoint): number => Math.hypot(a.x - b.x, a.y
 const first = ({ points }: Piece): DxfPoint => points[0];
 const last = ({ points }: Piece): DxfPoint => points[points.length - 1];
 
-/** Each piece the way round in which it goes on from the one before. */
+/** Draws each piece in the direction that continues from the previous one. */
 function drawRing(chain: readonly Piece[], shape: ShapeBuffer): void {
   if (chain.length === 0) return;
   let [piece, next] = chain;
-  if (next !== undefined && gapTo(next, first(piece)) < gapTo(next, last(piece))) piece = turned(piece);
+  if (next !== undefined && gapTo(next, first(piece)) < gapTo(next, last(piece))) piece = reversed(piece);
   shape.moveTo(first(piece).x, first(piece).y);
   addPiece(piece, shape);
   for (next of chain.slice(1)) {
     const end = last(piece);
-    piece = distance(end, last(next)) < distance(end, first(next)) ? turned(next) : next;
+    piece = distance(end, last(next)) < distance(end, first(next)) ? reversed(next) : next;
     if (distance(end, first(piece)) > 0) shape.lineTo(first(piece).x, first(piece).y);
     addPiece(piece, shape);
   }
@@ -170,7 +176,7 @@ function drawRing(chain: readonly Piece[], shape: ShapeBuffer): void {
 const gapTo = (piece: Piece, point: DxfPoint): number =>
   Math.min(distance(first(piece), point), distance(last(piece), point));
 
-/** From its first point, where the pen is. */
+/** The pen is at the piece's first point. */
 function addPiece({ verbs, points }: Piece, shape: ShapeBuffer): void {
   let at = 1;
   for (const verb of verbs) {

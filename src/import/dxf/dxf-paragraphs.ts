@@ -1,10 +1,10 @@
 /**
- * MTEXT of a DXF as letters: its runs in lines, the lines one below the other (AutoCAD DXF reference, MTEXT). Lengths
- * in the file's units, y up; 0, 0 is the point at which the text is attached.
+ * MTEXT of a DXF as letters: its runs in lines, the lines one below the other (AutoCAD DXF reference, MTEXT).
+ * Lengths in the file's units, y up; 0, 0 is the attachment point of the text.
  *
  *   ┌ top of the first line: its tallest letters
- *   │ a stack  ½  reaches over the base line by its alignment: on it, about its middle, or hanging
- *   └ lines are 5/3 of their letters' height apart, times the spacing, and further where stacks would meet
+ *   │ a stack  ½  is aligned with its line: on the baseline, centred, or hanging from the top
+ *   └ line distance is 5/3 of the letters' height, times the spacing; more where stacks would touch
  */
 import type { DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
@@ -18,25 +18,25 @@ export interface DxfParagraphs {
   readonly text: string;
   readonly style: string;
   readonly height: number;
-  /** Lines are broken at this; 0 for never. */
+  /** Max line width; 0 for no line breaks. */
   readonly width: number;
   readonly angleDeg: number;
   readonly at: DxfPoint;
   /** 1 … 9: top left, top centre … bottom right. */
   readonly attachment: number;
-  /** Times the usual distance of lines. */
+  /** Factor on the usual line distance. */
   readonly lineSpacing: number;
 }
 
-/** Letters by their colour (null: the text's own), and the characters that the font has not. */
+/** Letters by their colour (null: the text's own), and the characters that are missing in the font. */
 export interface DrawnParagraphs {
   readonly shapes: ReadonlyMap<number | null, ShapeBuffer>;
   readonly missing: readonly string[];
 }
 
-/** Distance of baselines over the height of capitals. */
+/** Distance of baselines, as a multiple of the capitals' height. */
 const LINE_DISTANCE = 5 / 3;
-/** Between the parts of a stack, and beside its bar; times the height. */
+/** Gap between the parts of a stack, and margin beside its bar; times the height. */
 const STACK_GAP = 0.4;
 const BAR_MARGIN = 0.1;
 const RAD_PER_DEG = Math.PI / 180;
@@ -46,7 +46,7 @@ const LONGEST = 10_000;
 interface Piece {
   readonly format: MtextFormat;
   readonly width: number;
-  /** Over its own foot. */
+  /** Above its own foot. */
   readonly height: number;
   /** Lines of letters, from the foot of the piece. */
   readonly letters: readonly { readonly line: TextLine; readonly x: number; readonly y: number }[];
@@ -60,7 +60,7 @@ interface Line {
   readonly isFirst: boolean;
   readonly pieces: readonly Piece[];
   readonly width: number;
-  /** Of its letters; where it has none, of the text. */
+  /** Height of its letters, or of the text if it has none. */
   readonly height: number;
 }
 
@@ -100,13 +100,13 @@ export function drawDxfParagraphs(text: DxfParagraphs, font: TextFont): DrawnPar
   return { shapes, missing };
 }
 
-/** What a line leaves free on both sides, times the text's height. */
+/** Indents on both sides of a line, times the text's height. */
 const indentOf = ({
   paragraph: { left, right, first },
   isFirst,
 }: Pick<Line, "paragraph" | "isFirst">): number => left + right + (isFirst ? first : 0);
 
-/** Left end of a line, from the attached point: within what the indents leave of the text's width. */
+/** Left end of a line, relative to the attachment point, inside the indents. */
 function startOf(line: Line, textHeight: number, boxWidth: number, attached: number): number {
   const { align, right } = line.paragraph;
   const share = align === null ? attached : align === "left" ? 0 : align === "center" ? 0.5 : 1;
@@ -115,7 +115,7 @@ function startOf(line: Line, textHeight: number, boxWidth: number, attached: num
   return before + share * free - attached * boxWidth;
 }
 
-/** How far over the base line a piece has its foot. */
+/** Height of a piece's foot above the baseline. */
 const footOf = ({ format, height }: Piece, line: Line): number =>
   (format.valign / 2) * (line.height - height);
 
@@ -132,7 +132,7 @@ function drawPiece({ format, letters, bar }: Piece, at: Affine, shape: ShapeBuff
   shape.append(one, at);
 }
 
-/** The paragraph in lines of at most the text's width. A word longer than that has a line of its own. */
+/** Breaks the paragraph into lines of at most the text's width. A longer word gets a line of its own. */
 function linesOf(paragraph: MtextParagraph, text: DxfParagraphs, font: TextFont, missing: string[]): Line[] {
   const lines: Piece[][] = [[]];
   const room = (): number =>
@@ -161,14 +161,14 @@ function linesOf(paragraph: MtextParagraph, text: DxfParagraphs, font: TextFont,
 
 const widthOf = (pieces: readonly Piece[]): number => pieces.reduce((sum, { width }) => sum + width, 0);
 
-/** Where a line was broken, the blanks before that are none of its width. */
+/** Blanks before a line break do not count towards the line's width. */
 function withoutBlankEnd(pieces: readonly Piece[], isBroken: boolean): readonly Piece[] {
   let end = pieces.length;
   while (isBroken && end > 0 && pieces[end - 1].isBlank) end--;
   return pieces.slice(0, end);
 }
 
-/** Pieces that stand together: blanks by themselves, and what is between them. */
+/** Groups pieces into words: blanks, and the pieces between them. */
 function wordsOf(pieces: readonly Piece[]): Piece[][] {
   const words: Piece[][] = [];
   for (const piece of pieces) {
@@ -209,7 +209,7 @@ function piecesOf(
   });
 }
 
-/** Wider apart, or nearer. */
+/** Applies letter tracking. */
 function tracked(line: TextLine, tracking: number): TextLine {
   if (tracking === 1) return line;
   let pen = 0;
@@ -221,7 +221,7 @@ function tracked(line: TextLine, tracking: number): TextLine {
   return { ...line, letters, width: pen };
 }
 
-/** One over the other: with a bar, side by side with a slash, or flush left as tolerances are. */
+/** One part above the other with a bar; side by side with a slash; or flush left, as tolerances are. */
 function stackOf(
   over: TextLine,
   under: TextLine,

@@ -1,4 +1,7 @@
-/** The bundled build: its own types would bring Node's into this folder. Only what import-dxf reads. */
+/**
+ * The bundled build, with only what import-dxf reads: the package's own types would require Node's types in
+ * this folder.
+ */
 declare module "dxf-parser/dist/dxf-parser.js" {
   export interface DxfPoint {
     readonly x: number;
@@ -17,7 +20,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
   }
   export interface DxfHandler {
     readonly ForEntityName: string;
-    /** Leaves the scanner on the group that begins the next entity. */
+    /** Leaves the scanner at the group that begins the next entity. */
     parseEntity(scanner: DxfScanner): DxfEntity;
   }
   export interface DxfEntity {
@@ -53,7 +56,7 @@ declare module "dxf-parser/dist/dxf-parser.js" {
     readonly rowSpacing?: number;
     readonly extrusionDirection?: { readonly z: number };
     readonly extrusionDirectionZ?: number;
-    /** What our own handlers add, of TEXT and ATTRIB, of MTEXT, and of HATCH. */
+    /** Added by plotwright's handlers, for TEXT and ATTRIB, for MTEXT, and for HATCH. */
     readonly writing?: import("./dxf-text.js").DxfWriting;
     readonly paragraphs?: import("./dxf-paragraphs.js").DxfParagraphs;
     readonly isSolid?: boolean;

@@ -1,14 +1,15 @@
 /**
- * The pattern of a HATCH as the lines that it is made of: families of parallel lines, each dashed in its own way, cut
- * to the boundary (AutoCAD DXF reference, hatch pattern data). The file has angles, offsets and dashes as they
- * lie in the drawing, turned and scaled.
+ * The pattern of a HATCH as lines: families of parallel lines, each with its own dashes, cut to the boundary
+ * (AutoCAD DXF reference, hatch pattern data). The file stores angles, offsets and dashes already rotated and
+ * scaled.
  *
- *        ╱     ╱         o     base point of the line that is number 0
- *       ╱  ↗  ╱          ↗     offset to the next line: spacing across it, and the shift of its dashes along it
+ *        ╱     ╱         o     base point of line 0
+ *       ╱  ↗  ╱          ↗     offset to the next line: spacing across, and shift of the dashes along it
  *      o     ╱           u, v  along the lines and across them; line k is v = v(base) + k · spacing
  *
- * Method: edges of the boundary, curves as chords, are cut by the lines that they cross; the cuts of each line sorted,
- * inside and outside alternate (even-odd, as for islands). Dashes count from the line's own point.
+ * Method: the edges of the boundary, with curves as chords, are intersected with the lines; the crossings of
+ * each line are sorted; inside and outside alternate (even-odd, as for islands). Dashes start at the line's
+ * own base point.
  */
 import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../../drawing/drawing.js";
@@ -21,21 +22,21 @@ export interface PatternLine {
   readonly angleDeg: number;
   readonly base: DxfPoint;
   readonly offset: DxfPoint;
-  /** Drawn, and negative left out; 0 is a dot. None: the line is whole. */
+  /** Dash lengths: positive is drawn, negative is a gap, 0 a dot. Empty: a solid line. */
   readonly dashes: readonly number[];
 }
 
 const LINE_COUNT = 78;
 const LINE = 53;
 const RAD_PER_DEG = Math.PI / 180;
-/** Lines and dashes of one hatch: beyond that it is a mistake in the scale, or as good as a filled area. */
-const MOST_PIECES = 200_000;
+/** Max lines and dashes of one hatch: more is a wrong scale, or as dense as a filled area. */
+const MAX_PIECES = 200_000;
 
 export function readPattern(groups: readonly DxfGroup[]): PatternLine[] {
   const from = groups.findIndex(({ code }) => code === LINE_COUNT);
   const lines: { angleDeg: number; values: Map<number, number>; dashes: number[] }[] = [];
   for (const { code, value } of from < 0 ? [] : groups.slice(from + 1)) {
-    // What follows the pattern: its seeds.
+    // The seed points follow the pattern.
     if (code === 98) break;
     const number = Number(value);
     if (code === LINE) lines.push({ angleDeg: number, values: new Map(), dashes: [] });
@@ -50,7 +51,7 @@ export function readPattern(groups: readonly DxfGroup[]): PatternLine[] {
   }));
 }
 
-/** Draws the pattern within the rings; false, and nothing drawn, where it has no lines or too many of them. */
+/** Draws the pattern within the rings; returns false, and draws nothing, if it has no lines or too many. */
 export function drawPattern(
   rings: ShapeBuffer,
   pattern: readonly PatternLine[],
@@ -61,12 +62,12 @@ export function drawPattern(
   const cuts = pattern.map((line) => cutsOf(polygons, line));
   let pieces = 0;
   for (const cut of cuts) pieces += cut === null ? Infinity : cut.pieces;
-  if (pattern.length === 0 || polygons.length === 0 || !(pieces <= MOST_PIECES)) return false;
+  if (pattern.length === 0 || polygons.length === 0 || !(pieces <= MAX_PIECES)) return false;
   for (const cut of cuts) if (cut !== null) drawCuts(cut, shape);
   return true;
 }
 
-/** Corners x, y of each ring; tolerance in the file's units. */
+/** Points x, y of each ring; tolerance in the file's units. */
 function polygonsOf({ verbs, coords }: ShapeBuffer, tolerance: number): Float64Array[] {
   const polygons: Float64Array[] = [];
   const out = new PointBuffer();
@@ -88,20 +89,20 @@ function polygonsOf({ verbs, coords }: ShapeBuffer, tolerance: number): Float64A
   return polygons;
 }
 
-/** Where lines of one family cross the boundary: by number of the line, the u of its cuts. */
+/** Crossings of one family's lines with the boundary: u values by line number. */
 interface Cuts {
   readonly line: PatternLine;
   readonly cos: number;
   readonly sin: number;
   readonly spacing: number;
-  /** Of a dash to the same dash of its next turn; 0 for whole lines. */
+  /** Length after which the dashes repeat; 0 for solid lines. */
   readonly period: number;
   readonly byLine: ReadonlyMap<number, readonly number[]>;
-  /** Lines and dashes that it comes to, at most. */
+  /** Max number of lines and dashes it produces. */
   readonly pieces: number;
 }
 
-/** Null where lines lie on each other, or would be too many to count. */
+/** Null if the lines coincide, or would be too many to count. */
 function cutsOf(polygons: readonly Float64Array[], line: PatternLine): Cuts | null {
   const { base, offset, angleDeg, dashes } = line;
   const [cos, sin] = [Math.cos(angleDeg * RAD_PER_DEG), Math.sin(angleDeg * RAD_PER_DEG)];
@@ -114,10 +115,10 @@ function cutsOf(polygons: readonly Float64Array[], line: PatternLine): Cuts | nu
       const [u0, k0] = [xy[q] - base.x, xy[q + 1] - base.y];
       const [u1, k1] = [xy[p] - base.x, xy[p + 1] - base.y];
       const [n0, n1] = [(k0 * cos - u0 * sin) / spacing, (k1 * cos - u1 * sin) / spacing];
-      // A corner on a line counts for the edge on one side of it only.
+      // A vertex on a line counts for only one of its two edges.
       const [first, end] = [Math.ceil(Math.min(n0, n1)), Math.ceil(Math.max(n0, n1))];
       count += end - first;
-      if (!(count <= 2 * MOST_PIECES)) return null;
+      if (!(count <= 2 * MAX_PIECES)) return null;
       const [along0, along1] = [u0 * cos + k0 * sin, u1 * cos + k1 * sin];
       for (let k = first; k < end; k++) {
         const u = along0 + ((k - n0) / (n1 - n0)) * (along1 - along0);
@@ -154,7 +155,7 @@ function drawCuts({ line, cos, sin, spacing, period, byLine }: Cuts, shape: Shap
   }
 }
 
-/** What of the dashes that begin at `origin` lies between two cuts. */
+/** Draws the dashes, which start at `origin`, between two crossings. */
 function drawDashes(
   dashes: readonly number[],
   period: number,

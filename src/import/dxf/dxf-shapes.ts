@@ -3,10 +3,10 @@ import type { DxfEntity, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { drawCentreArc, drawSvgArc } from "../arc.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 
-/** Steps in a span of a spline whose degree no Bézier of ours has. */
+/** Steps per span of a spline whose degree cannot be drawn as a Bézier. */
 const STEPS_PER_SPAN = 32;
 
-/** Draws the entity; false where its kind has no lines of its own. */
+/** Draws the entity; returns false if its type has no lines of its own. */
 export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: number): boolean {
   switch (entity.type) {
     case "LINE":
@@ -22,7 +22,7 @@ export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcToleranc
     case "SOLID":
     case "3DFACE": {
       const [a, b, c, d] = entity.points ?? entity.vertices ?? [];
-      // A SOLID's third and fourth corner are crossed.
+      // A SOLID's third and fourth corners are swapped.
       const corners = entity.type === "SOLID" && d !== undefined ? [a, b, d, c] : [a, b, c, d];
       drawVertices(
         corners.filter((corner) => corner !== undefined),
@@ -51,7 +51,7 @@ export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcToleranc
 }
 
 /**
- * Vertices with bulges: the tangent of a quarter of the arc's angle, positive anticlockwise.
+ * Vertices with bulges: a bulge is the tangent of a quarter of the arc's angle, positive anticlockwise.
  * Radius = chord (1 + b²) / (4 |b|).
  */
 function drawVertices(
@@ -98,7 +98,7 @@ function drawDxfEllipse(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: num
     drawArcOf(shape, center, rx, rx * axisRatio, Math.atan2(axis.y, axis.x), start, sweep, arcTolerance);
 }
 
-/** Anticlockwise from start to end; a whole turn where they coincide. */
+/** Anticlockwise angle from start to end; a full turn if they coincide. */
 function turnBetween(start: number, end: number): number {
   const turn = (end - start) % (2 * Math.PI);
   return turn > 1e-9 ? turn : turn + 2 * Math.PI;
@@ -142,8 +142,8 @@ function drawSpline(entity: DxfEntity, shape: ShapeBuffer): void {
 }
 
 /**
- * Each span of a B-spline is a Bézier curve whose control points are its blossom at
- * u_i … u_i, u_{i+1} … u_{i+1} (Ramshaw 1987): exact for degrees 1 to 3.
+ * Each span of a B-spline is a Bézier curve whose control points are its blossom at u_i … u_i, u_{i+1} …
+ * u_{i+1} (Ramshaw 1987): exact for degrees 1 to 3.
  */
 function drawBSpline(
   points: readonly DxfPoint[],
@@ -172,7 +172,7 @@ function drawBSpline(
   }
 }
 
-/** de Boor's scheme with an argument of its own on each level. */
+/** de Boor's algorithm with a separate argument on each level. */
 function blossom(
   points: readonly DxfPoint[],
   knots: readonly number[],
@@ -199,7 +199,7 @@ function blossom(
   return [x[degree], y[degree]];
 }
 
-/** A smooth curve through points where the file has no control points (Catmull–Rom). */
+/** A smooth curve through points, for files without control points (Catmull–Rom). */
 function drawThrough(points: readonly DxfPoint[], isClosed: boolean, shape: ShapeBuffer): void {
   const n = points.length;
   if (n === 0) return;

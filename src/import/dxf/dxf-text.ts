@@ -1,9 +1,9 @@
 /**
- * TEXT and ATTRIB of a DXF as letters: what is written, and where it stands (AutoCAD DXF reference, TEXT). Lengths in
- * the file's units, y up.
+ * TEXT and ATTRIB of a DXF as letters: content and position (AutoCAD DXF reference, TEXT). Lengths in the
+ * file's units, y up.
  *
  *   ┌ top ───────── capitals' height ┐
- *   │ middle                         │ height        the size of letters is told by their capitals
+ *   │ middle                         │ height        text height is the height of capitals
  *   └ baseline ──────────────────────┘
  *     bottom: as far below as a "g" reaches
  */
@@ -25,9 +25,9 @@ export interface DxfWriting {
   readonly isBackward: boolean;
   readonly isUpsideDown: boolean;
   readonly start: DxfPoint;
-  /** What an aligned text stands at, or where one between two points ends. */
+  /** The alignment point, or the end of a text between two points. */
   readonly end: DxfPoint | null;
-  /** 0 left, 1 centre, 2 right, 3 aligned between two points, 4 middle of all, 5 fitted between two points. */
+  /** 0 left, 1 centre, 2 right, 3 aligned between two points, 4 middle, 5 fitted between two points. */
   readonly halign: number;
   /** 0 baseline, 1 bottom, 2 middle, 3 top. */
   readonly valign: number;
@@ -36,7 +36,7 @@ export interface DxfWriting {
 const RAD_PER_DEG = Math.PI / 180;
 const LONGEST = 10_000;
 
-/** Draws the text; answers the characters that the font has not. */
+/** Draws the text; returns the characters that are missing in the font. */
 export function drawDxfWriting(text: DxfWriting, font: TextFont, shape: ShapeBuffer): readonly string[] {
   const line = layOutLine(font, plainText(text.text).slice(0, LONGEST), text.style);
   drawLine(line, mapOfWriting(text, line), shape);

@@ -1,9 +1,7 @@
-// Ambient declarations are only seen where a program names them, and ours has several programs.
-// eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./dxf-parser.d.ts" />
+// Ambient declarations apply only where a program includes them, and this project has several programs.
 /**
- * DXF (the text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
- * solids, hatches as filled shapes or the lines of their pattern, texts and blocks, by layer. y is turned over, and the
+ * DXF (text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
+ * solids, hatches as filled shapes or as pattern lines, texts and blocks, by layer. y is flipped, and the
  * page is the drawing's own extent.
  */
 import DxfParser, { type Dxf, type DxfEntity, type DxfLayer } from "dxf-parser/dist/dxf-parser.js";
@@ -33,7 +31,7 @@ import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
 import { Warnings } from "../warnings.js";
 
-/** mm of each value of $INSUNITS that drawings have (AutoCAD DXF reference, HEADER). */
+/** mm per unit for the values of $INSUNITS that drawings use (AutoCAD DXF reference, HEADER). */
 const MM_OF_UNIT: Readonly<Record<number, number>> = {
   1: MM_PER_INCH,
   2: 12 * MM_PER_INCH,
@@ -47,13 +45,13 @@ const MM_OF_UNIT: Readonly<Record<number, number>> = {
   13: 0.001,
   14: 100,
 };
-/** Tables in which the parser waits for their end without reading on. */
+/** Tables in which the parser loops forever if they have no end. */
 const ENDLESS_TABLES: readonly string[] = ["LAYER", "VPORT"];
 const MAX_BLOCK_DEPTH = 16;
 const MAX_ENTITIES = 1_000_000;
-/** mm: what an arc may be off in a drawing of unknown size; far under any pen. */
+/** mm: max error of an arc in a drawing of unknown size; far below any pen width. */
 const ARC_TOLERANCE_MM = 2e-5;
-/** mm: what the ends of hatch lines may be off a round border. */
+/** mm: max error of the ends of hatch lines at a curved border. */
 const CHORD_TOLERANCE_MM = 1e-3;
 const BY_BLOCK = 0;
 const BLACK_OR_WHITE = 7;
@@ -71,22 +69,22 @@ export function importDxf(text: string, options: ImportOptions): Drawing {
 }
 
 /**
- * A DXF is groups of two lines, the first of them a number. Where a line is lost or added the parser would take
- * values for numbers and the other way round, to the end of the file. In the tables of layers and of views it waits for
- * ever where anything but the next record stands.
+ * A DXF consists of groups of two lines, the first of them a number. After a lost or added line the parser
+ * would confuse codes and values to the end of the file. In the tables of layers and views it loops forever
+ * at anything but the next record.
  */
 function checkGroups(text: string): void {
-  // Split as the parser does it: it must not see other groups than those that are checked here.
+  // Split as the parser does, so that it sees exactly the groups checked here.
   const lines = text.split(/\r\n|\r|\n/);
   let previous = "";
-  /** Kind of the records of the table that this is in. */
+  /** Type of the records in the current table. */
   let records: string | null = null;
   for (let at = 0; at < lines.length; at += 2) {
     const code = lines[at].trim();
     const value = (lines[at + 1] ?? "").trim();
     if (!/^-?\d{1,4}$/.test(code)) {
       if (code === "" && isBlankFrom(lines, at)) return;
-      throw damagedAt(at, `"${code.slice(0, 20)}" is no group code`);
+      throw damagedAt(at, `"${code.slice(0, 20)}" is not a group code`);
     }
     const isStart = Number(code) === 0;
     if (records !== null && isStart) {
@@ -106,7 +104,7 @@ function isBlankFrom(lines: readonly string[], from: number): boolean {
 const damagedAt = (line: number, what: string): PlotwrightError =>
   new PlotwrightError(
     "bad-file",
-    `The DXF is damaged at line ${line + 1}: ${what}. Save it again, best as DXF R12 or 2000.`,
+    `The DXF is damaged at line ${line + 1}: ${what}. Save it again, preferably as DXF R12 or 2000.`,
   );
 
 function parse(text: string): Dxf {
@@ -123,7 +121,7 @@ function parse(text: string): Dxf {
   const why = cause instanceof Error ? cause.message : "it has no ENTITIES section";
   throw new PlotwrightError(
     "bad-file",
-    `The DXF is damaged: ${why.slice(0, 200)}. Save it again, best as DXF R12 or 2000.`,
+    `The DXF is damaged: ${why.slice(0, 200)}. Save it again, preferably as DXF R12 or 2000.`,
     { cause },
   );
 }
@@ -133,16 +131,16 @@ interface Pending {
   next: number;
   readonly map: Affine;
   readonly depth: number;
-  /** Entities on layer 0 of a block, and colours "by block", are those of the insert. */
+  /** Entities on layer 0 of a block, and colours "by block", take those of the insert. */
   readonly insert: DxfEntity | null;
 }
 
-/** How what was drawn is painted, and what is to be said of it once its place is known. */
+/** How the drawn shape is painted, and what to report once its place is known. */
 interface Paint {
   readonly isLine: boolean;
   readonly isFilled: boolean;
   readonly report?: (box?: Box) => void;
-  /** What is in colours of its own, 0xrrggbb, besides what is in the entity's. */
+  /** Parts in their own colours, 0xrrggbb, besides those in the entity's colour. */
   readonly colored?: readonly (readonly [number, ShapeBuffer])[];
 }
 
@@ -157,7 +155,7 @@ class DxfImport {
 
   constructor(
     private readonly dxf: Dxf,
-    /** What text is drawn with; null where it is only to be reported. */
+    /** The font for text; null if text is only reported. */
     private readonly font: TextFont | null,
   ) {
     this.layers = dxf.tables?.layer?.layers ?? {};
@@ -189,13 +187,13 @@ class DxfImport {
     return mm;
   }
 
-  /** Copies of blocks count too: many of an empty one take memory as well. */
+  /** Copies of blocks count too: even many copies of an empty block take memory. */
   private count(added: number): void {
     this.entityCount += added;
     if (this.entityCount <= MAX_ENTITIES) return;
     throw new PlotwrightError(
       "bad-file",
-      `The blocks in this DXF come to more than ${MAX_ENTITIES} objects. Explode and thin them out first.`,
+      `The blocks in this DXF expand to more than ${MAX_ENTITIES} objects. Explode and thin them out first.`,
     );
   }
 
@@ -214,7 +212,7 @@ class DxfImport {
       return;
     }
     if (entity.type === "ATTDEF") {
-      // In a block it only says what to ask for; what was answered is an ATTRIB.
+      // In a block it only defines a prompt; the value is an ATTRIB.
       if (from.depth === 0) this.warnings.add("text-not-drawn");
       return;
     }
@@ -243,7 +241,7 @@ class DxfImport {
     paint.report?.(count > before ? this.builder.boxOfShapes(before, count) : undefined);
   }
 
-  /** Into `shape`; null for what is not drawn. */
+  /** Draws into `shape`; returns null if the entity is not drawn. */
   private draw(entity: DxfEntity, scale: number): Paint | null {
     const { shape, warnings } = this;
     const arcTolerance = ARC_TOLERANCE_MM / scale;
@@ -255,7 +253,7 @@ class DxfImport {
     return null;
   }
 
-  /** A pattern is drawn as the lines that it is made of; without any it is a filled shape. */
+  /** A pattern is drawn as its lines; a hatch without one is a filled shape. */
   private drawHatch(
     { loops = [], pattern = [], isSolid }: DxfEntity,
     arcTolerance: number,
@@ -349,12 +347,12 @@ class DxfImport {
     const hasOwn = own?.color !== undefined && own.colorIndex !== 256;
     const index = hasOwn ? own.colorIndex : layer?.colorIndex;
     const color = (hasOwn ? own.color : layer?.color) ?? 0;
-    // Index 7 is whichever of black and white the background is not.
+    // Index 7 is black or white, whichever contrasts with the background.
     if (index === BLACK_OR_WHITE || index === -BLACK_OR_WHITE || !Number.isFinite(color)) return "#000000";
     return hexColor(color);
   }
 
-  /** Kinds that the parser passes over without a word. */
+  /** Reports entity types that the parser skips silently. */
   private reportUnread(text: string): void {
     const start = text.search(/^\s*ENTITIES\s*$/m);
     if (start < 0) return;
@@ -368,6 +366,6 @@ class DxfImport {
   }
 }
 
-/** Written so that NaN is one. */
+/** NaN counts as 1. */
 const copiesOf = (count = 1): number => (count >= 1 ? Math.min(1000, count) : 1);
 const hexColor = (color: number): string => `#${(color & 0xffffff).toString(16).padStart(6, "0")}`;

@@ -1,29 +1,28 @@
 /**
- * What is written in an MTEXT, taken apart: paragraphs of runs, each in its own format (Autodesk, "Format codes for
- * multiline text"; ezdxf, "MTEXT Internals"). Braces hold a format together; what is not known is left out, and
- * never its letters.
+ * Parses MTEXT: paragraphs of runs, each in its own format (Autodesk, "Format codes for multiline text";
+ * ezdxf, "MTEXT Internals"). Braces limit the scope of a format. Unknown codes are dropped, but never text.
  *
- *   \P \N \X ^J  a new paragraph          \Hv; \Hvx;  height, or times it        \S1/2; 1#2 1^2   stacked
- *   \pqc,i1,l2;  centred, indented        \Wv; \Tv;   width, tracking            \An;  on the base, middle, top
+ *   \P \N \X ^J  a new paragraph          \Hv; \Hvx;  height, or factor        \S1/2; 1#2 1^2   stacked
+ *   \pqc,i1,l2;  centred, indented        \Wv; \Tv;   width, tracking            \An;  baseline, middle, top
  *   \Cn; \cn;    colour, by index or RGB  \Qv;        slant, degrees             \f \F font  \L \O \K lines: not drawn
  */
 import { aciColor } from "./aci-color.js";
 
 export interface MtextFormat {
-  /** Of capitals, in the units of the file. */
+  /** Height of capitals, in the file's units. */
   readonly height: number;
   readonly widthFactor: number;
   readonly tracking: number;
   readonly slantDeg: number;
   /** 0xrrggbb; null for the entity's own. */
   readonly color: number | null;
-  /** Name of a font; "" for that of the text's style. */
+  /** Font name; "" for the font of the text's style. */
   readonly font: string;
-  /** 0 stands on the base line, 1 in the middle, 2 hangs from the top of its line. */
+  /** 0 on the baseline, 1 centred, 2 hanging from the top of its line. */
   readonly valign: number;
 }
 
-/** A stretch of text in one format; or two stacked parts with a bar, a slash, or nothing between them. */
+/** A piece of text in one format; or two stacked parts with a bar, a slash, or nothing between them. */
 export interface MtextRun {
   readonly format: MtextFormat;
   readonly text: string;
@@ -36,15 +35,15 @@ export interface MtextRun {
 
 export interface MtextParagraph {
   readonly runs: readonly MtextRun[];
-  /** Where its lines stand in the text's width; null: as the text is attached. */
+  /** Alignment of its lines in the text's width; null: that of the text's attachment. */
   readonly align: "left" | "center" | "right" | null;
-  /** Of its first line, of all lines, and from the right; times the text's height. */
+  /** Indents of its first line, of all lines, and from the right; times the text's height. */
   readonly first: number;
   readonly left: number;
   readonly right: number;
 }
 
-/** An end of line; a stack; a code with a value; one without; braces; what begins with a caret. */
+/** A line break; a stack; a code with a value; a code without; braces; a caret code. */
 const CODE =
   /\\(?:([PNX])|S((?:\\.|[^;\\])*);?|([ACcHWQT])([-+.\d]*[xX]?);?|([fFp])([^;\\{}]*);?|M\+[0-9A-Fa-f]{5}|(~)|(?!U\+)([^A-Za-z0-9])|(?!U\+)[A-Za-z0-9])|([{}])|\^(.)/gs;
 const ALIGNS = { l: "left", c: "center", r: "right", j: "left", d: "left" } as const;
@@ -118,7 +117,7 @@ class Reader {
     if (!Number.isFinite(number)) return;
     if (code === "A") this.format = { ...format, valign: Math.min(2, Math.max(0, number)) };
     else if (code === "C") this.format = { ...format, color: indexColor(number) };
-    // Blue is the highest byte here.
+    // Here blue is the highest byte.
     else if (code === "c")
       this.format = { ...format, color: ((number & 255) << 16) | (number & 0xff00) | ((number >> 16) & 255) };
     else if (code === "Q") this.format = { ...format, slantDeg: Math.min(85, Math.max(-85, number)) };
@@ -160,13 +159,13 @@ class Reader {
   }
 }
 
-/** By block and by layer are the entity's own; 7 is black on paper. */
+/** By block and by layer mean the entity's own colour; 7 is black on paper. */
 const indexColor = (index: number): number | null =>
   index === 0 || index === 256 ? null : index === 7 ? 0 : aciColor(index);
 
 const SIGNS: Readonly<Record<string, string>> = { d: "°", c: "Ø", p: "±", "%": "%", u: "", o: "", k: "" };
 
-/** Without %%-codes, and with the character that a \U+ and four hexadecimal digits stand for. */
+/** Resolves %%-codes, and replaces \U+ and four hexadecimal digits by that character. */
 export const plainText = (text: string): string =>
   text
     .replace(/%%(?:(\d{3})|([dcpuok%]))/gi, (_, code: string | undefined, sign: string) =>

@@ -1,6 +1,7 @@
 /**
- * HP-GL/2's encoded polyline (PE): numbers in base 64 or 32, least significant digit first, the last digit
- * marked by its range; zigzag signed. Flags: ":" pen, "<" up, "=" absolute, ">" fraction bits, "7" base 32.
+ * HP-GL/2's encoded polyline (PE): numbers in base 64 or 32, least significant digit first; the last digit
+ * has its own range; signs are zigzag-encoded. Flags: ":" pen, "<" up, "=" absolute, ">" fraction bits, "7"
+ * base 32.
  */
 export interface EncodedTarget {
   pen(pen: number): void;

@@ -1,9 +1,9 @@
 /**
- * Labels of HPGL: where their letters stand and how large they are, set by SI SR DI DR DV SL LO ES (HP, "PCL 5
- * Technical Reference", chapter 23). The plotter's letters all have the same width, so each of ours stands in the middle of
- * where the plotter's would.
+ * HPGL labels: position and size of their letters, set by SI SR DI DR DV SL LO ES (HP, "PCL 5 Technical
+ * Reference", chapter 23). The plotter's letters all have the same width, so each letter is centred where the
+ * plotter's would be.
  *
- *    ┌ W ┐ W/2            a cell is 1.5 W wide, a line 2 H
+ *    ┌ W ┐ W/2            a cell is 1.5 W wide, a line 2 H high
  *    ┌───┐     ┌───┐  ┐
  *    │   │     │   │  H   all in plotter units, y up
  *    └───┘─────└───┘──┘── baseline
@@ -22,13 +22,13 @@ import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
 import { drawLine, layOutLine } from "../text/text-line.js";
 
 const UNITS_PER_CM = 400;
-/** cm: a plotter's size on A4. */
+/** cm: the default on A4 plotters. */
 const USUAL_WIDTH = 0.187;
 const USUAL_HEIGHT = 0.269;
 /** Shares of the distance between P1 and P2, percent. */
 const USUAL_RELATIVE_WIDTH = 0.75;
 const USUAL_RELATIVE_HEIGHT = 1.5;
-/** Width of a plain capital in the letters that we have, em. */
+/** Width of a plain capital in the built-in letters, em. */
 const CAPITAL_WIDTH_EM = 14 / 30;
 const CELL = 1.5;
 const LINE = 2;
@@ -46,15 +46,15 @@ export class HpglLabels {
   private angle = 0;
   private slant = 0;
   private origin = 1;
-  /** Where a letter stands from the one before: 0 right, 1 below, 2 left, 3 above. */
+  /** Direction from one letter to the next: 0 right, 1 down, 2 left, 3 up. */
   private path = 0;
-  /** A new line lies on the other side. */
+  /** New lines go to the other side. */
   private isReversed = false;
-  /** Beyond the usual, shares of a cell and of a line. */
+  /** Extra space, as shares of a cell and of a line. */
   private extraWidth = 0;
   private extraHeight = 0;
 
-  /** Takes a setting; `corners` are those of P1 and P2. False where the command is none of labels. */
+  /** Applies a setting; `corners` are P1 and P2. Returns false if the command does not concern labels. */
   set(name: string, args: readonly number[], corners: readonly number[]): boolean {
     const [first, second] = args;
     const spanX = corners[2] - corners[0];
@@ -93,12 +93,12 @@ export class HpglLabels {
     }
   }
 
-  /** The place so many cells on along the path, and lines back across it. */
+  /** The position `cells` further along the path and `lines` up across it. */
   moved({ x, y }: Place, cells: number, lines: number): Place {
     const map = this.mapAt({ x, y });
     const along = cells * this.step;
     const across = (this.isReversed ? -lines : lines) * (this.isUpright ? this.cell : this.line);
-    // To the left of the way: up from letters that run to the right.
+    // To the left of the direction: up, for letters that run to the right.
     const [dx, dy] = [
       [along, across],
       [across, -along],
@@ -108,7 +108,7 @@ export class HpglLabels {
     return { x: applyX(map, dx, dy), y: applyY(map, dx, dy) };
   }
 
-  /** Draws a label at the pen's place. Answers where the pen is then, and what the font has not. */
+  /** Draws a label at the pen's position. Returns the new pen position and the missing characters. */
   draw(
     text: string,
     font: TextFont,
@@ -140,11 +140,11 @@ export class HpglLabels {
     missing: string[],
   ): void {
     const { width, height } = this;
-    const way = (letters.length - 1) * this.step;
-    const corner = this.cornerOf(this.isUpright ? 0 : way, this.isUpright ? way : 0);
+    const lengthOfRun = (letters.length - 1) * this.step;
+    const corner = this.cornerOf(this.isUpright ? 0 : lengthOfRun, this.isUpright ? lengthOfRun : 0);
     const map = compose(this.mapAt(at), translation(corner.x, corner.y));
-    // The first letter stands at the far end of a label that runs to the left or down.
-    const first = this.path === 1 || this.path === 2 ? way : 0;
+    // In a label that runs to the left or down, the first letter is at the far end.
+    const first = this.path === 1 || this.path === 2 ? lengthOfRun : 0;
     const sign = first > 0 ? -1 : 1;
     const size = scaling(width / CAPITAL_WIDTH_EM, -height / CAPITAL_EM);
     const slanted = compose({ ...scaling(1), c: this.slant }, size);
@@ -157,12 +157,12 @@ export class HpglLabels {
     });
   }
 
-  /** Along the label and up from it to plotter units. */
+  /** Maps label coordinates (along the label, and up) to plotter units. */
   private mapAt({ x, y }: Place): Affine {
     return compose(translation(x, y), rotation(this.angle));
   }
 
-  /** Letters stand above each other. */
+  /** Letters are stacked vertically. */
   private get isUpright(): boolean {
     return this.path % 2 === 1;
   }
@@ -175,32 +175,38 @@ export class HpglLabels {
     return LINE * this.height * (1 + this.extraHeight);
   }
 
-  /** From a letter to the next. */
+  /** Distance from one letter to the next. */
   private get step(): number {
     return this.isUpright ? this.line : this.cell;
   }
 
-  /** 0 where the pen is at the label's left, 0.5 where it is at its middle, 1 where it is at its right. */
+  /** 0 if the pen is at the label's left, 0.5 at its middle, 1 at its right. */
   private get anchor(): number {
     return Math.min(2, Math.max(0, Math.ceil((this.origin % 10) / 3) - 1)) / 2;
   }
 
-  /** 1, 4 and 7 stand on the pen's place, 2, 5 and 8 have it at half their height, the others hang from it. */
+  /**
+   * With 1, 4 and 7 the label stands on the pen's position, with 2, 5 and 8 it is vertically centred on it,
+   * with the others it hangs from it.
+   */
   private get rise(): number {
     return (((this.origin % 10) + 2) % 3) / 2;
   }
 
-  /** Then the next label goes on where it ends; else the pen stays. */
+  /** If true the next label continues where this one ends; otherwise the pen stays. */
   private get beginsAtPen(): boolean {
     return [this.anchor === 0, this.rise === 1, this.anchor === 1, this.rise === 0][this.path];
   }
 
-  /** Under 11 to 19 labels stand half a letter off the pen's place. */
+  /** With 11 to 19, labels are half a letter away from the pen's position. */
   private get clearance(): number {
     return this.origin > 10 && this.origin < 20 ? 0.5 : 0;
   }
 
-  /** The lower left corner, seen from the pen, of a label that is so much longer and higher than one letter. */
+  /**
+   * The lower left corner, relative to the pen, of a label that is this much longer and higher than one
+   * letter.
+   */
   private cornerOf(longer: number, higher: number): Place {
     const { anchor, rise, clearance, width, height } = this;
     return {

@@ -1,6 +1,7 @@
 /**
- * HPGL and HP-GL/2 to a Drawing, by pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP and SC, labels by LB.
- * Facts of the language: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is 0.025 mm; y is up.
+ * HPGL and HP-GL/2 to a Drawing, by pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP and SC, labels
+ * by LB. Language reference: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is 0.025 mm;
+ * y is up.
  */
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
@@ -19,13 +20,13 @@ import { Warnings } from "../warnings.js";
 const MM_PER_PLOTTER_UNIT = 0.025;
 const ARC_TOLERANCE_MM = 2e-5;
 const MAX_PENS = 256;
-/** The usual carousel; further pens begin again. */
+/** The usual carousel; further pens repeat the colours. */
 const PEN_COLORS = ["#000000", "#ff0000", "#008000", "#0000ff", "#ffa500", "#800080", "#00a0a0", "#808080"];
 const COMMAND = /([A-Za-z]{2})([^A-Za-z\u0003;]*)/y;
 const LABEL_END = "\u0003";
 const PAGE: Affine = { a: MM_PER_PLOTTER_UNIT, b: 0, c: 0, d: -MM_PER_PLOTTER_UNIT, e: 0, f: 0 };
 
-/** Commands that set what a pen plotter of ours decides itself, or move nothing. */
+/** Commands that are ignored: they set what plotwright decides itself, or move nothing. */
 const SILENT = new Set(
   "VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS NP OA OC OE OI OS OF OP OH OD VA".split(
     " ",
@@ -56,14 +57,14 @@ class HpglImport {
   private corners: readonly number[] = [0, 0, 10_000, 10_000];
   private labels = new HpglLabels();
   private labelEnd = LABEL_END;
-  /** Where the label last drawn began: a new line begins there. */
+  /** Start of the last label: a new line begins there. */
   private labelStart = { x: 0, y: 0 };
   private at = 0;
   private commandCount = 0;
 
   constructor(
     private readonly text: string,
-    /** What labels are drawn with; null where they are only to be reported. */
+    /** The font for labels; null if labels are only reported. */
     private readonly font: TextFont | null,
   ) {}
 
@@ -99,7 +100,7 @@ class HpglImport {
         this.isDown = name === "PD";
         if (!this.isDown) this.flush();
         this.coordinates(args);
-        // A pen lowered on the spot makes a dot, unless it goes on from here.
+        // A pen lowered without moving makes a dot, unless it continues from here.
         if (this.isDown && args.length === 0) this.lineTo(this.x, this.y);
         return;
       case "PA":
@@ -154,7 +155,7 @@ class HpglImport {
     for (let i = 0; i + 1 < args.length; i += 2) this.goTo(args[i], args[i + 1]);
   }
 
-  /** To a place in user units. */
+  /** Goes to a point in user units. */
   private goTo(ux: number, uy: number): void {
     const x = ux * this.scaleX + (this.isRelative ? this.x : this.originX);
     const y = uy * this.scaleY + (this.isRelative ? this.y : this.originY);
@@ -182,7 +183,7 @@ class HpglImport {
       return;
     }
     const [x0, x1, y0, y1] = args;
-    // Kind 2 gives a factor instead of the far corner.
+    // Type 2 gives a factor instead of the far corner.
     this.scaleX = args[4] === 2 ? x1 : (p2x - p1x) / (x1 - x0);
     this.scaleY = args[4] === 2 ? y1 : (p2y - p1y) / (y1 - y0);
     if (!Number.isFinite(this.scaleX + this.scaleY)) this.scaleX = this.scaleY = 1;
@@ -207,7 +208,7 @@ class HpglImport {
     this.y = endY;
   }
 
-  /** Drawn whatever the pen's state; the pen's place stays. */
+  /** Drawn regardless of the pen's state; the pen's position does not change. */
   private circle(radius: number): void {
     this.flush();
     const r = Math.abs(radius);
@@ -254,7 +255,7 @@ class HpglImport {
     this.at = at + (isNamed ? 1 : 0);
   }
 
-  /** Drawn whatever the pen's state. */
+  /** Drawn regardless of the pen's state. */
   private label(from: number): void {
     const { font, text, warnings } = this;
     const end = text.indexOf(this.labelEnd, from);
@@ -273,7 +274,7 @@ class HpglImport {
     this.y = pen.y;
   }
 
-  /** By so many letters and lines; without numbers to the next line. */
+  /** Moves by letters and lines; without numbers, to the next line. */
   private moveByCells(args: readonly number[]): void {
     this.flush();
     const [cells = 0, lines = 0] = args;

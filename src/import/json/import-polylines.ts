@@ -1,11 +1,11 @@
 /**
- * Our own JSON of polylines, the simplest way for a program to hand over a drawing:
+ * plotwright's JSON of polylines, the simplest format for a program to pass a drawing:
  *
  *   { "widthMm": 210, "heightMm": 297,
  *     "layers": [ { "name": "Ink", "color": "#ff0000", "strokes": [ [x0, y0, x1, y1, …], … ] } ] }
  *
- * mm, origin top left, y down. Points may also be pairs: [[x0, y0], [x1, y1], …]. A stroke of one point is a dot.
- * What `toJson` writes is of this form, with "strokesMm" for "strokes".
+ * mm, origin top left, y down. Points may also be pairs: [[x0, y0], [x1, y1], …]. A stroke of one point is a
+ * dot. `toJson` writes this format, with "strokesMm" for "strokes".
  */
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
@@ -50,7 +50,8 @@ function parseJson(text: string): unknown {
 }
 
 function objectOf(value: unknown, what: string): Record<string, unknown> {
-  if (typeof value !== "object" || value === null || Array.isArray(value)) throw bad(`${what} is no object`);
+  if (typeof value !== "object" || value === null || Array.isArray(value))
+    throw bad(`${what} is not an object`);
   return value as Record<string, unknown>;
 }
 
@@ -65,7 +66,7 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number): void 
   const id = typeof layer["id"] === "string" ? layer["id"] : `layer-${index + 1}`;
   const given = layer["color"];
   const color = typeof given === "string" ? (parseColor(given)?.hex ?? null) : "#000000";
-  if (color === null) throw bad(`the colour of layer ${index + 1} is none`);
+  if (color === null) throw bad(`the colour of layer ${index + 1} is not a CSS colour`);
   const strokes = layer["strokes"] ?? layer["strokesMm"];
   if (!Array.isArray(strokes)) throw bad(`layer ${index + 1} has no list of strokes`);
   const group = builder.addGroup(id, name, false);
@@ -79,7 +80,7 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number): void 
 }
 
 function drawStroke(shape: ShapeBuffer, stroke: unknown, where: string): void {
-  if (!Array.isArray(stroke)) throw bad(`${where} is no list of numbers`);
+  if (!Array.isArray(stroke)) throw bad(`${where} is not a list of numbers`);
   const numbers: readonly unknown[] = stroke.some(Array.isArray) ? stroke.flat() : stroke;
   if (numbers.length % 2 !== 0 || !numbers.every((n) => typeof n === "number" && Number.isFinite(n))) {
     throw bad(`${where} is not made of pairs of numbers`);

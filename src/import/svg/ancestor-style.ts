@@ -1,6 +1,6 @@
 /**
- * What an element inherits from where it stands in the file. Markers and clip paths inherit from there, and not from
- * the shape that refers to them (SVG 2, §13.7).
+ * The style that an element inherits from its ancestors in the file. Markers and clip paths inherit from
+ * there, not from the shape that refers to them (SVG 2, §13.7).
  */
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -9,7 +9,7 @@ import { computeStyle, INITIAL_STYLE, type Style } from "./style.js";
 import type { SvgTree } from "./svg-tree.js";
 
 export class AncestorStyles {
-  /** Of elements whose children were asked about. */
+  /** Styles of elements whose children were looked up. */
   private readonly known = new Map<number, Style>();
 
   constructor(
@@ -17,7 +17,7 @@ export class AncestorStyles {
     private readonly cascade: Cascade,
   ) {}
 
-  /** `basis`: for lengths in %, since viewports in between are not looked at. */
+  /** @param basis for lengths in %, since viewports in between are ignored */
   outside(element: number, basis: LengthBasis): Style {
     const path: number[] = [];
     let at = this.tree.parents[element];

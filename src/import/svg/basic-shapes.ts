@@ -1,4 +1,4 @@
-/** The basic shapes and paths of SVG as verbs and coordinates in user units (SVG 2, chapters 9 and 10). */
+/** SVG's basic shapes and paths to verbs and coordinates in user units (SVG 2, chapters 9 and 10). */
 import { drawCentreArc, drawEllipse } from "../arc.js";
 import type { Side } from "./length.js";
 import { drawPathData, NumberReader } from "../path-data.js";
@@ -6,9 +6,9 @@ import type { ShapeBuffer } from "../shape-buffer.js";
 
 export type LengthName = "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry";
 
-/** Where a shape's numbers come from: CSS first, then attributes. */
+/** Source of a shape's numbers: CSS first, then attributes. */
 export interface ShapeSource {
-  /** User units; null where the value is absent, auto or malformed. */
+  /** User units; null if the value is absent, auto or malformed. */
   length(name: LengthName, side: Side): number | null;
   /** An attribute that is a plain length. */
   attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null;
@@ -25,7 +25,7 @@ export const SHAPE_TAGS: ReadonlySet<string> = new Set([
   "polygon",
 ]);
 
-/** Draws the element; returns what is wrong with it, or null. `arcTolerance` in user units. */
+/** Draws the element; returns a description of any error, or null. `arcTolerance` in user units. */
 export function drawBasicShape(
   tag: string,
   source: ShapeSource,
@@ -57,7 +57,7 @@ export function drawBasicShape(
   }
 }
 
-/** A negative radius is invalid, and so like none: the other one counts for both. */
+/** A negative radius is invalid and counts as absent: the other one then applies to both axes. */
 function radiiOf(source: ShapeSource): { readonly rx: number; readonly ry: number } {
   const valid = (length: number | null): number | null => (length !== null && length >= 0 ? length : null);
   const rx = valid(source.length("rx", "width"));

@@ -1,9 +1,11 @@
-/** CSS's `calc()` for lengths (CSS Values 4, §10): + − × ÷ and brackets. */
+/** CSS `calc()` for lengths (CSS Values 4, §10): + − × ÷ and parentheses. */
 
 const TOKEN = /\s*([+-](?=\s)|[*/()]|[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?(?:[a-z]+|%)?)/iy;
 const MAX_CHARS = 1000;
 
-/** The value of `calc(…)`, or null where it is malformed. `lengthOf` reads the terms, numbers among them. */
+/**
+ * The value of `calc(…)`, or null if it is malformed. `lengthOf` reads the terms, including plain numbers.
+ */
 export function evaluateCalc(text: string, lengthOf: (term: string) => number | null): number | null {
   const body = text.trim().replace(/calc\(/gi, "(");
   if (body.length > MAX_CHARS) return null;

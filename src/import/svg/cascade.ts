@@ -1,10 +1,10 @@
 /**
- * Which declared value of each property wins on an element (CSS Cascade 4, §6):
- * presentation attributes, then rules by specificity and order, then the style attribute,
- * then !important rules, then the !important style attribute.
+ * Finds the winning declaration of each property on an element (CSS Cascade 4, §6): presentation attributes,
+ * then rules by specificity and order, then the style attribute, then !important rules, then the !important
+ * style attribute.
  *
- * Rules are filed under the id, class or type their rightmost part asks for, so an element meets
- * only those that may match; css-select decides where a selector has more than that one part.
+ * Rules are indexed by the id, class or type of their rightmost part, so an element is tested only against
+ * rules that may match. css-select decides for selectors with more parts.
  */
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
@@ -20,7 +20,7 @@ interface FiledRule extends Rule {
   readonly matches: (element: ElementRef) => boolean;
 }
 
-/** What css-select walks over: made only for elements that a longer selector is tested on. */
+/** A node for css-select, created only for elements that a longer selector is tested on. */
 interface ElementRef {
   readonly index: number;
 }
@@ -33,7 +33,7 @@ export class Cascade {
   private readonly byType = new Map<string, FiledRule[]>();
   private readonly forAll: FiledRule[] = [];
   private readonly hasRules: boolean;
-  /** By name number of the tree: whether the attribute is a presentation attribute. */
+  /** By the tree's name index: whether the attribute is a presentation attribute. */
   private readonly isPresentation: Uint8Array;
   private readonly refs = new Map<number, ElementRef>();
   private readonly positions = new Map<number, number>();
@@ -80,7 +80,7 @@ export class Cascade {
     apply(inline, true, into);
   }
 
-  /** Matching rules, weakest first. The array is used again by the next call. */
+  /** Matching rules, weakest first. The array is reused by the next call. */
   private match(element: number, id: string | undefined, classes: string | undefined): FiledRule[] {
     const found = this.matched;
     found.length = 0;
@@ -151,7 +151,10 @@ export class Cascade {
     return list;
   }
 
-  /** Index among the siblings, and how many come after. Looked up, not counted: siblings may be many thousands. */
+  /**
+   * Index among the siblings, and how many follow. Stored, not counted, since there may be many thousands of
+   * siblings.
+   */
   private place(node: ElementRef): { readonly before: number; readonly after: number } {
     const siblings = this.adapter.getSiblings(node);
     const before = this.positions.get(node.index) ?? 0;
@@ -192,7 +195,7 @@ export class Cascade {
   };
 }
 
-/** Whether n ≥ 1 is among the numbers a k + b, k ≥ 0, of a formula like "2n+1", "odd" or "3" (Selectors 4, §6.6.5). */
+/** Whether n ≥ 1 matches a k + b, k ≥ 0, of a formula like "2n+1", "odd" or "3" (Selectors 4, §6.6.5). */
 function isNth(formula: string, n: number): boolean {
   const text = formula.replace(/\s+/g, "").toLowerCase();
   const match = /^([+-]?\d*)n([+-]\d+)?$/.exec(text === "odd" ? "2n+1" : text === "even" ? "2n" : text);
@@ -211,7 +214,7 @@ function apply(declarations: readonly Declaration[], important: boolean, into: D
   }
 }
 
-/** Keywords may be written in capitals. */
+/** Keywords are case-insensitive. */
 const valueFor = (property: string, value: string): string =>
   IS_KEYWORD.has(property) ? value.toLowerCase() : value;
 

@@ -1,4 +1,4 @@
-/** Part of a shape inside of a clip, as a shape: for clips on the shapes of a clipPath. */
+/** The part of a shape inside a clip, as a shape: for clips on the shapes of a clipPath. */
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
 import { RULE_EVENODD, VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
 import { flattenCubic } from "../../geometry/cubic.js";
@@ -10,7 +10,7 @@ import { ShapeBuffer } from "../shape-buffer.js";
 /** mm */
 const FLATNESS = 0.005;
 
-/** `given` in page mm; so is the answer, whose rings wind so that they are filled by either rule. */
+/** Input and result are in page mm. The result's rings are wound so that either fill rule fills them. */
 export function clippedShape(given: ClipShapes, clip: ClipNode): ShapeBuffer {
   let rings = ringsOf(given);
   for (let at: ClipNode | null = clip; at !== null; at = at.parent) {
@@ -28,7 +28,7 @@ export function clippedShape(given: ClipShapes, clip: ClipNode): ShapeBuffer {
   return shape;
 }
 
-/** The union of the shapes, each filled under its own rule. */
+/** The union of the shapes, each filled by its own rule. */
 function ringsOf({ verbs, coords: c, rule, shape }: ClipShapes): Paths64 {
   const byShape = new Map<number, { rings: Paths64; rule: FillRule }>();
   const points = new PointBuffer();

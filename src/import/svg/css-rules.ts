@@ -1,6 +1,4 @@
-// Ambient declarations are only seen where a program names them, and ours has several programs.
-// eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./css-tree-parser.d.ts" />
+// Ambient declarations apply only where a program includes them, and this project has several programs.
 /** Style sheets and `style` attributes to rules and declarations (parsing only; cascade.ts applies them). */
 import { IS_PROPERTY } from "./properties.js";
 import parseCss from "css-tree/parser";
@@ -17,9 +15,9 @@ export interface Rule {
   readonly selector: string;
   /** ids × 2^20 + classes × 2^10 + types, so that one comparison orders them. */
   readonly specificity: number;
-  /** The rightmost compound's id, class or type: what an element must have to match at all. */
+  /** The id, class or type of the rightmost compound selector: an element must have it to match. */
   readonly key: { readonly kind: "id" | "class" | "type" | "any"; readonly name: string };
-  /** Whether `key` is the whole selector, so that nothing else need be tested. */
+  /** Whether `key` is the whole selector, so that nothing else needs testing. */
   readonly isKeyAlone: boolean;
   readonly declarations: readonly Declaration[];
 }
@@ -27,14 +25,14 @@ export interface Rule {
 export interface StyleSheet {
   readonly rules: readonly Rule[];
   readonly importCount: number;
-  /** Parts that could not be read, in the parser's words. */
+  /** Parse errors, in the parser's words. */
   readonly faults: readonly string[];
 }
 
-/** Deeper nesting than any person writes would exhaust the parser's stack. */
+/** Deeper nesting would exhaust the parser's stack; nobody writes it. */
 const MAX_NESTING = 200;
 
-/** `svg|rect` and `*|rect` select elements of a namespace; there is only one here. */
+/** `svg|rect` and `*|rect` select elements of a namespace; here there is only one. */
 const NAMESPACE = /(?<![\w"'\]])(?:\*|[A-Za-z][\w-]*)\|(?=[A-Za-z*])/g;
 
 export function parseStyleSheet(sheetText: string): StyleSheet {
@@ -59,7 +57,7 @@ export function parseStyleSheet(sheetText: string): StyleSheet {
       node.name === "layer" ||
       (node.name === "media" && isForScreen(text, node.prelude)) ||
       (node.name === "supports" && isSupported(sourceOf(text, node.prelude)));
-    // In place of the at-rule, so that order is kept.
+    // Insert them in place of the at-rule, to preserve the order.
     if (applies && node.block !== null) pending.splice(i + 1, 0, ...node.block.children.toArray());
   }
   return { rules, importCount, faults };
@@ -76,13 +74,18 @@ function nestingDepth(text: string): number {
   return deepest;
 }
 
-/** What holds on a wide screen in light colours: a drawing has no dark mode and no window width. */
-const HOLDS = /^\(\s*(min-(width|height|resolution)\s*:[^()]*|prefers-color-scheme\s*:\s*light)\s*\)$/;
+/**
+ * Media conditions that are true on a wide screen with light colours: a drawing has no dark mode and no
+ * window width.
+ */
+const TRUE_CONDITION =
+  /^\(\s*(min-(width|height|resolution)\s*:[^()]*|prefers-color-scheme\s*:\s*light)\s*\)$/;
 
 function holdsOnScreen(query: string): boolean {
   const [first, ...others] = query.trim().split(/\s+and\s+/);
   return (
-    (/^(only\s+)?(all|screen)$/.test(first) || HOLDS.test(first)) && others.every((part) => HOLDS.test(part))
+    (/^(only\s+)?(all|screen)$/.test(first) || TRUE_CONDITION.test(first)) &&
+    others.every((part) => TRUE_CONDITION.test(part))
   );
 }
 
@@ -91,7 +94,10 @@ function isForScreen(text: string, prelude: CssNode | null): boolean {
   return query === "" || query.split(",").some(holdsOnScreen);
 }
 
-/** Whether a condition of `@supports` holds: "not" and "and" are heeded, and one part of an "or" is enough. */
+/**
+ * Whether an `@supports` condition is true: "not" and "and" are evaluated, and one true part of an "or" is
+ * enough.
+ */
 function isSupported(condition: string): boolean {
   const parts = [...condition.matchAll(/(not\s*)?\(\s*([\w-]+)\s*:[^()]*(?:\([^()]*\)[^()]*)*\)/g)];
   const holds = parts.map(
@@ -165,14 +171,14 @@ function specificityOfPart(node: CssNode): number {
 }
 
 function mostSpecific(children: List<CssNode> | null): number {
-  let most = 0;
+  let max = 0;
   children?.forEach((list) => {
     if (list.type !== "SelectorList") return;
     list.children.forEach((selector) => {
-      if (selector.type === "Selector") most = Math.max(most, specificityOf(selector));
+      if (selector.type === "Selector") max = Math.max(max, specificityOf(selector));
     });
   });
-  return most;
+  return max;
 }
 
 function keyOf(selector: Selector): Pick<Rule, "key" | "isKeyAlone"> {
@@ -211,7 +217,7 @@ export function parseInlineStyle(text: string): readonly Declaration[] {
   return declarations;
 }
 
-/** Without quotes, brackets, escapes or comments a semicolon always ends a declaration. */
+/** Without quotes, brackets, escapes or comments, a semicolon always ends a declaration. */
 function splitInline(text: string): Declaration[] {
   const declarations: Declaration[] = [];
   for (const part of text.split(";")) {

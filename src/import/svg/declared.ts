@@ -1,8 +1,9 @@
 /**
- * What won on one element, property by property; custom properties (`--x`) among them.
+ * The winning values of one element by property, including custom properties (`--x`).
  *
- * A list, since there are few: it is used again for one element after the other, a million times, and a Map leaves
- * behind a chain of its cleared tables that the garbage collector takes for old and keeps.
+ * A list, since there are few entries. The object is reused for one element after the other, a million times;
+ * a Map would leave a chain of cleared tables that the garbage collector promotes to the old generation and
+ * keeps.
  */
 export class Declared {
   private count = 0;

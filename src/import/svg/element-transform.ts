@@ -1,4 +1,6 @@
-/** An element's own transform: the attribute or CSS property, CSS's separate ones, and what they turn about. */
+/**
+ * An element's own transform: the attribute or CSS property, CSS's individual transforms, and their origin.
+ */
 import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import type { Declared } from "./declared.js";
@@ -7,8 +9,8 @@ import { declaredValue, type Style } from "./style.js";
 import { aroundOrigin, parseTransform } from "./transform.js";
 
 /**
- * Null where it is malformed. `boxOf` is the shape's own box, in user units; null for none. Percentages are of that box
- * where `transform-box` asks for it, else of the viewport.
+ * Null if it is malformed. `boxOf` gives the shape's own box in user units; null for none. Percentages refer
+ * to that box if `transform-box` asks for it, otherwise to the viewport.
  */
 export function elementTransform(
   style: Style,

@@ -5,8 +5,8 @@
  *                        └─ svg-layers ─> layers ─────────────────┤
  *                                                                 └─ svg-walk ─> shapes ─ drawing-builder ─> Drawing
  *
- * Bad files throw PlotwrightError("bad-file") with line and column; oddities become warnings.
- * Time and memory are linear in the text and in what copies (`use`) add, and copies are bounded.
+ * Bad files throw PlotwrightError("bad-file") with line and column; minor problems become warnings. Time and
+ * memory are linear in the text and in what copies (`use`) add; copies are limited.
  */
 import type { Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
@@ -31,10 +31,10 @@ import { aroundOrigin, parseTransform } from "./transform.js";
 import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "../warnings.js";
 
-/** Lets others run between steps: resolves when it is this work's turn again. */
+/** Yields to other tasks between steps; resolves when the import may continue. */
 export type Pause = () => Promise<void>;
 
-/** Part of the page's diagonal that an arc may be off: 0.3 µm once the page fills an A4 sheet, 1 µm on A1. */
+/** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
 const ARC_TOLERANCE = 8e-7;
 
 /**
@@ -52,7 +52,7 @@ export function importSvg(text: string, options: ImportOptions = {}): Drawing {
   }
 }
 
-/** As `importSvg`, pausing after every few milliseconds of work, so that a page stays responsive. */
+/** Like `importSvg`, but pauses after every few milliseconds of work, so that a page stays responsive. */
 export async function importSvgWithPauses(
   text: string,
   pause: Pause,
@@ -66,10 +66,10 @@ export async function importSvgWithPauses(
   }
 }
 
-/** The work in steps of a few milliseconds; the generator's result is the drawing. */
+/** Imports in steps of a few milliseconds; the generator returns the drawing. */
 export function* importSvgSteps(text: string, options: ImportOptions = {}): Generator<void, Drawing> {
   const warnings = new Warnings();
-  // The tree is out of scope when the columns are put together: that halves the peak of memory.
+  // The tree is out of scope when the columns are assembled, which halves the peak memory.
   const { builder, page } = yield* draw(text, options, warnings);
   return finish(builder, page, warnings);
 }
@@ -153,7 +153,9 @@ function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context 
   };
 }
 
-/** The outermost element's own transform, in mm on the page. It turns about the page's middle, as a box in CSS does. */
+/**
+ * The root element's own transform, in mm on the page. Its origin is the page's centre, as for a box in CSS.
+ */
 function rootTransform(
   page: SvgPage,
   root: Declared,
@@ -169,7 +171,7 @@ function rootTransform(
   return compose(compose(scaling(mmPerPx), turned), scaling(1 / mmPerPx));
 }
 
-/** Browsers draw the outermost element whatever its display is. */
+/** Browsers draw the root element regardless of its display property. */
 const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
 
 function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {

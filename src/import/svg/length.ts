@@ -6,14 +6,16 @@ import { MM_PER_INCH, MM_PER_PX } from "../../units.js";
 export interface LengthBasis {
   /** px */
   readonly fontSize: number;
-  /** Size of the nearest viewport in user units: what % means. */
+  /** Size of the nearest viewport in user units, for %. */
   readonly viewportWidth: number;
   readonly viewportHeight: number;
-  /** px; what `rem` means. */
+  /** px, for `rem`. */
   readonly rootFontSize: number;
 }
 
-/** Which side of the viewport a percentage is of; "both" is the diagonal / √2, for radii and widths. */
+/**
+ * The side of the viewport that a percentage refers to; "both" is the diagonal / √2, for radii and widths.
+ */
 export type Side = "width" | "height" | "both";
 
 const NUMBER_AND_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;
@@ -30,7 +32,7 @@ const ABSOLUTE: ReadonlyMap<string, number> = new Map([
   ["pc", (MM_PER_INCH * PX_PER_MM) / 6],
 ]);
 
-/** Number and lower-case unit ("" for none), or null where the text is no length. */
+/** Number and lower-case unit ("" for none), or null if the text is not a length. */
 export function splitLength(text: string): { value: number; unit: string } | null {
   const match = NUMBER_AND_UNIT.exec(text);
   if (match === null) return null;
@@ -38,7 +40,7 @@ export function splitLength(text: string): { value: number; unit: string } | nul
   return Number.isFinite(value) ? { value, unit: match[2].toLowerCase() } : null;
 }
 
-/** px of an absolute length; null for relative, unknown and malformed ones. */
+/** px of an absolute length; null for relative, unknown and malformed lengths. */
 export function absolutePx(text: string): number | null {
   const parts = splitLength(text);
   if (parts === null) return null;
@@ -46,7 +48,7 @@ export function absolutePx(text: string): number | null {
   return factor === undefined ? null : parts.value * factor;
 }
 
-/** User units of any length; null where it is malformed or its unit unknown. */
+/** User units of any length; null if it is malformed or its unit is unknown. */
 export function lengthPx(text: string, basis: LengthBasis, side: Side): number | null {
   // Plain numbers are by far the most common.
   const plain = Number(text);
@@ -81,7 +83,7 @@ export function lengthPx(text: string, basis: LengthBasis, side: Side): number |
   }
 }
 
-/** Number() also takes "", " ", "0x1f", "0b1" and "0o7", which are no lengths. */
+/** Number() also accepts "", " ", "0x1f", "0b1" and "0o7", which are not lengths. */
 function isDecimal(text: string): boolean {
   const trimmed = text.charCodeAt(0) > 32 ? text : text.trim();
   const second = trimmed.charCodeAt(1) | 32;

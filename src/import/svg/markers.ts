@@ -1,7 +1,7 @@
 /**
- * Where markers stand on a shape and which way they point (SVG 2, §11.6).
+ * Positions and directions of markers on a shape (SVG 2, §11.6).
  *
- *        in ↗   bisector of the way in and the way out; at the ends of an open path the one way there is
+ *        in ↗   bisector of the incoming and outgoing directions; at the ends of an open path, the only one
  *     ──────•
  *            ↘ out
  */
@@ -21,7 +21,7 @@ interface Vertex {
   readonly y: number;
   /** Direction of the segment that ends here; null at the start of a subpath. */
   readonly arrive: readonly [number, number] | null;
-  /** Direction of the segment that begins here. */
+  /** Direction of the segment that starts here. */
   leave: readonly [number, number] | null;
 }
 
@@ -40,7 +40,7 @@ function angleAt({ arrive, leave }: Vertex): number {
   const outward = leave ?? arrive ?? [1, 0];
   const x = inward[0] + outward[0];
   const y = inward[1] + outward[1];
-  // Straight back: the bisector is a quarter turn from the way in.
+  // A reversal: the bisector is perpendicular to the incoming direction.
   if (Math.hypot(x, y) < 1e-9) return Math.atan2(inward[0], -inward[1]);
   return Math.atan2(y, x);
 }
@@ -56,7 +56,8 @@ function verticesOf(shape: ShapeBuffer): Vertex[] {
     const last = vertices[vertices.length - 1];
     if (last !== undefined && last.leave === null) last.leave = direction;
   };
-  // Inside an arc the way out of its first piece is the way out of the vertex; the rest is passed over.
+  // The first piece of an arc gives the outgoing direction of its vertex; the vertices between its pieces are
+  // skipped.
   let passing = false;
   for (let i = 0, at = 0; i < shape.verbs.length; i++) {
     const verb = shape.verbs.data[i];
@@ -71,7 +72,8 @@ function verticesOf(shape: ShapeBuffer): Vertex[] {
       const direction = unit(start.x - x, start.y - y);
       if (direction !== null) leave(direction);
       const arrive = direction ?? vertices[vertices.length - 1].arrive;
-      // The closing vertex lies on the start: both turn from the last segment into the first.
+      // The closing vertex coincides with the start: both have the last segment as incoming and the first as
+      // outgoing one.
       vertices[first] = { ...start, arrive };
       vertices.push({ x: start.x, y: start.y, arrive, leave: start.leave });
       x = start.x;
@@ -95,7 +97,7 @@ function unit(x: number, y: number): readonly [number, number] | null {
   return length > 0 ? [x / length, y / length] : null;
 }
 
-/** Towards the first point that is elsewhere. */
+/** Direction towards the first point that differs. */
 function startDirection(points: readonly number[]): readonly [number, number] | null {
   for (let i = 2; i < points.length; i += 2) {
     const direction = unit(points[i] - points[0], points[i + 1] - points[1]);

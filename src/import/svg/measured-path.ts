@@ -1,11 +1,11 @@
 /**
- * A shape's outline by arc length: how long it is, and where one is after so much of it.
+ * A shape's outline by arc length: its length, and the position at a given length.
  *
- *        start ↗─ chord ─→ end        s runs over all chords of all subpaths; a move between
+ *        start ↗─ chord ─→ end        s counts all chords of all subpaths; a move between
  *             from       s            subpaths has no length
  *
- * A curve is STEPS chords: its length is right to about one part in ten thousand. Between the ends of a chord the
- * direction turns evenly from the curve's tangent at the one to that at the other.
+ * A curve is divided into STEPS chords; its length is accurate to about one part in ten thousand. Along a
+ * chord the direction changes linearly from the curve's tangent at its start to the one at its end.
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
 import { cubicAt } from "../curve-box.js";
@@ -16,7 +16,7 @@ const STEPS = 64;
 export interface PathPlace {
   readonly x: number;
   readonly y: number;
-  /** Of the way on, rad; +x towards +y. */
+  /** Direction of travel, rad; +x towards +y. */
   readonly angle: number;
 }
 
@@ -29,13 +29,13 @@ interface Chord {
   readonly dx: number;
   readonly dy: number;
   readonly startAngle: number;
-  /** How far the direction turns along it, −π … π. */
+  /** Change of direction along it, −π … π. */
   readonly turn: number;
 }
 
 export class MeasuredPath {
   readonly length: number;
-  /** One single subpath that ends where it begins. */
+  /** A single subpath that ends where it begins. */
   readonly isClosed: boolean;
   private readonly chords: readonly Chord[];
 
@@ -47,7 +47,7 @@ export class MeasuredPath {
     this.isClosed = verbs.lastIndexOf(VERB_MOVE) === 0 && verbs[verbs.length - 1] === VERB_CLOSE;
   }
 
-  /** The place `along` the path, held to its ends; null where the path has no length. */
+  /** The position at length `along`, clamped to the path's ends; null if the path has no length. */
   placeAt(along: number): PathPlace | null {
     const { chords } = this;
     let low = 0;
@@ -64,7 +64,7 @@ export class MeasuredPath {
   }
 }
 
-/** Adds the chords of all verbs; answers the length of all. */
+/** Adds the chords of all verbs; returns their total length. */
 function measure(shape: ShapeBuffer, chords: Chord[]): number {
   const c = shape.coords.data;
   let total = 0;
@@ -121,7 +121,7 @@ function measureCubic(
   }
 }
 
-/** undefined where the curve stands still, as at an end whose control point lies on it. */
+/** Undefined where the derivative is zero, as at an end point that coincides with its control point. */
 function tangent(px: Four, py: Four, t: number): number | undefined {
   const dx = slope(px, t);
   const dy = slope(py, t);

@@ -1,4 +1,4 @@
-/** Files that are something else, told by how they begin. */
+/** Detects other file formats by their first characters. */
 import { PlotwrightError } from "../../errors.js";
 
 export const notAnSvg = (what: string): PlotwrightError =>
@@ -20,7 +20,7 @@ const OTHER_FORMATS: readonly (readonly [string, string])[] = [
   ["PK\u0003\u0004", "it is a zip archive"],
 ];
 
-/** `start`: where the text begins after blanks. */
+/** @param start where the text begins after blanks */
 export function rejectOtherFormats(text: string, start: number): void {
   if (start === text.length) throw notAnSvg("it is empty");
   for (const [magic, what] of OTHER_FORMATS) {

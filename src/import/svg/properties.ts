@@ -1,4 +1,4 @@
-/** Properties that the importer uses; the first group may also be written as attributes. */
+/** CSS properties that the importer uses; those in PRESENTATION may also be written as attributes. */
 export const PRESENTATION = [
   "fill",
   "fill-opacity",
@@ -67,7 +67,7 @@ export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number]
 
 export const IS_PROPERTY: ReadonlySet<string> = new Set<string>([...PRESENTATION, ...CSS_ONLY]);
 
-/** Those whose values are keywords alone. */
+/** Properties whose values are only keywords. */
 export const IS_KEYWORD: ReadonlySet<string> = new Set<Property>([
   "display",
   "visibility",

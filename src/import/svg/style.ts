@@ -1,4 +1,4 @@
-/** Computed style: what an element inherits and what it declares, as values ready to draw with. */
+/** Computed style: inherited and declared properties, as values ready for drawing. */
 import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "../color.js";
@@ -38,7 +38,7 @@ export interface Style {
 const NONE: Paint = { kind: "none" };
 const BLACK: Color = { hex: "#000000", alpha: 1 };
 
-/** CSS's initial values. */
+/** CSS initial values. */
 export const INITIAL_STYLE: Style = {
   fill: { kind: "color", color: BLACK },
   fillOpacity: 1,
@@ -67,7 +67,7 @@ export const INITIAL_STYLE: Style = {
 type Mutable<T> = { -readonly [K in keyof T]: T[K] };
 type Setter = (style: Mutable<Style>, value: string, basis: LengthBasis) => void;
 
-/** Which field `inherit`, `initial` and `unset` are about. */
+/** The field that `inherit`, `initial` and `unset` apply to. */
 const FIELDS: Partial<Record<Property, keyof Style>> = {
   fill: "fill",
   "fill-opacity": "fillOpacity",
@@ -91,7 +91,7 @@ const FIELDS: Partial<Record<Property, keyof Style>> = {
   "marker-end": "markerEnd",
 };
 
-/** Values that are no value leave what was inherited, as an invalid declaration does. */
+/** An invalid value leaves the inherited one, as an invalid declaration does. */
 const SETTERS: Partial<Record<Property, Setter>> = {
   fill: (style, value) => setPaint(style, "fill", value),
   stroke: (style, value) => setPaint(style, "stroke", value),
@@ -139,7 +139,7 @@ const SETTERS: Partial<Record<Property, Setter>> = {
   },
   "letter-spacing": (style, value, basis) => {
     const spacing = value === "normal" ? 0 : lengthPx(value, basis, "width");
-    // Percentages are none, as in browsers.
+    // Percentages are ignored, as in browsers.
     if (spacing !== null && !value.endsWith("%")) style.letterSpacing = spacing;
   },
   "marker-start": (style, value) => {
@@ -153,12 +153,12 @@ const SETTERS: Partial<Record<Property, Setter>> = {
   },
 };
 
-/** The style of an element that declares `declared` below `parent`; `parent` itself where nothing changes. */
+/** The style of an element that declares `declared` below `parent`; `parent` itself if nothing changes. */
 export function computeStyle(parent: Style, declared: Declared, basis: LengthBasis): Style {
   if (declared.size === 0) return parent;
   const style: Mutable<Style> = { ...parent };
   setVariables(style, declared);
-  // Font size first, since em in the others means it; its own em means the parent's.
+  // Font size first, since em in the other properties refers to it; em in font-size refers to the parent's.
   const font = declared.get("font");
   if (font !== undefined) setFont(style, resolve(style, font) ?? "", basis);
   const size = declared.get("font-size");
@@ -183,7 +183,7 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
   return style;
 }
 
-/** The value of a property that is not inherited, its variables filled in; undefined where not declared. */
+/** The value of a non-inherited property with its variables resolved; undefined if it is not declared. */
 export function declaredValue(style: Style, declared: Declared, property: Property): string | undefined {
   const raw = declared.get(property);
   if (raw === undefined) return undefined;
@@ -205,7 +205,7 @@ function setVariables(style: Mutable<Style>, declared: Declared): void {
 const MAX_VARIABLE_STEPS = 32;
 const MAX_VALUE_CHARS = 100_000;
 
-/** Fills in var(--x, fallback); null where a variable is missing, circular or grows without end. */
+/** Resolves var(--x, fallback); null if a variable is missing, circular or grows without limit. */
 function resolve(style: Style, raw: string): string | null {
   let value = raw.trim();
   for (let step = 0; value.includes("var("); step++) {
@@ -219,7 +219,7 @@ function resolve(style: Style, raw: string): string | null {
   return value;
 }
 
-/** Whether the value was one of CSS's general keywords. All these properties inherit, so unset = inherit. */
+/** Whether the value was one of CSS's global keywords. All these properties inherit, so unset = inherit. */
 function setKeyword(style: Mutable<Style>, parent: Style, property: Property, value: string): boolean {
   const field = FIELDS[property];
   if (field === undefined) return false;
@@ -265,13 +265,13 @@ function readPaint(text: string): Paint | null {
   return color === null ? null : { kind: "color", color };
 }
 
-/** The id in url(#id), with or without quotes; null for none and for other documents. */
+/** The id in url(#id), with or without quotes; null for `none` and for other documents. */
 export function parseUrl(text: string): string | null {
   const match = /^\s*url\(\s*["']?#([^"')]*)["']?\s*\)/.exec(text);
   return match === null ? null : match[1].trim();
 }
 
-/** 0 … 1; null where malformed. */
+/** 0 … 1; null if malformed. */
 export function parseOpacity(text: string): number | null {
   const parts = splitLength(text);
   if (parts === null || (parts.unit !== "" && parts.unit !== "%")) return null;
@@ -279,7 +279,7 @@ export function parseOpacity(text: string): number | null {
   return Math.min(1, Math.max(0, value));
 }
 
-/** An even number of lengths; null for a solid line; undefined where malformed. */
+/** An even number of lengths; null for a solid line; undefined if malformed. */
 function parseDashes(text: string, basis: LengthBasis): readonly number[] | null | undefined {
   if (text === "none") return null;
   if (/,\s*,/.test(text)) return undefined;
@@ -294,7 +294,7 @@ function parseDashes(text: string, basis: LengthBasis): readonly number[] | null
   return known.length % 2 === 0 ? known : [...known, ...known];
 }
 
-/** CSS Fonts 4, §2.5: the keywords' usual sizes in px. */
+/** CSS Fonts 4, §2.5: the usual sizes of the keywords in px. */
 const FONT_SIZES: Readonly<Record<string, number>> = {
   "xx-small": 9,
   "x-small": 10,

@@ -1,8 +1,8 @@
 /**
- * clipPath elements and viewport edges to clip regions in page mm (CSS Masking 1, §5).
+ * Converts clipPath elements and viewport edges to clip regions in page mm (CSS Masking 1, §5).
  *
- * A region is the union of its children, each under its own clip-rule; a clip-path on the clipPath
- * itself, and those of the elements around, are intersected through the chain of ClipNodes.
+ * A region is the union of its children, each with its own clip-rule. A clip-path on the clipPath itself, and
+ * those of ancestor elements, are intersected through the chain of ClipNodes.
  */
 import { RULE_EVENODD, RULE_NONZERO, VERB_CLOSE, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
 import { applyX, applyY, compose, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
@@ -25,17 +25,17 @@ import { parseTransform } from "./transform.js";
 import type { Warnings } from "../warnings.js";
 
 const RECTANGLE_VERBS = Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE);
-/** clipPaths that clip clipPaths: more is a circle. */
+/** Max depth of clipPaths that clip clipPaths: deeper is a cycle. */
 const MAX_NESTING = 16;
-/** Clips on the shapes of clipPaths, in the whole file. */
+/** Max clips on the shapes of clipPaths, in the whole file. */
 const MAX_CHILD_CLIPS = 10_000;
-/** Elements looked at to find boxes for objectBoundingBox, in the whole file. */
+/** Max elements measured for objectBoundingBox, in the whole file. */
 const MAX_MEASURED = 1_000_000;
 
 interface BuiltClip {
   readonly shapes: ClipShapes;
   readonly rectangle: Box | null;
-  /** One node for each chain outside, so that equal clips share their index. */
+  /** One node per outer chain, so that equal clips share their index. */
   readonly nodes: Map<ClipNode | null, ClipNode>;
 }
 
@@ -46,7 +46,7 @@ export class SvgClips {
   private measured = 0;
   private childClips = 0;
   private childNesting = 0;
-  /** The box of a text in its user units: laying text out is not known here. */
+  /** The box of a text in its user units; set from outside, since text layout is in the painter. */
   textBox: (element: number, context: Context) => Box = () => EMPTY_BOX;
 
   constructor(
@@ -58,7 +58,7 @@ export class SvgClips {
     this.ancestors = new AncestorStyles(tree, cascade);
   }
 
-  /** The clip of an element with this `clip-path` value inside `context`; "empty" where it hides everything. */
+  /** The clip of an element with this `clip-path` value inside `context`; "empty" if it hides everything. */
   clipOf(
     element: number,
     value: string | undefined,
@@ -82,7 +82,7 @@ export class SvgClips {
     return this.clipTo(element, target, context, units, nesting);
   }
 
-  /** A clip to a rectangle in user units: the edge of a viewport. */
+  /** A clip to a rectangle in user units: a viewport's edge. */
   rectangleClip(context: Context, x: number, y: number, width: number, height: number): ClipNode {
     const { map } = context;
     const coords = new Float64Array(8);
@@ -100,7 +100,7 @@ export class SvgClips {
     return new ClipNode(context.clip, shapes, rectangleOf(shapes));
   }
 
-  /** `element` is clipped to the clipPath `target`; `units` takes that one's units to user units. */
+  /** Clips `element` to the clipPath `target`; `units` maps the clipPath's units to user units. */
   private clipTo(
     element: number,
     target: number,
@@ -110,7 +110,7 @@ export class SvgClips {
   ): ClipNode | null | "empty" {
     this.cascade.collect(target, this.declared);
     const style = computeStyle(this.ancestors.outside(target, context.basis), this.declared, context.basis);
-    // What is not there does not clip.
+    // A clipPath with display none does not clip.
     if (declaredValue(style, this.declared, "display") === "none") return context.clip;
     const own = declaredValue(style, this.declared, "clip-path");
     const transform = parseTransform(declaredValue(style, this.declared, "transform") ?? "") ?? IDENTITY;
@@ -133,7 +133,7 @@ export class SvgClips {
     return node;
   }
 
-  /** The shapes of a clipPath in page mm; null where it has none. */
+  /** The shapes of a clipPath in page mm; null if it has none. */
   private build(target: number, context: Context): BuiltClip | null {
     const { tree } = this;
     const collector = new ClipCollector();
@@ -165,7 +165,7 @@ export class SvgClips {
     else if (style.isVisible) this.addShape(child, tag, context, collector);
   }
 
-  /** As `clipOf`, within a budget: clips of clips may be many. */
+  /** Like `clipOf`, but limited, since there may be many clips of clips. */
   private clipOfChild(child: number, value: string | undefined, context: Context): ClipNode | null | "empty" {
     if (value === undefined || value === "none") return context.clip;
     if (this.childNesting < MAX_NESTING && ++this.childClips <= MAX_CHILD_CLIPS) {
@@ -190,7 +190,7 @@ export class SvgClips {
     if (outline !== null) collector.add(clippedShape(outline, context.clip), IDENTITY, false);
   }
 
-  /** Inside a clipPath a `use` may refer to a shape only. */
+  /** Inside a clipPath, `use` may only refer to a shape. */
   private addUse(use: number, context: Context, collector: ClipCollector): void {
     const { tree } = this;
     const target = tree.elementById.get((attribute(tree, use, HREF) ?? "").trim().slice(1));
@@ -200,13 +200,15 @@ export class SvgClips {
     this.addChild(target, { ...context, map: compose(context.map, translation(x, y)) }, collector);
   }
 
-  /** The box of an element's geometry in its own user units; null where it has none. */
+  /** The box of an element's geometry in its own user units; null if it has none. */
   boxOf(element: number, context: Context): Box | null {
     const box = this.measure(element, context);
     return box === null || isEmptyBox(box) ? null : box;
   }
 
-  /** As `boxOf`, but an empty box where there is no geometry, and null where there is too much to measure. */
+  /**
+   * Like `boxOf`, but returns an empty box if there is no geometry, and null if there is too much to measure.
+   */
   private measure(element: number, context: Context): Box | null {
     const { tree } = this;
     let box = EMPTY_BOX;
@@ -246,7 +248,7 @@ export class SvgClips {
   }
 }
 
-/** Subpaths of several shapes, mapped to page mm, with the rule and the shape of each. */
+/** Collects subpaths of several shapes, mapped to page mm, with the rule and the shape of each. */
 class ClipCollector {
   private readonly verbs = new ColumnBuffer(Uint8Array);
   private readonly coords = new PointBuffer();
@@ -283,7 +285,7 @@ class ClipCollector {
   }
 }
 
-/** The region's box where it is one rectangle along the axes, else null. */
+/** The region's box if it is one axis-aligned rectangle, otherwise null. */
 function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
   if (rule.length !== 1) return null;
   const points = coords.length / 2;
@@ -294,7 +296,7 @@ function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
     const next = ((i + 1) % 4) * 2;
     const sameX = coords[2 * i] === coords[next];
     const sameY = coords[2 * i + 1] === coords[next + 1];
-    // Sides alternate; a degenerate side fits both ways and is no rectangle.
+    // Sides alternate. A degenerate side is both horizontal and vertical: not a rectangle.
     if (sameX === sameY) return null;
     if (i % 2 === 0 && sameX !== (coords[4] === coords[6])) return null;
   }

@@ -1,4 +1,7 @@
-/** Conditional processing: `requiredExtensions` and `systemLanguage`, as `switch` and all elements heed them. */
+/**
+ * Conditional processing: `requiredExtensions` and `systemLanguage`, on `switch` children and all other
+ * elements.
+ */
 import { attribute, type SvgTree } from "./svg-tree.js";
 
 const CONDITIONS = ["requiredExtensions", "systemLanguage"];
@@ -6,7 +9,7 @@ const CONDITIONS = ["requiredExtensions", "systemLanguage"];
 export class SvgConditions {
   private readonly areThere: boolean;
 
-  /** `languages`: what the reader understands, in lower case. */
+  /** @param languages the user's languages, in lower case */
   constructor(
     private readonly tree: SvgTree,
     private readonly languages: readonly string[],
@@ -17,7 +20,7 @@ export class SvgConditions {
   areMet(element: number): boolean {
     if (!this.areThere) return true;
     const extensions = attribute(this.tree, element, "requiredExtensions");
-    // None is known; an empty list is not met either (SVG 2, §5.8.4).
+    // No extension is supported; an empty list is not met either (SVG 2, §5.8.4).
     if (extensions !== undefined) return false;
     const language = attribute(this.tree, element, "systemLanguage");
     if (language === undefined) return true;

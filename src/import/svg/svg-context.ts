@@ -1,4 +1,4 @@
-/** What an element inherits from where it stands: passed down the tree, never changed. */
+/** The inherited state of an element: passed down the tree, never changed. */
 import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
 import type { ClipNode } from "../clip-node.js";
 import type { LengthBasis } from "./length.js";
@@ -13,9 +13,9 @@ export interface Context {
   /** Index into the drawing's groups. */
   readonly group: number;
   readonly clip: ClipNode | null;
-  /** The `use` elements that we are inside of. */
+  /** The enclosing `use` elements. */
   readonly uses: UseChain | null;
-  /** What context-fill and context-stroke mean inside a marker. */
+  /** The values of context-fill and context-stroke inside a marker. */
   readonly contextFill: Paint;
   readonly contextStroke: Paint;
 }
@@ -23,14 +23,14 @@ export interface Context {
 export interface UseChain {
   readonly element: number;
   readonly target: number;
-  /** Width and height on the `use`, for a target that is a symbol or svg. */
+  /** Width and height of the `use`, if its target is a symbol or svg. */
   readonly size: { readonly width: number | null; readonly height: number | null };
   readonly outer: UseChain | null;
-  /** How many we are inside of, this one included. */
+  /** Number of enclosing `use` elements, including this one. */
   readonly depth: number;
 }
 
-/** What context-fill and context-stroke mean inside of what is drawn for an element with this context. */
+/** The values of context-fill and context-stroke inside content drawn for an element with this context. */
 export function contextPaints({
   style,
   contextFill,
@@ -44,7 +44,7 @@ export function contextPaints({
   return { contextFill: resolved(style.fill), contextStroke: resolved(style.stroke) };
 }
 
-/** Copies of copies deeper than this are a circle, or an attack. */
+/** Copies of copies deeper than this are a cycle or an attack. */
 export const MAX_COPY_DEPTH = 200;
 
 export const isInsideUseOf = (chain: UseChain | null, target: number): boolean => {
@@ -52,7 +52,7 @@ export const isInsideUseOf = (chain: UseChain | null, target: number): boolean =
   return false;
 };
 
-/** The context for what is inside an element with this style and transform. */
+/** The context inside an element with this style and transform. */
 export function withStyle(context: Context, style: Style, transform: Affine): Context {
   if (style === context.style && transform === IDENTITY) return context;
   const basis =
@@ -63,7 +63,7 @@ export function withStyle(context: Context, style: Style, transform: Affine): Co
   return { ...context, map, style, basis };
 }
 
-/** The context inside a new viewport; `map` is from its user units into those outside. */
+/** The context inside a new viewport; `map` converts its user units to those outside. */
 export const withViewport = (context: Context, map: Affine, width: number, height: number): Context => ({
   ...context,
   map: compose(context.map, map),

@@ -1,4 +1,4 @@
-/** What a browser does with an element and a pen does not: named in a warning for each. */
+/** Effects that a browser draws and a pen cannot: each gives a warning. */
 import type { Box } from "../../geometry/box.js";
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
@@ -6,12 +6,12 @@ import { declaredValue, parseUrl, type Style } from "./style.js";
 import { tagOf, type SvgTree } from "./svg-tree.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 
-/** Effects of one element: codes, and what names them. */
+/** Effects of one element: codes, and details for the message. */
 export type Effects = readonly (readonly [code: WarningCode, detail?: string])[];
 
 const NONE: Effects = [];
 
-/** Of the element that `declared` is of. */
+/** The effects of the element to which `declared` belongs. */
 export function effectsOf(style: Style, declared: Declared): Effects {
   if (declared.size === 0) return NONE;
   const valueOf = (property: Property): string | null => {
@@ -28,7 +28,7 @@ export function effectsOf(style: Style, declared: Declared): Effects {
   return effects;
 }
 
-/** Whether a mask or filter without content leaves nothing of the element, as in browsers. */
+/** Whether a mask or filter without content hides the element completely, as in browsers. */
 export function isErased(tree: SvgTree, style: Style, declared: Declared): boolean {
   return (["mask", "filter"] as const).some((name) => {
     const id = parseUrl(declaredValue(style, declared, name) ?? "");

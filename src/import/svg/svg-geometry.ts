@@ -1,4 +1,4 @@
-/** Elements to outlines in user units, and where they are on the page. */
+/** Converts elements to outlines in user units, and finds their place on the page. */
 import { applyX, applyY, IDENTITY, largestScale } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
@@ -13,23 +13,23 @@ import { declaredValue } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgGeometry {
-  /** The outline made last. */
+  /** The latest outline. */
   readonly shape = new ShapeBuffer();
   private readonly source: ElementSource;
-  /** The map asked about last, and by how much it enlarges: one for many shapes. */
+  /** The latest map and its scale, cached since many shapes share one. */
   private map = IDENTITY;
   private scale = 1;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly warnings: Warnings,
-    /** mm on the page: how far an arc may be from its cubics. */
+    /** mm on the page: max distance between an arc and its cubics. */
     private readonly arcToleranceMm: number,
   ) {
     this.source = new ElementSource(tree);
   }
 
-  /** The element's outline in user units, in `shape`, which the next call uses again. */
+  /** Draws the element's outline in user units into `shape`, which the next call reuses. */
   geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
     const { shape } = this;
     shape.clear();
@@ -48,7 +48,7 @@ export class SvgGeometry {
     return shape;
   }
 
-  /** A length that CSS or an attribute gives; null where neither does. */
+  /** A length from CSS or an attribute; null if neither gives one. */
   lengthOf(
     element: number,
     declared: Declared,
@@ -59,7 +59,7 @@ export class SvgGeometry {
     return this.source.of(element, declared, context).length(name, side);
   }
 
-  /** The box on the page of a rectangle in user units. */
+  /** The page box of a rectangle in user units. */
   placeOf(context: Context, x: number, y: number, width: number, height: number): Box {
     return mapBox(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });
   }
@@ -79,7 +79,7 @@ export class SvgGeometry {
   }
 }
 
-/** The numbers of one element after the other: one object, since there may be a million of them. */
+/** Reads the numbers of one element. A single object is reused, since there may be a million elements. */
 class ElementSource implements ShapeSource {
   private element = 0;
   private declared: Declared | null = null;

@@ -1,18 +1,18 @@
 /**
- * Which groups are the file's layers, and what they are called.
+ * Finds the groups that are the file's layers, and their names.
  *
- * Layers are the groups at the top. One single outer group (or switch, link or nested svg) around
- * them is looked through, since many programs and scripts wrap everything once.
+ * Layers are the top-level groups. A single wrapper around them (group, switch, link or nested svg) is
+ * skipped, since many programs and scripts wrap everything once.
  */
 import { attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 
-/** More groups at the top than this are data, not layers: charts have one for each point. */
+/** More top-level groups than this are data, not layers: some charts have one per point. */
 const MAX_LAYERS = 200;
 
-/** Wrapping deeper than any program's is not looked through. */
+/** Max depth of wrappers, more than any program writes. */
 const MAX_WRAPPERS = 32;
 
-/** Elements that draw nothing where they stand. */
+/** Elements that draw nothing by themselves. */
 const NOT_CONTENT = new Set([
   TEXT_NODE,
   "defs",
@@ -36,9 +36,9 @@ const WRAPPERS = new Set(["g", "switch", "a", "svg"]);
 export interface LayerPlan {
   /** The element whose children are layers. */
   readonly parent: number;
-  /** Whether groups below it are layers of their own; if not, everything is one. */
+  /** Whether its child groups are separate layers; if not, everything is one layer. */
   readonly isSplit: boolean;
-  /** Inkscape's own layers are in the file: other groups beside them are no layers. */
+  /** The file has Inkscape layers: other groups beside them are not layers. */
   readonly onlyMarked: boolean;
   readonly groupCount: number;
 }
@@ -65,7 +65,7 @@ export function planLayers(tree: SvgTree): LayerPlan {
   };
 }
 
-/** Whether a wrapper holds groups, perhaps inside one more single wrapper. */
+/** Whether a wrapper contains groups, possibly inside further single wrappers. */
 function leadsToGroups(tree: SvgTree, element: number): boolean {
   for (let at = element; ;) {
     const wrapper = tagOf(tree, at) === "g" ? -1 : wrapperIn(tree, at);
@@ -75,7 +75,7 @@ function leadsToGroups(tree: SvgTree, element: number): boolean {
   }
 }
 
-/** The one child with content, if there is no other and it may be a wrapper; else −1. */
+/** The only child with content, if it may be a wrapper; otherwise −1. */
 function wrapperIn(tree: SvgTree, parent: number): number {
   let only = -1;
   for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
@@ -90,7 +90,7 @@ function groupsIn(tree: SvgTree, parent: number): number[] {
   const groups: number[] = [];
   const group = tree.names.indexOf("g");
   const first = tree.firstChildren[parent];
-  // Mostly there is none among thousands.
+  // Usually there is none among thousands of children.
   const isAny = first >= 0 && tree.tags.subarray(first, tree.count).includes(group);
   for (let child = isAny ? first : -1; child >= 0; child = tree.nextSiblings[child]) {
     if (tree.tags[child] === group) groups.push(child);
@@ -101,7 +101,7 @@ function groupsIn(tree: SvgTree, parent: number): number[] {
 export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
   attribute(tree, element, "inkscape:groupmode") === "layer";
 
-/** inkscape:label, else data-name (Illustrator's original), else the id; null where it has none. */
+/** inkscape:label, or data-name (Illustrator's original), or the id; null if it has none. */
 export function layerName(tree: SvgTree, element: number): string | null {
   const label = attribute(tree, element, "inkscape:label") ?? attribute(tree, element, "data-name");
   if (label !== undefined && label.trim() !== "") return label.trim();
@@ -109,7 +109,7 @@ export function layerName(tree: SvgTree, element: number): string | null {
   return id === undefined || id.trim() === "" ? null : decodeId(id.trim());
 }
 
-/** Illustrator writes characters that an id cannot hold as _xHEX_: "Layer_x5F_1", "_x31_0". */
+/** Illustrator writes characters that are not allowed in an id as _xHEX_: "Layer_x5F_1", "_x31_0". */
 const decodeId = (id: string): string =>
   id.replace(/_x([0-9A-Fa-f]{2,5})_/g, (whole, hex: string) => {
     const code = parseInt(hex, 16);

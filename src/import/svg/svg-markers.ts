@@ -1,4 +1,4 @@
-/** The context inside a marker: where it stands, how it is turned, scaled and cut (SVG 2, §11.6). */
+/** The context inside a marker: its position, rotation, scale and clip (SVG 2, §11.6). */
 import {
   compose,
   determinant,
@@ -30,7 +30,10 @@ function orientRad(text: string): number {
   return turn === null ? 0 : Math.atan2(turn.b, turn.a);
 }
 
-/** A length, or left/center/right and top/center/bottom of the box. Percentages are of the viewport around. */
+/**
+ * A length, or left/center/right and top/center/bottom of the box. Percentages refer to the enclosing
+ * viewport.
+ */
 function refPosition(text: string, start: number, length: number, basis: LengthBasis, side: Side): number {
   const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text];
   return share === undefined ? (lengthPx(text, basis, side) ?? 0) : start + share * length;
@@ -48,7 +51,10 @@ export class SvgMarkers {
     this.ancestors = new AncestorStyles(tree, cascade);
   }
 
-  /** For the content of `marker` at `place` on a shape drawn in `context`; null where it shows nothing. */
+  /**
+   * The context for the content of `marker` at `place` on a shape drawn in `context`; null if nothing is
+   * visible.
+   */
   insideOf(marker: number, place: MarkerPlace, context: Context): Context | null {
     const { tree, declared } = this;
     const text = (name: string): string | undefined => attribute(tree, marker, name);
@@ -72,7 +78,7 @@ export class SvgMarkers {
       "height",
     );
     const turned = compose(translation(place.x, place.y), compose(rotation(angle), scaling(size)));
-    // The reference point, not the viewBox's corner, lies on the vertex.
+    // The reference point lies on the vertex, not the viewBox's corner.
     const map = compose(turned, { ...fit, e: fit.a * -refX, f: fit.d * -refY });
     if (determinant(map) === 0 || !isFiniteAffine(map)) return null;
     const depth = (context.uses?.depth ?? 0) + 1;
@@ -95,7 +101,7 @@ export class SvgMarkers {
     };
     const overflow = declaredValue(style, declared, "overflow");
     if (overflow === "visible" || overflow === "auto") return inside;
-    // The marker's viewport, in the units of what is inside.
+    // The marker's viewport, in its content's units.
     const x = -fit.e / fit.a;
     const y = -fit.f / fit.d;
     return { ...inside, clip: this.clips.rectangleClip(inside, x, y, width / fit.a, height / fit.d) };

@@ -1,4 +1,4 @@
-/** How large the page is, and the map from the outermost user units to page mm. */
+/** The page size, and the map from the root's user units to page mm. */
 import { PlotwrightError } from "../../errors.js";
 import { scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
@@ -9,28 +9,28 @@ export interface SvgPage {
   readonly widthMm: number;
   readonly heightMm: number;
   readonly map: Affine;
-  /** Size of the viewport in user units: what % means. */
+  /** Size of the viewport in user units, for %. */
   readonly viewportWidth: number;
   readonly viewportHeight: number;
-  /** "none" where neither size nor viewBox says: then the drawing's own extent is the page. */
+  /** "none" if there is neither size nor viewBox: then the drawing's own extent is the page. */
   readonly sizeFrom: "size" | "viewBox" | "none";
 }
 
-/** Ten times the largest roll of paper; more is a mistake. */
+/** Ten times the largest roll of paper; anything larger is a mistake. */
 const MAX_PAGE_MM = 100_000;
-/** CSS's size for a picture that says nothing. */
+/** CSS's default size of an image. */
 const DEFAULT_WIDTH_PX = 300;
 const DEFAULT_HEIGHT_PX = 150;
 
 export interface PageAttributes {
-  /** Candidates in order: CSS, then attribute. */
+  /** Candidates in order: CSS, then the attribute. */
   readonly width: readonly (string | undefined)[];
   readonly height: readonly (string | undefined)[];
   readonly viewBox: string | undefined;
   readonly preserveAspectRatio: string | undefined;
 }
 
-/** `pxPerInch` is what a px and a unit without a name are worth: 96 by CSS, 72 or 90 in some programs. */
+/** @param pxPerInch for px and numbers without unit: 96 by CSS, 72 or 90 in some programs */
 export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
   const mmPerPx = MM_PER_INCH / pxPerInch;
   const box = parseViewBox(attributes.viewBox);
@@ -64,7 +64,7 @@ export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
 
 const PIXEL_UNITS = new Set(["", "px"]);
 
-/** mm of the first absolute length > 0; percentages and `auto` are left to the viewBox. */
+/** mm of the first absolute length > 0; percentages and `auto` leave the size to the viewBox. */
 function firstMm(candidates: readonly (string | undefined)[], mmPerPx: number): number | null {
   for (const text of candidates) {
     if (text === undefined) continue;
@@ -77,7 +77,7 @@ function firstMm(candidates: readonly (string | undefined)[], mmPerPx: number): 
   return null;
 }
 
-/** Takes away what unit conversion adds in the sixteenth digit: 210mm is 210. */
+/** Removes the rounding error of unit conversion in the sixteenth digit: 210mm is 210. */
 const tidy = (mm: number): number => {
   const rounded = Math.round(mm * 1e6) / 1e6;
   return Math.abs(rounded - mm) < 1e-12 * mm ? rounded : mm;

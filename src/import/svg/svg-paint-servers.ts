@@ -1,4 +1,4 @@
-/** The colour that stands for a gradient or pattern. */
+/** The single colour that replaces a gradient or pattern. */
 import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { parseColor } from "../color.js";
@@ -17,7 +17,7 @@ export class SvgPaintServers {
     private readonly cascade: Cascade,
   ) {}
 
-  /** The colour that stands for a paint server; null for an invisible one, undefined where there is none. */
+  /** The colour that replaces a paint server; null if it paints nothing, undefined if it does not exist. */
   serverColor(id: string, context: Context): string | null | undefined {
     if (!this.serverColors.has(id)) this.serverColors.set(id, this.findServerColor(id, context));
     return this.serverColors.get(id);
@@ -28,7 +28,7 @@ export class SvgPaintServers {
     return element !== undefined && tagOf(this.tree, element) === "pattern";
   }
 
-  /** The first stop's colour, found through the chain of hrefs that gradients may share stops by. */
+  /** The first stop's colour. Gradients may share stops, so their hrefs are followed. */
   private findServerColor(id: string, context: Context): string | null | undefined {
     const { tree } = this;
     let element = tree.elementById.get(id);
@@ -41,11 +41,13 @@ export class SvgPaintServers {
       const href = attribute(tree, element, HREF) ?? "";
       element = tree.elementById.get(href.slice(1));
     }
-    // Without stops nothing is painted.
+    // A gradient without stops paints nothing.
     return null;
   }
 
-  /** Whether its units are parts of the shape's box: then it paints nothing on a shape without width or height. */
+  /**
+   * Whether its units refer to the shape's box: then it paints nothing on a shape without width or height.
+   */
   isOfBox(id: string): boolean {
     const { tree } = this;
     const element = tree.elementById.get(id);
@@ -54,7 +56,7 @@ export class SvgPaintServers {
     return attribute(tree, element, name) !== "userSpaceOnUse";
   }
 
-  /** What a pattern paints is not drawn: black stands for it, unless it is empty. */
+  /** Patterns are not drawn: black replaces them, unless they are empty. */
   private patternColor(pattern: number): string | undefined {
     const { tree } = this;
     const inherited = (has: (element: number) => boolean): boolean => {

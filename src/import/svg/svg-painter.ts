@@ -1,4 +1,4 @@
-/** One leaf element to one shape of the drawing: geometry, paints, dashes. */
+/** Converts one leaf element to one shape of the drawing: geometry, paints, dashes. */
 import { compose, meanScale, rotation, scaling, translation, unstretched } from "../../geometry/affine.js";
 import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
@@ -25,7 +25,7 @@ import { declaredValue } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {
-  /** What is being drawn, and its name in warnings. */
+  /** The current element, and its name in warnings. */
   private element = 0;
   private readonly where = (): string => this.geometry.whereOf(this.element);
   private readonly textPaths: SvgTextPaths;
@@ -37,14 +37,14 @@ export class SvgPainter {
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
     private readonly cascade: Cascade,
-    /** What text is drawn with; null where it is only to be reported. */
+    /** The font for text; null if text is only reported. */
     private readonly font: TextFont | null,
     private readonly conditions: SvgConditions,
   ) {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
   }
 
-  /** The box of a text in its user units: from line to line, and from the first letter to the last. */
+  /** The box of a text in its user units: the full line height, from the first letter to the last. */
   textBox(element: number, context: Context): Box {
     if (this.font === null) return EMPTY_BOX;
     const { letters } = placeText(
@@ -79,7 +79,7 @@ export class SvgPainter {
     }
   }
 
-  /** The letters of a text as shapes; where letters are not wanted, a warning in their place. */
+  /** Draws the letters of a text as shapes; warns instead if there is no font. */
   drawText(element: number, context: Context): void {
     const { builder, warnings } = this;
     if (this.font === null) {
@@ -128,7 +128,7 @@ export class SvgPainter {
     if (stroke === null && fill === null) return;
     const isOutline = this.font?.kind === "outline";
     const look: Look = {
-      // A single stroke has no inside: what would fill the letter colours its line.
+      // A single stroke has no interior: the fill colour becomes its line colour.
       stroke: isOutline ? stroke : (stroke ?? fill),
       fill: isOutline ? fill : null,
       evenOdd: false,
@@ -147,7 +147,7 @@ export class SvgPainter {
     return this.geometry.placeOf(context, first("x"), first("y") - fontSize, fontSize, fontSize);
   }
 
-  /** How the shape is painted; null where it is not painted at all. */
+  /** How the shape is painted; null if it is not painted. */
   private lookOf(element: number, tag: string, declared: Declared, context: Context): Look | null {
     const { style } = context;
     let stroke = this.colorOf(style.stroke, style.strokeOpacity, context, "gradient-stroke");
@@ -196,7 +196,7 @@ export class SvgPainter {
       this.warnings.add(gradient === "gradient-fill" ? "pattern-fill" : "pattern-stroke", place, `"${id}"`);
   }
 
-  /** "#rrggbb", or null where nothing is painted. */
+  /** "#rrggbb", or null if nothing is painted. */
   private colorOf(
     paint: Paint,
     opacity: number,

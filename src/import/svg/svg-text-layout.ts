@@ -1,6 +1,6 @@
 /**
- * Characters with their styles and shifts to places of letters (SVG 2, §11.5): chunk by chunk, each laid out
- * along its line or path and then anchored.
+ * Lays out characters with their styles and shifts (SVG 2, §11.5): chunk by chunk, each along its line or
+ * path and then anchored.
  */
 import type { Style } from "./style.js";
 import type { TextPath } from "./svg-text-path.js";
@@ -8,29 +8,29 @@ import { baselineOffset, DECORATION_EM } from "./text-style.js";
 import type { TextFont } from "../text/text-font.js";
 import { layOutLine } from "../text/text-line.js";
 
-/** A character of the text and what falls on it. */
+/** A character of the text and the attributes that apply to it. */
 export interface Char {
   text: string;
   readonly style: Style;
-  /** What it stands on; null for a straight line. */
+  /** The path it stands on; null for a straight line. */
   readonly path: TextPath | null;
   x: number | null;
   y: number | null;
   dx: number;
   dy: number;
   angle: number | null;
-  /** Whether it stays where it is a blank among blanks. */
+  /** Whether a blank is kept next to other blanks. */
   readonly keepsBlanks: boolean;
   readonly stretch: Stretch | null;
 }
 
-/** A length that characters are brought to: by the gaps between them, or together with the letters themselves. */
+/** A target length for characters: reached by changing the gaps, or by scaling the letters too. */
 export interface Stretch {
   readonly length: number;
   readonly ofGlyphs: boolean;
 }
 
-/** One letter: its path in em, put at x, y in user units and turned. */
+/** One letter: its path in em, placed at x, y in user units and rotated. */
 export interface PlacedLetter {
   readonly path: string;
   readonly x: number;
@@ -38,22 +38,22 @@ export interface PlacedLetter {
   /** rad */
   readonly angle: number;
   readonly style: Style;
-  /** How much wider than usual it is. */
+  /** Horizontal scale. */
   readonly stretch: number;
-  /** In user units, to the next letter. */
+  /** Distance to the next letter, in user units. */
   readonly advance: number;
 }
 
 export interface LaidOutText {
   readonly letters: readonly PlacedLetter[];
-  /** Characters that the font has not. */
+  /** Characters that are missing in the font. */
   readonly missing: readonly string[];
 }
 
-/** A letter on a line that is straight so far: x along it, y across. */
+/** A letter on a straight line: x along it, y across. */
 interface LetterOnLine extends PlacedLetter {
   readonly pen: number;
-  /** Across the line: where its baseline is. */
+  /** Position of its baseline across the line. */
   readonly lineY: number;
 }
 
@@ -80,7 +80,7 @@ export function layOutText(chars: readonly Char[], font: TextFont): LaidOutText 
   return { letters, missing };
 }
 
-/** On a path only x is a place, the one along it. */
+/** On a path only x sets a position, along the path. */
 const beginsChunk = (char: Char, before: Char): boolean =>
   char.path !== before.path || char.x !== null || (char.y !== null && char.path === null);
 
@@ -97,7 +97,7 @@ function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: str
   pen.x = isVertical ? -along.y : along.x;
   pen.y = isVertical ? along.x : along.y;
   if (!isVertical) return letters;
-  // A vertical line is a horizontal one, turned by a quarter.
+  // A vertical line is a horizontal one rotated by 90°.
   return letters.map((letter) => ({
     ...letter,
     x: -letter.y,
@@ -106,14 +106,14 @@ function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: str
   }));
 }
 
-/** The part of a text's length that lies before its place. */
+/** The share of a text's length that lies before its anchor. */
 function anchorOf({ textAnchor, text }: Style): number {
   return text.isRightToLeft ? 1 - ANCHORS[textAnchor] : ANCHORS[textAnchor];
 }
 
 /**
- * The middle of each letter stands on the path, and the letter is turned as the path is there. Letters whose
- * middle is off the path are left out, as the specification says.
+ * The middle of each letter lies on the path, and the letter is rotated to the path's direction there.
+ * Letters whose middle is off the path are dropped, as the specification requires.
  */
 function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
   const path = chunk[0].path!;
@@ -141,7 +141,7 @@ function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string
   return letters;
 }
 
-/** The letters one after the other from `pen` on, which ends behind the last. */
+/** Places the letters one after the other from `pen`, which ends after the last. */
 function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
   const letters: LetterOnLine[] = [];
   const runs = runsOf(chars);
@@ -160,7 +160,7 @@ function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: s
     .filter(({ path }) => path !== "");
 }
 
-/** With blanks as letters without a path. */
+/** Includes blanks, as letters without a path. */
 function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
   const { style, angle, dx, dy } = run[0];
   const size = style.fontSize;
@@ -189,7 +189,7 @@ function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: stri
   });
 }
 
-/** Brings letters that begin at `startX` and end at the pen to the length that `textLength` asks for. */
+/** Stretches letters from `startX` to the pen to the length given by `textLength`. */
 function stretched(
   letters: readonly LetterOnLine[],
   startX: number,
@@ -212,12 +212,12 @@ function stretched(
     }));
   }
   const gap = letters.length < 2 ? 0 : (length - natural) / (letters.length - 1);
-  // As in browsers, the gap also stands before what follows.
+  // As in browsers, the gap is also added before what follows.
   if (isFollowed) pen.x += gap;
   return letters.map((letter, i) => ({ ...letter, x: letter.x + i * gap, pen: letter.pen + i * gap }));
 }
 
-/** Lines along a letter, as letters of their own: bars of an outline font, single strokes of the others. */
+/** Decoration lines of a letter, as separate letters: bars for an outline font, single strokes for others. */
 function decorationsOf(letter: LetterOnLine, font: TextFont): LetterOnLine[] {
   const { style, advance, pen, lineY } = letter;
   const width = advance / style.fontSize;
@@ -235,12 +235,14 @@ function decorationsOf(letter: LetterOnLine, font: TextFont): LetterOnLine[] {
   });
 }
 
-/** Stretches of one style without shifts inside, so that a font may join and kern within them. */
+/**
+ * Groups of characters of one style without shifts inside, so that the font can join and kern within them.
+ */
 function runsOf(chars: readonly Char[]): Char[][] {
   const runs: Char[][] = [];
   for (const char of chars) {
     const run = runs[runs.length - 1];
-    const goesOn =
+    const continues =
       run !== undefined &&
       run[0].style === char.style &&
       run[0].angle === char.angle &&
@@ -248,7 +250,7 @@ function runsOf(chars: readonly Char[]): Char[][] {
       char.dx === 0 &&
       char.dy === 0 &&
       (char.angle === null || char.angle === 0);
-    if (goesOn) run.push(char);
+    if (continues) run.push(char);
     else runs.push([char]);
   }
   return runs;

@@ -1,4 +1,4 @@
-/** The path that the letters of a `textPath` stand on (SVG 2, §11.8). */
+/** The path of a `textPath`'s letters (SVG 2, §11.8). */
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
@@ -12,20 +12,25 @@ import { declaredValue } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { IDENTITY } from "../../geometry/affine.js";
 
-/** What of a closed path letters may stand on runs from `startOffset` once around: on, about or back from it. */
+/**
+ * Letters may use one full turn of a closed path. It begins at `startOffset`, is centred on it, or ends
+ * there, depending on the anchor.
+ */
 type Anchor = Context["style"]["textAnchor"];
 const FIRST_OF_LOOP: Readonly<Record<Anchor, number>> = { start: 0, middle: -0.5, end: -1 };
 
 export class TextPath {
   constructor(
     private readonly path: MeasuredPath,
-    /** Along the path, in user units. */
+    /** Distance along the path, in user units. */
     readonly startOffset: number,
-    /** Letters stand on the other side, and run the other way. */
+    /** Letters are on the other side and run in the opposite direction. */
     private readonly isReversed: boolean,
   ) {}
 
-  /** The place of a letter whose middle is so far along; null where it falls off the path and is not drawn. */
+  /**
+   * The position of a letter whose middle is this far along; null if it falls off the path and is not drawn.
+   */
   placeOf(middle: number, anchor: Anchor): PathPlace | null {
     const { length, isClosed } = this.path;
     if (!isClosed) return middle < 0 || middle > length ? null : this.placeAt(middle);
@@ -34,7 +39,7 @@ export class TextPath {
     return this.placeAt(((middle % length) + length) % length);
   }
 
-  /** Where text after the path goes on. */
+  /** Where text after the path continues. */
   end(): PathPlace | null {
     return this.placeAt(this.path.length);
   }
@@ -55,7 +60,7 @@ export class SvgTextPaths {
     private readonly geometry: SvgGeometry,
   ) {}
 
-  /** Of a `textPath` element in a text drawn in `context`; null where it refers to no shape. */
+  /** The path of a `textPath` element in a text drawn in `context`; null if it refers to no shape. */
   of(element: number, context: Context): TextPath | null {
     const { tree, declared } = this;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
@@ -63,7 +68,7 @@ export class SvgTextPaths {
     if (target === undefined || !SHAPE_TAGS.has(tagOf(tree, target))) return null;
     this.cascade.collect(target, declared);
     const outline = this.geometry.geometryOf(target, tagOf(tree, target), declared, context);
-    // The shape's own transform counts, not that of what it stands in.
+    // The shape's own transform applies, but not that of its ancestors.
     const map = parseTransform(declaredValue(context.style, declared, "transform") ?? "") ?? IDENTITY;
     const shape = new ShapeBuffer();
     shape.append(outline, map);

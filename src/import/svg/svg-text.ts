@@ -1,6 +1,6 @@
 /**
- * SVG text to places of letters (SVG 2, chapter 11, for horizontal text): the characters are gathered with the
- * style, the path and the x, y, dx, dy, rotate that fall on each, and then laid out.
+ * SVG text to positioned letters (SVG 2, chapter 11): collects the characters with their style, path and x,
+ * y, dx, dy, rotate values, then lays them out.
  */
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
@@ -14,9 +14,9 @@ import type { SvgTextPaths, TextPath } from "./svg-text-path.js";
 import type { TextFont } from "../text/text-font.js";
 
 export interface PlacedText extends LaidOutText {
-  /** What is not laid out: a textPath without a path, and other kinds. */
+  /** Elements that are not laid out: a textPath without a path, and unsupported kinds. */
   readonly unsupported: readonly string[];
-  /** Where the text begins, in user units. */
+  /** Start of the text, in user units. */
   readonly x: number;
   readonly y: number;
 }
@@ -25,7 +25,7 @@ type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
 
 const MAX_CHARS = 100_000;
 const RAD_PER_DEG = Math.PI / 180;
-/** Of the font size: how high small capitals are that are made of large ones. */
+/** Size of synthetic small capitals, as a share of the font size. */
 const SMALL_CAPS = 0.7;
 
 export function placeText(
@@ -48,7 +48,7 @@ export function placeText(
 class Gatherer {
   readonly chars: Char[] = [];
   readonly unsupported: string[] = [];
-  /** Elements with positions, and which characters lie in them: [first, last). */
+  /** Elements that may have positions, and the characters inside each. */
   private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
   private readonly declared = new Declared();
   private readonly smallCaps = new Map<Style, Style>();
@@ -100,14 +100,14 @@ class Gatherer {
         continue;
       }
       const onPath = tag === "textPath" ? this.paths.of(node, this.context) : path;
-      // A textPath stands in a text or a link only.
+      // A textPath is allowed only in a text or a link.
       const isMisplaced = tag === "textPath" && !["text", "a"].includes(tagOf(tree, tree.parents[node]));
       if (tag === "tref" || isMisplaced || (tag === "textPath" && onPath === null))
         this.unsupported.push(tag);
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
         this.cascade.collect(node, this.declared);
         const own = computeStyle(notAligned(style), this.declared, this.basisOf(style));
-        // Deep nesting of spans has no use; what is that deep is not laid out.
+        // Deeply nested spans have no use; deeper ones are not laid out.
         if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64)
           pushChildren(node, own, open, onPath, keepsBlanks, stretch);
       }
@@ -126,7 +126,7 @@ class Gatherer {
     return false;
   }
 
-  /** What `textLength` asks of the characters in an element. */
+  /** The `textLength` of the characters in an element. */
   private stretchOf(element: number, style: Style): Stretch | null {
     const text = attribute(this.tree, element, "textLength");
     const length = text === undefined ? null : lengthPx(text, this.basisOf(style), "width");
@@ -155,7 +155,10 @@ class Gatherer {
     return small;
   }
 
-  /** Gives the n-th number of each list to the n-th character left in its element; inner elements win. */
+  /**
+   * Assigns the n-th number of each list to the n-th remaining character of its element; inner elements
+   * override outer ones.
+   */
   assignPositions(kept: readonly Char[]): void {
     const isKept = new Set(kept);
     for (const { element, style, chars } of this.spans) {
@@ -171,7 +174,7 @@ class Gatherer {
       list("dx", "width").forEach((dx, i) => i < left.length && (left[i].dx = dx ?? 0));
       list("dy", "height").forEach((dy, i) => i < left.length && (left[i].dy = dy ?? 0));
       const angles = list("rotate", "both");
-      // The last angle holds for all that follow.
+      // The last angle applies to all following characters.
       if (angles.length > 0) {
         left.forEach((char, i) => (char.angle = (angles[Math.min(i, angles.length - 1)] ?? 0) * RAD_PER_DEG));
       }
@@ -179,7 +182,7 @@ class Gatherer {
   }
 }
 
-/** An element's own alignment does not go on to those inside. */
+/** An element's own alignment is not inherited by its children. */
 const notAligned = (style: Style): Style =>
   style.text.alignmentBaseline === "auto"
     ? style
@@ -193,7 +196,10 @@ function transformed(text: string, how: string): string {
     : text;
 }
 
-/** Line breaks and tabs are blanks. Where blanks are not kept, runs of them are one, and there are none at the ends. */
+/**
+ * Line breaks and tabs count as blanks. Unless blanks are preserved, runs of them become one, and those at
+ * both ends are removed.
+ */
 function collapseBlanks(chars: readonly Char[]): Char[] {
   const kept: Char[] = [];
   for (const char of chars) {

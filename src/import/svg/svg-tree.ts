@@ -1,12 +1,12 @@
 /**
  * XML text to a tree of SVG elements.
  *
- * The tree is kept in columns, one number or string per element and attribute, because an object per element would
- * not fit into memory for files of many megabytes. Element i has the attributes
- * [attributeOffsets[i], attributeOffsets[i + 1]); names are numbers into `names`. Elements stand in document order, so
- * a child's index is above its parent's. Text is kept, as elements named "#text", only where it means something.
- * Values are kept as places in the file's text, which is in memory anyway; those that read otherwise there (entities,
- * line ends) as strings of their own.
+ * The tree is stored in columns, with one number or string per element and attribute, because an object per
+ * element would not fit into memory for files of many megabytes. Element i has the attributes
+ * [attributeOffsets[i], attributeOffsets[i + 1]); names are indices into `names`. Elements are in document
+ * order, so a child's index is greater than its parent's. Text is stored, as elements named "#text", only
+ * where it is relevant. Values are stored as positions in the file's text, which is in memory anyway; values
+ * that are written differently there (entities, line ends) are stored as separate strings.
  */
 import { SaxesParser } from "saxes";
 import { PlotwrightError } from "../../errors.js";
@@ -16,7 +16,7 @@ import { XmlNames } from "./xml-names.js";
 import { notAnSvg, rejectOtherFormats } from "./not-an-svg.js";
 
 export const TEXT_NODE = "#text";
-/** Attributes written `xlink:href` or `href` are both kept under this name. */
+/** Attributes written `xlink:href` or `href` are both stored under this name. */
 export const HREF = "href";
 
 /** Characters between two yields: under 20 ms of parsing. */
@@ -24,10 +24,10 @@ const SLICE_CHARS = 1 << 18;
 const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 const MAX_REPAIRS = 1000;
-/** Added to a value's place: it is not in the text but a string of its own, with that number. */
+/** Added to an index into `own`: the value is not in the text but a separate string. */
 const OWN_STRING = 0x80000000;
 
-/** Faults of the XML that leave no doubt about what was meant; browsers accept them in pages. */
+/** XML errors whose meaning is clear; browsers accept them in pages. */
 const HARMLESS = ["undefined entity", "unquoted attribute value", "attribute without value", "]]>"];
 
 export interface SvgTree {
@@ -43,20 +43,23 @@ export interface SvgTree {
   readonly values: AttributeValues;
   readonly lines: Uint32Array;
   readonly elementById: ReadonlyMap<string, number>;
-  /** What the parser forgave: its words, with line and column. */
+  /** Errors that the parser recovered from: its messages, with line and column. */
   readonly repairs: readonly string[];
   readonly foreignObjects: number;
   readonly hasStylesheetLink: boolean;
 }
 
-/** Where in `text` each value stands, up to a quote like the one before it; or `OWN_STRING` + where in `own`. */
+/**
+ * Where in `text` each value begins; it ends at the same quote that precedes it. Or `OWN_STRING` + index in
+ * `own`.
+ */
 interface AttributeValues {
   readonly text: string;
   readonly places: Uint32Array;
   readonly own: readonly string[];
 }
 
-/** The value of attribute `index` of all. */
+/** The value of the attribute with this index in the whole tree. */
 export function attributeValue({ values }: SvgTree, index: number): string {
   const { text, own } = values;
   const place = values.places[index];
@@ -64,7 +67,7 @@ export function attributeValue({ values }: SvgTree, index: number): string {
   return text.slice(place, text.indexOf(text[place - 1], place));
 }
 
-/** The value of an attribute, or undefined. Linear in the element's own attributes. */
+/** The value of an attribute, or undefined. Linear in the element's number of attributes. */
 export function attribute(tree: SvgTree, element: number, name: string): string | undefined {
   const end = tree.attributeOffsets[element + 1];
   for (let i = tree.attributeOffsets[element]; i < end; i++) {
@@ -79,7 +82,7 @@ export const tagOf = (tree: SvgTree, element: number): string => tree.names[tree
 export const textOf = (tree: SvgTree, element: number): string =>
   attributeValue(tree, tree.attributeOffsets[element]);
 
-/** Parses in steps; run the generator to its end for the tree. Throws PlotwrightError("bad-file"). */
+/** Parses in steps; the generator returns the tree. Throws PlotwrightError("bad-file"). */
 export function* parseSvgTree(source: string): Generator<void, SvgTree> {
   const start = skipBlank(source);
   rejectOtherFormats(source, start);
@@ -107,7 +110,7 @@ function countLines(text: string, end: number): number {
 interface Written {
   readonly name: string;
   readonly value: string;
-  /** Where in the text the value ends. */
+  /** Where the value ends in the text. */
   readonly end: number;
 }
 
@@ -129,18 +132,18 @@ class TreeBuilder {
   private readonly repairs: string[] = [];
   private foreignObjects = 0;
   private hasStylesheetLink = false;
-  /** The attributes of the tag that is being read, as written. */
+  /** The attributes of the current tag, as written. */
   private written: Written[] = [];
   private startLine = 0;
-  /** Element now open, −1 for none, and for each open one its last child so far. */
+  /** The open element, −1 for none, and the last child so far of each open element. */
   private open = -1;
   private readonly lastChildren: number[] = [];
   private depth = 0;
-  /** Depth of the element whose content is not kept; 0 for none. */
+  /** Depth of the element whose content is skipped; 0 for none. */
   private skipDepth = 0;
   private keepsText = false;
 
-  /** Lines before the text that the parser is given. */
+  /** Lines before the text that is passed to the parser. */
   private readonly lineOffset: number;
 
   constructor(
@@ -205,7 +208,7 @@ class TreeBuilder {
     if (this.tags.length === 0) throw notAnSvg(`${what} at ${where}`);
     const truncated = what.startsWith("unclosed tag") || what.startsWith("unexpected end");
     const advice = truncated
-      ? "The file is cut off: save or download it again."
+      ? "The file is incomplete: save or download it again."
       : "Open it in the program that made it and export it again.";
     throw new PlotwrightError("bad-file", `The SVG is damaged at ${where}: ${what}. ${advice}`, {
       cause: error,
@@ -227,7 +230,7 @@ class TreeBuilder {
     const element = this.addElement(tag);
     for (const { name, value, end } of this.written) {
       const kept = this.xmlNames.keptName(name);
-      // A plain href wins over one with a prefix (SVG 2, §16.1.5).
+      // A plain href overrides one with a prefix (SVG 2, §16.1.5).
       if (kept === null || (kept === HREF && name !== HREF && this.isWritten(HREF))) continue;
       this.addAttribute(kept, value, end - value.length);
       if (kept === "id" && !this.elementById.has(value)) this.elementById.set(value, element);
@@ -276,7 +279,7 @@ class TreeBuilder {
     return this.written.some((one) => one.name === name);
   }
 
-  /** `at`: where the value may stand in the text. */
+  /** @param at where the value may be in the text */
   private addAttribute(name: string, value: string, at: number): void {
     this.attributeNames.push(this.nameId(name));
     if (this.isQuoted(value, at)) this.places.push(at);

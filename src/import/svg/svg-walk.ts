@@ -1,9 +1,9 @@
 /**
- * The walk over the tree: every rendered element in paint order, each with what it inherits.
+ * Walks the tree: every rendered element in paint order, each with its inherited context.
  *
- * Frames are kept on a stack of our own, so that depth costs memory and never the call stack.
- * `use` is followed as a frame with one child; the chain of targets we are inside of stops circles,
- * and a budget of visits stops copies of copies from growing without end.
+ * An explicit stack of frames is used, so that depth costs memory and never the call stack. `use` is followed
+ * as a frame with one child. The chain of enclosing targets stops cycles, and a limit on visits stops copies
+ * of copies from growing without end.
  */
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
@@ -35,7 +35,10 @@ import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
 
-/** Elements visited through `use`, and the numbers they may add: beyond this the file is an attack or a slip. */
+/**
+ * Max elements visited through `use`, and max coordinates that they may add: anything beyond is an attack or
+ * a mistake.
+ */
 const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
 const ELEMENTS_PER_YIELD = 1000;
@@ -56,16 +59,16 @@ const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "ani
 interface Frame {
   readonly context: Context;
   next: number;
-  /** Only `next` itself, not its siblings. */
+  /** Visit only `next`, not its siblings. */
   readonly isSingle: boolean;
-  /** What is missing from everything drawn inside: warned of when the frame ends. */
+  /** Effects that are missing from everything drawn inside: reported when the frame ends. */
   readonly effects: Effects;
   readonly firstShape: number;
 }
 
 export class SvgWalk {
   private readonly declared = new Declared();
-  /** The context computed last, and from what. */
+  /** The last computed context, and what it was computed from. */
   private readonly last = {
     outer: null as Context | null,
     declared: new Declared(),
@@ -74,7 +77,7 @@ export class SvgWalk {
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
-  /** The group of what is drawn outside of every layer; −1 until needed. */
+  /** The group for shapes outside every layer; −1 until needed. */
   private looseGroup = -1;
   private readonly markers: SvgMarkers;
   private subtreeEnds: Uint32Array | null = null;
@@ -93,7 +96,7 @@ export class SvgWalk {
     this.markers = new SvgMarkers(tree, cascade, clips);
   }
 
-  /** Draws everything below the root. Yields often enough for a page to stay responsive. */
+  /** Draws everything below the root. Yields often enough to keep a page responsive. */
   *run(rootContext: Context): Generator<void, void> {
     const { tree, stack } = this;
     this.enterRoot(rootContext);
@@ -118,7 +121,7 @@ export class SvgWalk {
     }
   }
 
-  /** The outermost element has a clip and effects of its own, too. */
+  /** The root element may have a clip and effects, too. */
   private enterRoot(context: Context): void {
     const { declared } = this;
     this.cascade.collect(0, declared);
@@ -175,7 +178,10 @@ export class SvgWalk {
     else this.enter(element, tag, context, effects);
   }
 
-  /** The context with the style that `declared` makes: most elements declare what the one before did. */
+  /**
+   * The context with the style from `declared`, cached since most elements declare the same as the previous
+   * one.
+   */
   private styled(outer: Context): Context {
     const { last, declared } = this;
     if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
@@ -243,7 +249,7 @@ export class SvgWalk {
     }
     const x = this.geometry(context, element, "x", "width") ?? 0;
     const y = this.geometry(context, element, "y", "height") ?? 0;
-    // Of a copy browsers heed these two as attributes only.
+    // For a copy, browsers read these two from attributes only.
     const side = (name: "width" | "height"): number | null =>
       lengthPx(attribute(tree, element, name) ?? "", context.basis, name);
     const size = { width: side("width"), height: side("height") };
@@ -261,14 +267,14 @@ export class SvgWalk {
     );
   }
 
-  /** Markers on the shape just drawn, as frames: their content is elements like any other. */
+  /** Pushes the markers of the shape just drawn as frames: their content is drawn like any other elements. */
   private pushMarkers(context: Context): void {
     const { tree } = this;
     const { style } = context;
     if (!style.isVisible) return;
     const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
     const places = markerPlaces(this.svgGeometry.shape);
-    // Last first, since the last frame pushed is drawn first.
+    // In reverse, since the last frame pushed is drawn first.
     for (const place of places.reverse()) {
       const id = ids[place.kind];
       const marker = id === null ? undefined : tree.elementById.get(id);
@@ -285,7 +291,7 @@ export class SvgWalk {
     return candidate <= element && element < this.subtreeEnds[candidate];
   }
 
-  /** The context inside a nested svg or a symbol; null where it has no size. */
+  /** The context inside a nested svg or a symbol; null if it has no size. */
   private viewportInside(
     element: number,
     tag: string,
@@ -295,7 +301,7 @@ export class SvgWalk {
     const { tree, declared } = this;
     const { viewportWidth, viewportHeight } = context.basis;
     const isSvg = tag === "svg";
-    // As in browsers, the attributes count and not CSS.
+    // As in browsers, the attributes apply and CSS does not.
     const length = (name: "x" | "y" | "width" | "height", side: Side): number | null =>
       lengthPx(attribute(tree, element, name) ?? "", context.basis, side);
     const x = isSvg ? (length("x", "width") ?? 0) : 0;
@@ -340,7 +346,7 @@ export class SvgWalk {
     this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
   }
 
-  /** A length that CSS or an attribute may give. Valid while `declared` is of this element. */
+  /** A length from CSS or an attribute. Valid while `declared` belongs to this element. */
   private geometry(
     context: Context,
     element: number,
@@ -350,7 +356,7 @@ export class SvgWalk {
     return this.svgGeometry.lengthOf(element, this.declared, context, name, side);
   }
 
-  /** By its own opacity. Valid while `declared` is of this element, as are the next two. */
+  /** Whether its own opacity is 0. Valid while `declared` belongs to this element, as are the next two. */
   private isTransparent(style: Context["style"]): boolean {
     const opacity = declaredValue(style, this.declared, "opacity");
     return opacity !== undefined && parseOpacity(opacity) === 0;
@@ -407,17 +413,17 @@ export class SvgWalk {
     if (this.copiedElements <= MAX_COPIED_ELEMENTS && this.copiedCoords <= MAX_COPIED_COORDS) return;
     throw new PlotwrightError(
       "bad-file",
-      `The copies (<use>) in this SVG come to more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
+      `The copies (<use>) in this SVG add more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
         this.tree.lines[context.uses.element]
       }). Remove copies of copies, or export with copies resolved.`,
     );
   }
 }
 
-/** A negative size is invalid, and so like none. */
+/** A negative size is invalid and counts as absent. */
 const notNegative = (length: number | null): number | null => (length !== null && length < 0 ? null : length);
 
-/** The size that a `use` gives to the svg or symbol it refers to. */
+/** The size that a `use` sets on the svg or symbol it refers to. */
 function outerSizeOf(
   context: Context,
   element: number,

@@ -1,9 +1,9 @@
-/** What CSS and SVG say about text alone: baselines, spaces, decorations, directions. */
+/** CSS and SVG properties of text: baselines, spaces, decorations, directions. */
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
 import type { Paint } from "./paint.js";
 
-/** Of the fonts that browsers use, about: above and below the baseline, and small letters. */
+/** Approximate metrics of browser fonts: above and below the baseline, and x-height. */
 const ASCENT_EM = 0.9;
 const DESCENT_EM = 0.21;
 const X_HEIGHT_EM = 0.46;
@@ -16,16 +16,16 @@ export interface TextStyle {
   readonly isRightToLeft: boolean;
   readonly isSmallCaps: boolean;
   readonly transform: string;
-  /** Whether blanks stay as they are; null where CSS does not say. */
+  /** Whether blanks are preserved; null if CSS does not specify it. */
   readonly keepsBlanks: boolean | null;
   readonly dominantBaseline: string;
   readonly alignmentBaseline: string;
-  /** px upwards, of all elements around together. */
+  /** px upwards, summed over all enclosing elements. */
   readonly baselineShift: number;
   readonly decorations: readonly Decoration[];
 }
 
-/** A line along the text, in the colours of the element that asks for it. */
+/** A line along the text, in the colours of the element that declares it. */
 export interface Decoration {
   readonly kind: DecorationKind;
   readonly fill: Paint;
@@ -57,7 +57,7 @@ export const INITIAL_TEXT_STYLE: TextStyle = {
 
 const HEIGHT_EM = ASCENT_EM + DESCENT_EM;
 
-/** em that letters stand below their usual place, so that this line of theirs lies on the text's line. */
+/** em by which letters move down, so that this baseline lies on the text's line. */
 const BASELINES: Readonly<Record<string, number>> = {
   middle: X_HEIGHT_EM / 2,
   central: CENTRAL_EM,
@@ -70,7 +70,7 @@ const BASELINES: Readonly<Record<string, number>> = {
   ideographic: -DESCENT_EM,
 };
 
-/** px downwards: where letters stand in relation to the text's line. */
+/** px downwards: offset of the letters from the text's line. */
 export function baselineOffset(text: TextStyle, fontSize: number): number {
   const usual = text.isVertical ? CENTRAL_EM : 0;
   const own = BASELINES[text.alignmentBaseline] ?? BASELINES[text.dominantBaseline] ?? usual;
@@ -91,13 +91,17 @@ const PROPERTIES: ReadonlySet<string> = new Set<Property>([
   "text-decoration-line",
 ]);
 
-/** Whether `computeTextStyle` has anything to do. */
+/** Whether `computeTextStyle` would change anything. */
 export function declaresTextStyle(declared: Declared): boolean {
   for (let i = 0; i < declared.size; i++) if (PROPERTIES.has(declared.nameAt(i))) return true;
   return false;
 }
 
-/** `valueOf`: what the element declares; `style`: its own; `lengthOf`: px, null where malformed. */
+/**
+ * @param valueOf the element's declared values
+ * @param style the element's own style
+ * @param lengthOf px; null if malformed
+ */
 export function computeTextStyle(
   parent: TextStyle,
   valueOf: (property: Property) => string | undefined,

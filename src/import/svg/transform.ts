@@ -1,4 +1,4 @@
-/** The `transform` attribute and CSS property to one affine map, in user units. */
+/** Parses the `transform` attribute and CSS property to one affine map, in user units. */
 import { compose, IDENTITY, isFiniteAffine, rotation, scaling, translation } from "../../geometry/affine.js";
 import type { Affine } from "../../geometry/affine.js";
 import { absolutePx, lengthPx, splitLength, type LengthBasis } from "./length.js";
@@ -13,7 +13,7 @@ const ANGLES: Readonly<Record<string, number>> = {
   turn: 2 * Math.PI,
 };
 
-/** Percentages of a translation as px, where `basis` says of what. */
+/** Converts percentages of a translation to px, if there is a `basis`. */
 function inPx(name: string, args: readonly string[], basis: LengthBasis | null): readonly string[] {
   return args.map((arg, i) => {
     if (basis === null || !arg.endsWith("%")) return arg;
@@ -22,7 +22,7 @@ function inPx(name: string, args: readonly string[], basis: LengthBasis | null):
   });
 }
 
-/** Identity for "none" or blank text; null where any part of it is malformed (then nothing applies). */
+/** Identity for "none" or blank text; null if any part is malformed (then the whole transform is ignored). */
 export function parseTransform(text: string, basis: LengthBasis | null = null): Affine | null {
   if (text === "none" || text.trim() === "") return IDENTITY;
   let map = IDENTITY;
@@ -47,13 +47,13 @@ const ORIGINS: Readonly<Record<string, string>> = {
   right: "100%",
   bottom: "100%",
 };
-/** Keywords that tell which side they are of, wherever they stand. */
+/** Keywords that belong to one axis, in any order. */
 const ACROSS = new Set(["left", "right"]);
 const DOWN = new Set(["top", "bottom"]);
 
 /**
- * The map turned about a CSS `transform-origin`; as it is where that is malformed. Percentages are of `basis`, and
- * `corner` is where its box begins.
+ * Applies a CSS `transform-origin` to the map; unchanged if the origin is malformed. Percentages refer to
+ * `basis`, whose box begins at `corner`.
  */
 export function aroundOrigin(
   map: Affine,
@@ -73,7 +73,7 @@ export function aroundOrigin(
   return isFiniteAffine(moved) ? moved : map;
 }
 
-/** Numbers may stand without separators, as in path data: "1-2.5.5". */
+/** Numbers may be written without separators, as in path data: "1-2.5.5". */
 function splitArguments(text: string): string[] {
   return text.match(/[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?:[a-zA-Z]+|%)?|[^\s,]+/g) ?? [];
 }

@@ -2,8 +2,8 @@
  * viewBox and preserveAspectRatio: the map from a viewBox into its viewport (SVG 2, §8.2).
  *
  *   viewBox x y w h          viewport W × H
- *   scale  sx = W/w, sy = H/h;  "meet" takes the smaller for both, "slice" the larger, "none" each
- *   then the box is put to xMin|xMid|xMax, YMin|YMid|YMax of the viewport.
+ *   scale  sx = W/w, sy = H/h;  "meet" uses the smaller for both, "slice" the larger, "none" each separately
+ *   then the box is aligned to xMin|xMid|xMax, YMin|YMid|YMax of the viewport.
  */
 import type { Affine } from "../../geometry/affine.js";
 
@@ -14,7 +14,7 @@ export interface ViewBox {
   readonly height: number;
 }
 
-/** Null where it is absent, malformed or has no area. */
+/** Null if it is absent, malformed or has no area. */
 export function parseViewBox(text: string | undefined): ViewBox | null {
   if (text === undefined) return null;
   const numbers = text
@@ -26,7 +26,7 @@ export function parseViewBox(text: string | undefined): ViewBox | null {
   return width > 0 && height > 0 ? { x, y, width, height } : null;
 }
 
-/** A size of 0 switches drawing off; one that is negative or malformed is like none. */
+/** A size of 0 disables drawing; a negative or malformed size counts as absent. */
 export function isEmptyViewBox(text: string | undefined): boolean {
   const [, , width, height] = (text ?? "")
     .trim()
@@ -38,7 +38,7 @@ export function isEmptyViewBox(text: string | undefined): boolean {
 const ALIGN = /^\s*(?:defer\s+)?(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*$/;
 const SHARE: Readonly<Record<string, number>> = { Min: 0, Mid: 0.5, Max: 1 };
 
-/** Map from viewBox coordinates to a viewport of the given size with its corner at 0, 0. */
+/** Maps viewBox coordinates to a viewport of the given size with its corner at 0, 0. */
 export function viewBoxMap(box: ViewBox, width: number, height: number, aspect: string | undefined): Affine {
   const match = ALIGN.exec(aspect ?? "") ?? ALIGN.exec("xMidYMid meet")!;
   const sx = width / box.width;

@@ -1,9 +1,9 @@
 /**
- * Entities that a file defines for itself, filled in before the XML is parsed: `<!DOCTYPE svg [<!ENTITY w "10">]>`.
- * Where they would grow beyond the limit, they stay as they are written, and the parser warns about them.
+ * Expands entities that a file defines, before the XML is parsed: `<!DOCTYPE svg [<!ENTITY w "10">]>`. If
+ * they exceed the limit, they stay unexpanded, and the parser warns about them.
  */
 
-/** Characters that the entities of a file may come to. */
+/** Max characters that the entities of a file may add. */
 const MAX_CHARS = 1_000_000;
 const ENTITY = /<!ENTITY\s+([A-Za-z_][\w.-]*)\s+(?:"([^"]*)"|'([^']*)')\s*>/g;
 const REFERENCE = /&([A-Za-z_][\w.-]*);/g;
@@ -25,19 +25,19 @@ export function expandEntities(text: string): string {
 function entitiesIn(doctype: string): Map<string, string> {
   const entities = new Map<string, string>();
   for (const [, name, double, single] of doctype.matchAll(ENTITY)) {
-    // The first declaration of a name counts.
+    // The first declaration of a name applies.
     if (!PREDEFINED.has(name) && !entities.has(name)) entities.set(name, double ?? single);
   }
   return entities;
 }
 
 class Expansion {
-  /** What entities come to; "" while one is being filled in, which ends circles. */
+  /** Expanded entities; "" while one is being expanded, which ends cycles. */
   private readonly known = new Map<string, string>();
 
   constructor(private readonly entities: ReadonlyMap<string, string>) {}
 
-  /** The text with its references filled in; null where they come to too much. */
+  /** The text with its references expanded; null if it becomes too long. */
   of(text: string): string | null {
     let added = 0;
     const result = text.replace(REFERENCE, (reference: string, name: string): string => {

@@ -1,4 +1,4 @@
-/** Only what outline-font.ts uses: the package's own types would bring Node's into this folder. */
+/** Only what outline-font.ts uses: the package's own types would require Node's types in this folder. */
 declare module "fontkit" {
   interface Path {
     readonly commands: readonly { readonly command: string; readonly args: readonly number[] }[];

@@ -1,12 +1,12 @@
 /**
  * Two single-stroke alphabets of the Hershey fonts, drawn by Dr. A. V. Hershey at the U.S. National Bureau of
- * Standards (1967), in the form of James T's hersheytext 2.0.0 (MIT), its fonts "futural" and "scripts".
- * The Hershey fonts may be used freely where their origin is named.
+ * Standards (1967), as packaged in James T's hersheytext 2.0.0 (MIT): its fonts "futural" and "scripts". The
+ * Hershey fonts may be used freely if their origin is named.
  *
- * One entry for each character from "!" (33) to "~" (126): the advance, then polylines, all in letters as numbers
- * ("I" is 0, "J" 1, "H" -1). A point is two of them: how far right of and below the letter's point before; the first
- * from 0, 0. So it packs to half of plain numbers, and the page fetches it with its first load.
- * Units: capitals are 21 high and stand on y = 22; y runs down.
+ * One entry for each character from "!" (33) to "~" (126): the advance, then polylines, all as letters that
+ * encode numbers ("I" is 0, "J" 1, "H" -1). A point is two letters: the distance right of and below the
+ * letter's previous point; the first is relative to 0, 0. This compresses to half the size of plain numbers;
+ * the page fetches it on first load. Units: capitals are 21 high and stand on y = 22; y points down.
  */
 export const HERSHEY_SANS: readonly string[] = [
   "S NJIW INHJJJJHHH",

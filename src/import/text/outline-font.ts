@@ -1,7 +1,5 @@
-// Ambient declarations are only seen where a program names them, and ours has several programs.
-// eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./fontkit.d.ts" />
-/** Letters as the outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first of a collection. */
+// Ambient declarations apply only where a program includes them, and this project has several programs.
+/** Letters as outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first font of a collection. */
 import type { Font } from "fontkit";
 import { PlotwrightError } from "../../errors.js";
 import type { LaidOutGlyph, TextFont } from "./text-font.js";
@@ -16,9 +14,9 @@ const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
 const NOT_DEFINED = 0;
 
 /**
- * Rejects with PlotwrightError("bad-file") where the bytes are no font.
+ * Rejects with PlotwrightError("bad-file") if the bytes are not a font.
  *
- * The font library is loaded here and not before: it takes as long as a drawing of thousands of lines.
+ * The font library is loaded here, on demand: loading takes as long as a drawing of thousands of lines.
  */
 export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   const { create } = await import("fontkit");
@@ -26,13 +24,13 @@ export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   try {
     const opened = create(bytes);
     font = "fonts" in opened ? opened.fonts[0] : opened;
-    // Broken tables show only when used.
+    // Broken tables cause errors only when used.
     font.layout("A");
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);
     throw new PlotwrightError(
       "bad-file",
-      `This is no font that can be read (${why}). Give a ttf, otf or woff file.`,
+      `This file cannot be read as a font (${why}). Choose a ttf, otf or woff file.`,
       {
         cause,
       },

@@ -1,8 +1,8 @@
-/** The built-in letters: Hershey's sans and script, with accents put together from strokes. */
+/** The built-in letters: Hershey's sans and script, with accents assembled from strokes. */
 import { HERSHEY_SANS, HERSHEY_SCRIPT } from "./hershey-data.js";
 import type { LaidOutGlyph, TextFont } from "./text-font.js";
 
-/** Capitals of 21 units are 0.7 em high, as in common fonts. */
+/** Capitals of 21 units are then 0.7 em high, as in common fonts. */
 const UNITS_PER_EM = 30;
 const BASELINE = 22;
 const FIRST_CODE = 33;
@@ -14,7 +14,10 @@ interface Letter {
   readonly advance: number;
 }
 
-/** Strokes above a letter, about x = 0 and y = 0 at the accent's foot; those in FROM_BASELINE count from there. */
+/**
+ * Strokes above a letter, centred on x = 0, with y = 0 at the accent's foot; those in FROM_BASELINE are
+ * relative to the baseline.
+ */
 const ACCENTS: Readonly<Record<string, readonly (readonly [number, number])[][]>> = {
   "\u0300": [
     [
@@ -110,7 +113,7 @@ const ACCENTS: Readonly<Record<string, readonly (readonly [number, number])[][]>
   ],
 };
 const FROM_BASELINE = new Set(["\u0327", "\u0331", "\u0337", "\u0338"]);
-/** What stands in for characters outside ASCII. */
+/** Substitutes for characters outside ASCII. */
 const SUBSTITUTES: Readonly<Record<string, string>> = {
   "‘": "'",
   "’": "'",
@@ -158,7 +161,7 @@ export const singleStrokeFont: TextFont = {
   },
 };
 
-/** The letters for one character of the text; null where there is none. */
+/** The letters for one character of the text; null if there are none. */
 function lettersOf(char: string, table: readonly string[]): Letter[] | null {
   const plain = SUBSTITUTES[char] ?? char.normalize("NFD");
   const letters: Letter[] = [];
@@ -191,7 +194,7 @@ function letterOf(char: string, table: readonly string[]): Letter | null {
   return { lines, advance: numberAt(advance, 0) };
 }
 
-/** A letter of the tables as the number that it stands for. */
+/** The number that a letter in the tables encodes. */
 const numberAt = (codes: string, index: number): number => codes.charCodeAt(index) - CODE_OF_ZERO;
 
 function withAccent(

@@ -1,12 +1,15 @@
-/** What draws letters: a font file's outlines or the built-in single strokes. Lengths in em, y down, baseline at 0. */
+/**
+ * A source of letters: a font file's outlines or the built-in single strokes. Lengths in em, y down, baseline
+ * at 0.
+ */
 
 export interface LaidOutGlyph {
   /** Path data with absolute commands; "" for a blank. */
   readonly path: string;
-  /** From the pen's place; the glyph's own shift. */
+  /** The glyph's offset from the pen's position. */
   readonly x: number;
   readonly y: number;
-  /** To the next glyph. */
+  /** Distance to the next glyph. */
   readonly advance: number;
 }
 
@@ -18,13 +21,13 @@ export interface TextFont {
     style: { readonly family: string },
   ): {
     readonly glyphs: readonly LaidOutGlyph[];
-    /** Characters that the font has no glyph for. */
+    /** Characters without a glyph in the font. */
     readonly missing: readonly string[];
   };
 }
 
-/** Height of capitals, and how far a "g" reaches below the line: of the built-in letters, and about of all fonts. */
+/** Height of capitals in the built-in letters, and about that of all fonts. */
 export const CAPITAL_EM = 0.7;
-/** Height of the tallest letters, about, of all fonts. */
+/** Approximate ascent of all fonts, and depth of a "g" below the baseline. */
 export const ASCENT_EM = 0.9;
 export const DESCENT_EM = 7 / 30;

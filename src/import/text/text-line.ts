@@ -1,6 +1,6 @@
 /**
- * One line of text in a font's letters, laid out along its baseline: lengths in em, y down, the first letter's pen
- * place at 0, 0. All formats lay their text out by this and draw it through a map of their own.
+ * One line of text laid out along its baseline: lengths in em, y down, the first letter's pen position at 0,
+ * 0. All formats lay out text with this, and draw it with their own map.
  */
 import { compose, translation, type Affine } from "../../geometry/affine.js";
 import { drawPathData } from "../path-data.js";
@@ -10,11 +10,11 @@ import type { TextFont } from "./text-font.js";
 export interface LineLetter {
   /** Path data; "" for a blank. */
   readonly path: string;
-  /** Where the pen is before the letter. */
+  /** Pen position before the letter. */
   readonly pen: number;
-  /** To the next letter's. */
+  /** Distance to the next letter's pen position. */
   readonly advance: number;
-  /** Where the letter's path stands. */
+  /** Position of the letter's path. */
   readonly x: number;
   readonly y: number;
 }
@@ -22,7 +22,7 @@ export interface LineLetter {
 export interface TextLine {
   readonly letters: readonly LineLetter[];
   readonly width: number;
-  /** Characters that the font has not. */
+  /** Characters that are missing in the font. */
   readonly missing: readonly string[];
 }
 

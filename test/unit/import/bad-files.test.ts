@@ -44,8 +44,8 @@ describe("importSvg on bad files", () => {
     expect(failure(text).message).toMatch(new RegExp(`line ${line}, column \\d+`));
   });
 
-  it("says of a cut-off file that it is cut off", () => {
-    expect(failure("<svg><g><path d='M0 0h1'/>").message).toContain("cut off");
+  it("reports that a truncated file is incomplete", () => {
+    expect(failure("<svg><g><path d='M0 0h1'/>").message).toContain("incomplete");
   });
 
   it("warns that an empty drawing is empty", () => {

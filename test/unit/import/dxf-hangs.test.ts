@@ -78,5 +78,5 @@ describe("a table", () => {
 it("copies of an empty block are counted, so that they can't fill the memory", () => {
   const insert = "0 INSERT|2 B|70 1000|71 1000";
   const file = `0 SECTION|2 BLOCKS|0 BLOCK|2 B|10 0|20 0|0 POINT|8 0|60 1|${insert}|0 ENDBLK|0 ENDSEC|0 SECTION|2 ENTITIES|${insert}|0 ENDSEC|0 EOF`;
-  expect(() => read(file)).toThrow(/come to more than 1000000 objects/);
+  expect(() => read(file)).toThrow(/expand to more than 1000000 objects/);
 });

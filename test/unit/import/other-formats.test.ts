@@ -147,7 +147,7 @@ describe("a damaged DXF", () => {
   it("is refused with the line that is out of step", () => {
     const text = dxf("0 LINE 8 0 10 0 20 0 11 9 21 9").split("\n");
     const lost = [...text.slice(0, 17), ...text.slice(18)].join("\n");
-    expect(() => importDrawing("a.dxf", lost)).toThrow(/line 27: "ENDSEC" is no group code/);
+    expect(() => importDrawing("a.dxf", lost)).toThrow(/line 27: "ENDSEC" is not a group code/);
     expect(() => importDrawing("a.dxf", text.join("\r"))).not.toThrow();
     expect(() => importDrawing("a.dxf", `${text.join("\r\n")}\r\n\r\n`)).not.toThrow();
   });

@@ -178,7 +178,7 @@ describe("what cannot be planned", () => {
         /travel acceleration/,
       ],
       [{ ...motion, draw: { ...motion.draw, cornerMm: -1 } }, DEFAULT_PEN, /corner/],
-      [motion, { ...DEFAULT_PEN, upPct: 20, downPct: 40 }, /raise the one or lower the other/],
+      [motion, { ...DEFAULT_PEN, upPct: 20, downPct: 40 }, /raise the up height or lower the down height/],
       [motion, { ...DEFAULT_PEN, liftMs: -1 }, /wait after lifting/],
     ];
     for (const [m, pen, message] of cases) {
