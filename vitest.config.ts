@@ -1,15 +1,19 @@
 import { defineConfig } from "vitest/config";
 
-/** Tests that watch a real clock, or start browsers and processes: other work beside them would disturb them. */
-const ALONE = [
-  "test/e2e/**/*.test.ts",
-  "test/serial/**/*.test.ts",
-  "test/packaging/**/*.test.ts",
-  "test/**/*.alone.test.ts",
-];
+/** Tests at the speed of a real board: other work beside them would disturb them. */
+const REAL_TIME = ["test/serial/**/*.test.ts"];
 
-/** A test waits for what has to come. How long that takes says nothing where the computer is slow, or busy. */
-const PATIENCE = { testTimeout: 600_000, hookTimeout: 600_000, expect: { poll: { timeout: 60_000 } } };
+/** Tests of the built product, in processes of their own, and in a browser. */
+const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test/**/*.alone.test.ts"];
+
+/** How long a test may take on a busy computer before it counts as hanging. Longer ones have limits of their own. */
+const limits = (limitMs: number) => ({
+  testTimeout: limitMs,
+  hookTimeout: 120_000,
+  expect: { poll: { timeout: 0.75 * limitMs } },
+});
+
+const COMMON = { pool: "forks" as const, setupFiles: ["test/support/fixed-seed.ts"] };
 
 export default defineConfig({
   test: {
@@ -17,22 +21,29 @@ export default defineConfig({
     projects: [
       {
         test: {
+          ...COMMON,
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-          exclude: ALONE,
-          ...PATIENCE,
-          pool: "forks",
-          setupFiles: ["test/support/fixed-seed.ts"],
+          exclude: [...PROCESSES, ...REAL_TIME],
+          ...limits(60_000),
         },
       },
       {
         test: {
-          name: "alone",
-          include: ALONE,
+          ...COMMON,
+          name: "processes",
+          include: PROCESSES,
+          globalSetup: ["test/support/built.ts", "test/support/shared-browser.ts"],
+          ...limits(120_000),
+        },
+      },
+      {
+        test: {
+          ...COMMON,
+          name: "real-time",
+          include: REAL_TIME,
           globalSetup: ["test/support/built.ts"],
-          ...PATIENCE,
-          pool: "forks",
-          setupFiles: ["test/support/fixed-seed.ts"],
+          ...limits(120_000),
           fileParallelism: false,
         },
       },

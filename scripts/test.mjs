@@ -1,14 +1,16 @@
 /**
  * `npm test`: everything that must hold, from a fresh clone on. Ends with "N passed, N failed".
  *
- *   npm test                       types, lint, format, package, and all tests, in real Chromium too
+ *   npm test                       types, lint, format, package, and every test, in real Chromium too: some minutes
+ *   npm run test:full              the same with all cases, firmware, kills, faults and page states: hours
  *   npm test -- test/unit/plan     only these tests
  */
+import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { findBrowser, installBrowser } from "./find-browser.mjs";
-import { checkNode, ensureBuild, ensureDependencies, nodeModule, run } from "./setup.mjs";
+import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
 
 const CHECKS = [
   ...["src", "server", "web", "test", "scripts"].map((folder) => ({
@@ -23,11 +25,9 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** `alone`: tests with a real clock, a browser or a process of their own, one file at a time. */
-const TEST_RUNS = [
-  { name: "together", args: [] },
-  { name: "alone", args: ["--maxWorkers=1"] },
-];
+/** The projects of vitest.config.ts that may run beside the checks; "real-time" runs when nothing else does. */
+const SHARED_RUNS = ["together", "processes"];
+const REAL_TIME_RUN = "real-time";
 
 const failures = [];
 let passedCount = 0;
@@ -38,28 +38,35 @@ function fail(what, count = 1) {
   failures.push(what);
 }
 
-function runCheck({ name, args }) {
-  const startedAt = Date.now();
-  const code = run(process.execPath, args);
-  console.log(`${code === 0 ? "✓" : "✗"} ${name} (${((Date.now() - startedAt) / 1000).toFixed(1)} s)`);
-  if (code === 0) passedCount++;
-  else fail(name);
+/** Runs a Node program in the project's folder; returns its exit code. `isQuiet`: its output is shown when it ends. */
+function runNode(args, isQuiet) {
+  return new Promise((resolve, reject) => {
+    const child = spawn(process.execPath, args, { cwd: ROOT, stdio: isQuiet ? "pipe" : "inherit" });
+    let output = "";
+    for (const stream of [child.stdout, child.stderr]) stream?.on("data", (chunk) => (output += chunk));
+    child.once("error", reject);
+    child.once("close", (code) => {
+      process.stdout.write(output);
+      resolve(code ?? 1);
+    });
+  });
 }
 
-function runTests({ name, args }, filters, folder) {
+async function runChecks() {
+  for (const { name, args } of CHECKS) {
+    const startedAt = Date.now();
+    const code = await runNode(args, true);
+    console.log(`${code === 0 ? "✓" : "✗"} ${name} (${((Date.now() - startedAt) / 1000).toFixed(1)} s)`);
+    if (code === 0) passedCount++;
+    else fail(name);
+  }
+}
+
+async function runTests(name, filters, folder) {
   const resultFile = path.join(folder, `${name}.json`);
-  const code = run(process.execPath, [
-    nodeModule("vitest", "vitest.mjs"),
-    "run",
-    "--project",
-    name,
-    "--passWithNoTests",
-    "--reporter=default",
-    "--reporter=json",
-    `--outputFile.json=${resultFile}`,
-    ...args,
-    ...filters,
-  ]);
+  const args = ["run", "--project", name, "--passWithNoTests", "--reporter=default", "--reporter=json"];
+  const vitest = [nodeModule("vitest", "vitest.mjs"), ...args, `--outputFile.json=${resultFile}`];
+  const code = await runNode([...vitest, ...filters], false);
   countTests(name, code, resultFile);
 }
 
@@ -97,15 +104,19 @@ async function findOrInstallBrowser() {
 }
 
 checkNode();
-const filters = process.argv.slice(2);
+const FULL = "--full";
+if (process.argv.includes(FULL)) process.env.PLOTWRIGHT_FULL = "1";
+const filters = process.argv.slice(2).filter((argument) => argument !== FULL);
 ensureDependencies();
 await findOrInstallBrowser();
 ensureBuild();
 
-if (filters.length === 0) for (const check of CHECKS) runCheck(check);
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
-  for (const testRun of TEST_RUNS) runTests(testRun, filters, folder);
+  const checks = filters.length === 0 ? runChecks() : Promise.resolve();
+  for (const name of SHARED_RUNS) await runTests(name, filters, folder);
+  await checks;
+  await runTests(REAL_TIME_RUN, filters, folder);
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }

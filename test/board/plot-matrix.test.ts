@@ -1,6 +1,6 @@
 /**
  * The samples × every generation of firmware × every mode, three plots in a row each without homing. The whole of
- * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix), or a firmware version for that one only. Otherwise
+ * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix, and test:full), or one firmware version. Otherwise
  * a part in which each sample, and each firmware in each mode, comes at least once.
  */
 import { afterAll, describe, expect, it } from "vitest";
@@ -15,8 +15,9 @@ import {
   type MatrixRow,
   type Sample,
 } from "../support/plot-matrix.js";
+import { IS_FULL } from "../support/full-run.js";
 
-const asked = process.env["PLOTWRIGHT_MATRIX"];
+const asked = process.env["PLOTWRIGHT_MATRIX"] ?? (IS_FULL ? "all" : undefined);
 const isWhole = asked !== undefined;
 /** The quick ones stand in where any sample will do. */
 const QUICK: readonly Sample[] = ["hello-paper", "three-colour-hills"];

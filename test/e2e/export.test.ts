@@ -1,5 +1,5 @@
 /** Saving what will be plotted: each file, read back, is the plot. */
-import { readFileSync } from "node:fs";
+import { text as textOf } from "node:stream/consumers";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import {
   DEFAULT_PREPARE,
@@ -57,7 +57,7 @@ async function saved(what: string): Promise<{ name: string; text: string }> {
     test.page.waitForEvent("download"),
     test.page.getByRole("button", { name: `Save: ${what}` }).click(),
   ]);
-  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
+  return { name: download.suggestedFilename(), text: await textOf(await download.createReadStream()) };
 }
 
 function expectSameStrokes(back: StrokeSet): void {

@@ -128,7 +128,7 @@ describe("a newcomer with a drawing", () => {
       .getByRole("button", { name: /^Start / })
       .click();
     await queuePanel(page).getByRole("progressbar").waitFor();
-    await historyPanel(page).getByText("Done").waitFor({ timeout: 300_000 });
+    await historyPanel(page).getByText("Done").waitFor({ timeout: 100_000 });
     const seen = await page.evaluate(() => (window as unknown as { shares: number[] }).shares);
     expect(seen).toEqual([...seen].sort((a, b) => a - b));
     expect(seen.at(-1)).toBeGreaterThan(90);

@@ -1,6 +1,6 @@
 /**
  * kill -9 of a plotting process, over a real pseudo-terminal, while it draws a line that crosses itself again and again:
- * the counters fit several places of the line. PLOTWRIGHT_FAULTS=20 for the long run.
+ * the counters fit several places of the line. PLOTWRIGHT_FAULTS=20, or the full run: 20 instants.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -13,8 +13,9 @@ import { untilIdle, waitS } from "../support/faulty-plots.js";
 import { drawnMm, plotting, seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { PtyBoard } from "../support/pty-board.js";
+import { countFor } from "../support/full-run.js";
 
-const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
+const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
 
 /** Loops of some 25 mm, each over the one before. */

@@ -8,9 +8,9 @@ import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard, type BoardReport } from "../support/pty-board.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { countFor } from "../support/full-run.js";
 
-/** PLOTWRIGHT_KILLS=50 for the long run. */
-const KILL_COUNT = Number(process.env["PLOTWRIGHT_KILLS"] ?? 10);
+const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 50, 4);
 const KILLS_PER_PLOT = 10;
 const SPEED = 10;
 /** Reports of progress (one in 60 ms) after which the server is killed, at most. */

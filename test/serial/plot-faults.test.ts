@@ -1,13 +1,14 @@
 /**
  * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the line, the whole drawing is on the paper
- * in the end, once. PLOTWRIGHT_FAULTS=20 for the long run: so many random instants of each, on both firmwares.
+ * in the end, once. PLOTWRIGHT_FAULTS=20, or the full run: so many random instants of each, on both firmwares.
  */
 import { describe, expect, it } from "vitest";
 import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { countFor } from "../support/full-run.js";
 
-const COUNT = Number(process.env["PLOTWRIGHT_FAULTS"] ?? 1);
+const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
 const EARLIEST_S = 0.3;
 const LATEST_S = 7;

@@ -19,8 +19,9 @@ import { PlotwrightError } from "../../src/index.js";
 import { snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";
 import { makeJob } from "./support/jobs.js";
+import { countFor } from "../support/full-run.js";
 
-const FLIP_COUNT = Number(process.env["PLOTWRIGHT_FLIPS"] ?? "120");
+const FLIP_COUNT = countFor("PLOTWRIGHT_FLIPS", 120, 40);
 const JOB_COUNT = 12;
 
 let dir: string;

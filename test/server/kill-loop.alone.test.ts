@@ -2,14 +2,15 @@
  * The real server process, killed without warning again and again while jobs are added, moved, removed and
  * plotted over HTTP. What it has answered holds after every restart: no job lost, none twice, order kept.
  *
- * PLOTWRIGHT_KILLS=100 for the long run; the suite does a part of it.
+ * 100 times in the full run; PLOTWRIGHT_KILLS=20 sets the count.
  */
 import { once } from "node:events";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ENDED_STATES, jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { countFor } from "../support/full-run.js";
 
-const KILL_COUNT = Number(process.env["PLOTWRIGHT_KILLS"] ?? "12");
+const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 100, 5);
 const SEED = Number(process.env["PLOTWRIGHT_SEED"] ?? "20261121");
 
 const lines = (count: number): string =>

@@ -5,6 +5,7 @@
 import { once } from "node:events";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job, SharedJob, SharedTarget } from "../../src/schema/index.js";
+import { countFor } from "../support/full-run.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import {
   MACHINE,
@@ -18,8 +19,9 @@ import {
   type AtUrl,
 } from "./support/shared-servers.js";
 
-/** PLOTWRIGHT_SHARED_JOBS=40 for the long run. */
-const JOB_COUNT = Number(process.env["PLOTWRIGHT_SHARED_JOBS"] ?? 12);
+const JOB_COUNT = countFor("PLOTWRIGHT_SHARED_JOBS", 40, 8);
+/** For the whole test; each of its three waits has a third of it. */
+const LIMIT_MS = 30_000 * JOB_COUNT;
 const LINES = 8;
 /** The second job of the left server: so long that it is met in the middle of it. */
 const LONG_INDEX = 4;
@@ -43,7 +45,7 @@ async function goOn(server: AtUrl): Promise<void> {
   }
 }
 
-describe("two servers that share a queue", () => {
+describe("two servers that share a queue", { timeout: LIMIT_MS }, () => {
   const folders = [temporaryFolder("shared-left"), temporaryFolder("shared-right")] as const;
   let database: SharedDatabase;
   const servers: ServerProcess[] = [];
@@ -89,7 +91,7 @@ describe("two servers that share a queue", () => {
           const long = jobs.find(({ name }) => name === names[LONG_INDEX]);
           return countOf(jobs, "done") >= 1 && long?.state === "plotting";
         },
-        { timeout: 600_000 },
+        { timeout: LIMIT_MS / 3 },
       )
       .toBe(true);
     const gone = once(left.process, "exit");
@@ -104,7 +106,7 @@ describe("two servers that share a queue", () => {
             state === "waiting" && target !== "plotter left";
           return (await sharedJobsOf(right)).filter(isForRight).length;
         },
-        { timeout: 600_000 },
+        { timeout: LIMIT_MS / 3 },
       )
       .toBe(0);
 
@@ -116,7 +118,7 @@ describe("two servers that share a queue", () => {
           for (const server of [again, right]) await goOn(server);
           return countOf([...(await jobsOf(again)), ...(await jobsOf(right))], "done");
         },
-        { timeout: 600_000 },
+        { timeout: LIMIT_MS / 3 },
       )
       .toBe(JOB_COUNT);
 
@@ -128,5 +130,5 @@ describe("two servers that share a queue", () => {
     await expect
       .poll(async () => (await sharedJobsOf(right)).map(({ state }) => state))
       .toEqual(Array(JOB_COUNT).fill("stored"));
-  }, 1_800_000);
+  });
 });

@@ -4,6 +4,7 @@ import { pointOfPlace, strokeLengthMm } from "../../server/plotter/plan-places.j
 import { placeBehindSent, stoppedPlace } from "../../server/plotter/stopped-place.js";
 import type { Place } from "../../src/index.js";
 import { strokesOf } from "../support/local-planner.js";
+import { cases } from "../support/full-run.js";
 
 const coordinate = fc.double({ min: 0, max: 200, noNaN: true });
 const line = fc
@@ -38,7 +39,7 @@ describe("where a plot was broken off", () => {
         const [a, b] = [pointOfPlace(strokes, found), pointOfPlace(strokes, pen)];
         expect(Math.hypot(a.x - b.x, a.y - b.y)).toBeLessThan(0.17);
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 

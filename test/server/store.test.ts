@@ -10,6 +10,7 @@ import { DrawingFiles } from "../../server/queue/drawing-files.js";
 import { Store } from "../../server/queue/store.js";
 import { drawingOf, makeJob } from "./support/jobs.js";
 import { pictureOf } from "./support/store-picture.js";
+import { cases } from "../support/full-run.js";
 
 let dir: string;
 beforeEach(() => {
@@ -120,7 +121,7 @@ describe("a store", () => {
   it("has every change it told of, whenever it is killed", async () => {
     // Two folders side by side: a process spends most of its time beginning, and waiting for the disk.
     const inOne = async (folder: string, firstSeed: number): Promise<void> => {
-      for (let seed = firstSeed; seed <= 10; seed += 2) {
+      for (let seed = firstSeed; seed <= cases(10, 4); seed += 2) {
         const told = await changeUntilKilled(folder, seed, 3 + ((seed * 37) % 90));
         const store = Store.open(folder);
         const found = pictureOf(store.jobs());

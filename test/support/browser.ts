@@ -1,9 +1,9 @@
 /** Chromium for the tests that need a real one. */
-import { chromium, type Browser } from "playwright-core";
+import { chromium, type Browser, type LaunchOptions } from "playwright-core";
 import { findBrowser } from "../../scripts/find-browser.mjs";
 
 /** Throws, with what to do, where no browser is installed: a browser test is never skipped. */
-export async function launchBrowser(): Promise<Browser> {
+export async function browserOptions(): Promise<LaunchOptions> {
   const executablePath = await findBrowser();
   if (executablePath === null) {
     throw new Error(
@@ -12,5 +12,11 @@ export async function launchBrowser(): Promise<Browser> {
   }
   // As on a computer without a graphics card: drawn by the processor, which is quicker than a card that is imitated.
   const args = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-  return chromium.launch({ executablePath, args, timeout: 120_000 });
+  return { executablePath, args, timeout: 120_000 };
+}
+
+/** The browser that the test files share, or one of its own for a script. `close` ends only what was opened here. */
+export async function launchBrowser(): Promise<Browser> {
+  const shared = process.env["PLOTWRIGHT_BROWSER"];
+  return shared === undefined ? chromium.launch(await browserOptions()) : chromium.connect(shared);
 }

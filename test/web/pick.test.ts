@@ -2,6 +2,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { buildPickGrid, nearestPiece } from "../../web/preview/pick.js";
 import { PIECE_BYTES, PIECE_FLOATS, type Pieces } from "../../web/preview/scene.js";
+import { cases } from "../support/full-run.js";
 
 type Line = readonly [number, number, number, number];
 const piecesOf = (lines: readonly Line[]): Pieces => {
@@ -30,7 +31,7 @@ describe("picking", () => {
         if (found) expect(found.distanceMm).toBeCloseTo(nearest, 4);
         else expect(nearest).toBeGreaterThan(reachMm);
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 

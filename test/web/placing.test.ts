@@ -15,6 +15,7 @@ import {
   type CornerPart,
   type FrameMm,
 } from "../../web/preview/placing.js";
+import { cases } from "../support/full-run.js";
 
 const frame: FrameMm = { xMm: 20, yMm: 30, widthMm: 120, heightMm: 80, turnDeg: 0 };
 const frames = fc.record({
@@ -65,7 +66,7 @@ describe("dragging", () => {
         expect(after.x).toBeCloseTo(before.x, 6);
         expect(after.y).toBeCloseTo(before.y, 6);
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 

@@ -2,6 +2,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { AxisMotion, registersFor } from "../../../src/drivers/ebb/model/accumulator.js";
 import type { TickArithmetic } from "../../../src/drivers/ebb/protocol/firmware.js";
+import { cases } from "../../support/full-run.js";
 
 interface Counted {
   ticks: number;
@@ -92,7 +93,7 @@ describe("the closed form of the accumulator", () => {
             expect(motion.placeAt(tick, out)).toEqual(counted.history[tick]);
           }
         }),
-        { numRuns: 1_000 },
+        { numRuns: cases() },
       );
     });
 
@@ -106,7 +107,7 @@ describe("the closed form of the accumulator", () => {
           const motion = new AxisMotion(arithmetic, registers, command.acc, limit, Infinity);
           expect([motion.ticks, motion.net, motion.acc]).toEqual([counted.ticks, counted.net, counted.acc]);
         }),
-        { numRuns: 1_000 },
+        { numRuns: cases() },
       );
     });
   }

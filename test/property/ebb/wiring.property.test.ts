@@ -11,6 +11,7 @@ import {
   type MachineProfile,
 } from "../../../src/index.js";
 import { strokesOf } from "../../support/local-planner.js";
+import { cases } from "../../support/full-run.js";
 
 const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc.boolean() });
 const coordinate = fc.double({ min: 0, max: 80, noNaN: true });
@@ -40,7 +41,7 @@ describe("commands for a machine that is wired otherwise", () => {
           expect(Math.abs(y! - there[i]![1]!)).toBeLessThanOrEqual(stepMm);
         });
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 });

@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import fc from "fast-check";
 import { flattenCubic } from "../../../src/geometry/cubic.js";
 import { PointBuffer } from "../../../src/geometry/growable.js";
+import { cases } from "../../support/full-run.js";
 
 const coordinate = fc.double({ min: -300, max: 300, noNaN: true });
 const curve = fc.tuple(
@@ -57,7 +58,7 @@ describe("flattenCubic", () => {
       fc.property(curve, fc.double({ min: 0.01, max: 2, noNaN: true }), (c, tol) => {
         expect(gap(c, polyline(c, tol))).toBeLessThanOrEqual(tol * (1 + 1e-9) + 1e-9);
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 
@@ -97,7 +98,7 @@ describe("flattenCubic", () => {
         expect(fine.length / 2).toBeLessThanOrEqual(bound);
         expect(polyline(c, tol * 64).length).toBeLessThanOrEqual(fine.length);
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 

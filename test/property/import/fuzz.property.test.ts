@@ -1,11 +1,12 @@
-/** 10 000 damaged SVGs: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
+/** Damaged SVGs, 10 000 in the full run: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
+import { countFor } from "../../support/full-run.js";
 
-const CASES = 10_000;
+const CASES = countFor("PLOTWRIGHT_FUZZ_CASES", 10_000, 1_000);
 /** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
 const LONGEST_S = 2;
 const HANGS_MS = 60_000;

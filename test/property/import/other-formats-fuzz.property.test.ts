@@ -11,8 +11,9 @@ import { OLDEST_PLANNED_FIRMWARE, prepareJob } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";
+import { countFor } from "../../support/full-run.js";
 
-const CASES = Number(process.env["PLOTWRIGHT_FUZZ_CASES"] ?? 2_000);
+const CASES = countFor("PLOTWRIGHT_FUZZ_CASES", 2_000, 300);
 const FIRST = Number(process.env["PLOTWRIGHT_FUZZ_FIRST"] ?? 0);
 const PLANNED_EACH = 10;
 /** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */

@@ -5,6 +5,7 @@ import svgpath from "svgpath";
 import { PAIRS_OF_VERB, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../../src/drawing/drawing.js";
 import { drawPathData } from "../../../src/import/path-data.js";
 import { ShapeBuffer } from "../../../src/import/shape-buffer.js";
+import { cases } from "../../support/full-run.js";
 
 const number = fc.double({ min: -500, max: 500, noNaN: true }).map((v) => Math.round(v * 1000) / 1000);
 const flag = fc.constantFrom(0, 1);
@@ -111,7 +112,7 @@ describe("path data", () => {
           expect(Math.hypot(x - expected[i][0], y - expected[i][1]), d).toBeLessThan(1e-6);
         });
       }),
-      { numRuns: 500 },
+      { numRuns: cases(500) },
     );
   });
 
@@ -123,7 +124,7 @@ describe("path data", () => {
         expect([...narrow.verbs.toArray()]).toEqual([...wide.verbs.toArray()]);
         expect([...narrow.coords.toArray()]).toEqual([...wide.coords.toArray()]);
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 
@@ -138,7 +139,7 @@ describe("path data", () => {
           }
         },
       ),
-      { numRuns: 2000 },
+      { numRuns: cases(2_000) },
     );
   });
 

@@ -5,8 +5,9 @@ import { arbitraryLimits, strokeSetOf, type Point } from "../../support/arbitrar
 import { optimalRunTime } from "../../support/path-optimum.js";
 import { cornersOf, distance, type Limits } from "../../support/reference-planners/polyline.js";
 import { junctionDeviation } from "../../support/reference-planners/systems.js";
+import { cases } from "../../support/full-run.js";
 
-const RUNS = { numRuns: 500 };
+const RUNS = { numRuns: cases(500) };
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 
 /** Small paths of 0.1 to 50 mm a segment, with turns up to nearly all the way round. */

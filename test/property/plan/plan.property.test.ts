@@ -20,8 +20,9 @@ import {
 } from "../../support/arbitraries.js";
 import { worstOf } from "../../support/trajectory-checks.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
+import { cases } from "../../support/full-run.js";
 
-const RUNS = { numRuns: 1000 };
+const RUNS = { numRuns: cases() };
 const motionIn = (mode: MotionMode): fc.Arbitrary<MotionSettings> =>
   fc.record({ mode: fc.constant(mode), draw: arbitraryLimits, travel: arbitraryLimits });
 

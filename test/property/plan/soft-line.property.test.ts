@@ -8,6 +8,7 @@ import { SoftLine } from "../../../src/plan/soft-line.js";
 import { arbitraryLimits, arbitraryStroke, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { NearStroke, worstOf } from "../../support/trajectory-checks.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
+import { cases } from "../../support/full-run.js";
 
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 const DELTA = 0.05;
@@ -59,7 +60,7 @@ describe("the soft line of a wavy one", () => {
         }
         expect(bending(soft)).toBeLessThanOrEqual(bending(path) * (1 + 1e-9));
       }),
-      { numRuns: 1000 },
+      { numRuns: cases() },
     );
   });
 
@@ -69,7 +70,7 @@ describe("the soft line of a wavy one", () => {
         const path = pathOf(points);
         expect(new SoftLine().of(path, limits(1))).toBe(path);
       }),
-      { numRuns: 200 },
+      { numRuns: cases(200) },
     );
   });
 });
@@ -123,7 +124,7 @@ describe("a plan in blend mode", () => {
         points.slice(1).forEach(([x, y], i) => (whole += Math.hypot(x - points[i]![0], y - points[i]![1])));
         expect(before).toBeLessThanOrEqual(whole * (1 + 1e-9) + 1e-6);
       }),
-      { numRuns: 500 },
+      { numRuns: cases(500) },
     );
   });
 });
@@ -155,7 +156,7 @@ describe("a plan that goes on from a pen beside its line", () => {
           expect(Array.from(away.runs.stroke)).toEqual([-1, 0]);
         }
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 });

@@ -12,8 +12,9 @@ import {
   segmentsOf,
   type Ring,
 } from "../../support/shapes-by-sampling.js";
+import { cases } from "../../support/full-run.js";
 
-const RUNS = { numRuns: 200 };
+const RUNS = { numRuns: cases(200) };
 const PLAIN: PrepareSettings = {
   ...DEFAULT_PREPARE,
   paper: { widthMm: 100, heightMm: 100 },

@@ -7,6 +7,7 @@ import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/pre
 import { improveBlocks } from "../../../src/prepare/tour-blocks.js";
 import { TourSearch } from "../../../src/prepare/tour-search.js";
 import { drawingOf } from "../../support/drawings.js";
+import { cases } from "../../support/full-run.js";
 
 const PLAIN: PrepareSettings = {
   ...DEFAULT_PREPARE,
@@ -63,7 +64,7 @@ describe("TourSearch", () => {
           search.kick();
         }
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 });
@@ -79,7 +80,7 @@ describe("improveBlocks", () => {
         expect([...ring.subarray(0, 2)]).toEqual([0, 1]);
         expect(travelOfRing(xy, ring)).toBeLessThanOrEqual(before + 1e-6);
       }),
-      { numRuns: 300 },
+      { numRuns: cases(300) },
     );
   });
 

@@ -11,8 +11,9 @@ import {
   type StrokeSet,
 } from "../../../src/index.js";
 import { drawingOf } from "../../support/drawings.js";
+import { cases } from "../../support/full-run.js";
 
-const RUNS = { numRuns: 1_000 };
+const RUNS = { numRuns: cases() };
 const GROUPS = ["a", "!b", "%c", "d"];
 const IDS = GROUPS.map((_, k) => `g${k}`);
 const place = fc.integer({ min: 0, max: 90 });

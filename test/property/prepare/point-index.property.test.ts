@@ -1,11 +1,12 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { PointIndex } from "../../../src/geometry/point-index.js";
+import { cases } from "../../support/full-run.js";
 
 /** Few different values, so that points coincide and stand in rows. */
 const value = fc.oneof(fc.integer({ min: 0, max: 5 }), fc.double({ min: -1e3, max: 1e3, noNaN: true }));
 const points = fc.array(fc.tuple(value, value), { minLength: 1, maxLength: 60 });
-const RUNS = { numRuns: 1_000 };
+const RUNS = { numRuns: cases() };
 
 describe("PointIndex", () => {
   it("lists the nearest few, nearest first, without the point itself and the one to leave out", () => {

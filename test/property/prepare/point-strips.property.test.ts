@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { PointStrips } from "../../../src/geometry/point-strips.js";
+import { cases } from "../../support/full-run.js";
 
 /** Few different values, so that points coincide and stand in rows and columns; and a few that are far from the rest. */
 const value = fc.oneof(
@@ -10,7 +11,7 @@ const value = fc.oneof(
   fc.constant(1e9),
 );
 const points = fc.array(fc.tuple(value, value), { maxLength: 120 });
-const RUNS = { numRuns: 1_000 };
+const RUNS = { numRuns: cases() };
 
 describe("PointStrips", () => {
   it("finds as near a point as a look at all of them, from anywhere and from points of its own, while points are removed", () => {

@@ -5,8 +5,9 @@ import { distance } from "../../../src/geometry/polyline.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { drawingOf, type TestShape } from "../../support/drawings.js";
+import { cases } from "../../support/full-run.js";
 
-const RUNS = { numRuns: 1_000 };
+const RUNS = { numRuns: cases() };
 const PLAIN: PrepareSettings = {
   ...DEFAULT_PREPARE,
   paper: { widthMm: 120, heightMm: 120 },
@@ -134,7 +135,7 @@ describe("prepare, whatever is drawn and asked for", () => {
         expect(prepared.drawMm).toBeCloseTo(lengthOf(strokes), 6);
         if (s.spread === "none") expect(prepared.travelMm).toBeLessThanOrEqual(prepared.travelMmUnordered);
       }),
-      { numRuns: 500 },
+      { numRuns: cases(500) },
     );
   });
 

@@ -15,6 +15,7 @@ import {
   type Direction,
   type MachineProfile,
 } from "../../../src/index.js";
+import { cases } from "../../support/full-run.js";
 
 const machines = fc
   .tuple(fc.constantFrom(...MACHINES), fc.boolean(), fc.boolean(), fc.boolean())
@@ -42,7 +43,7 @@ describe("a machine turned to the way it was seen to go", () => {
         const turned = machineTurned(told, seen(told, 1, 0), seen(told, 0, 1));
         expect([seen(turned, 1, 0), seen(turned, 0, 1)]).toEqual(["right", "down"]);
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 
@@ -62,7 +63,7 @@ describe("the steps for one mm", () => {
         const realStepsPerMm = machine.stepsPerMm / share;
         expect((100 * stepsPerMm) / realStepsPerMm).toBeCloseTo(100, 9);
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
   });
 

@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { NO_CODES, formatLayerName, parseLayerName } from "../../../src/prepare/layer-codes.js";
+import { cases } from "../../support/full-run.js";
 
 /** Only what differs from a plain name. */
 const read = (name: string): object => {
@@ -74,7 +75,7 @@ describe("formatLayerName", () => {
         const back = parseLayerName(formatLayerName(given));
         expect({ ...back, text: back.text.trim() }).toEqual({ ...given, text: given.text.trim() });
       }),
-      { numRuns: 1_000 },
+      { numRuns: cases() },
     );
     expect(parseLayerName(formatLayerName({ ...NO_CODES, skip: true, text: "!x" }))).toEqual({
       ...NO_CODES,
