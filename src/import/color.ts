@@ -1,4 +1,6 @@
 // Ambient declarations apply only where a program includes them, and this project has several programs.
+// eslint-disable-next-line @typescript-eslint/triple-slash-reference
+/// <reference path="./color-name.d.ts" />
 /** CSS colours to "#rrggbb" and an opacity. */
 import colorNames from "color-name";
 

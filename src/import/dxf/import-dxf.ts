@@ -1,4 +1,6 @@
 // Ambient declarations apply only where a program includes them, and this project has several programs.
+// eslint-disable-next-line @typescript-eslint/triple-slash-reference
+/// <reference path="./dxf-parser.d.ts" />
 /**
  * DXF (text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
  * solids, hatches as filled shapes or as pattern lines, texts and blocks, by layer. y is flipped, and the
