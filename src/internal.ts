@@ -18,3 +18,13 @@ export { STREAM_TABLE } from "./settings/stream.js";
 export { reseatWaitS } from "./plan/pen-times.js";
 export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
 export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";
+export { nextPlace, placeAt } from "./plan/place-on-plan.js";
+export { movedPlace, pointOfPlace, snappedPlace, strokeLengthMm } from "./plan/place-on-drawing.js";
+export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
+export { placeFromMotors } from "./machines/motors.js";
+export {
+  boardStateBefore,
+  commandAfter,
+  restingStream,
+  withoutDrop,
+} from "./drivers/ebb/stream/cut-streams.js";

@@ -22,13 +22,12 @@ import {
   type StreamReport,
   type StrokeSet,
 } from "../../src/index.js";
-import { planWalk, mostAheadS } from "../../src/internal.js";
+import { boardStateBefore, mostAheadS, placeFromMotors, planWalk } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { boardRestarted } from "./health.js";
-import { boardStateBefore, placeOfSteps } from "./plan-places.js";
 import type { PlannedPlot } from "./types.js";
 
 /** Of a command of motion, see `slice-search`. */
@@ -197,7 +196,7 @@ export class Carriage {
 
   /** mm from home; null when nobody knows. */
   place(machine: MachineProfile): { x: number; y: number } | null {
-    return this.state ? placeOfSteps(machine, this.state.steps1, this.state.steps2) : null;
+    return this.state ? placeFromMotors(machine, this.state.steps1, this.state.steps2) : null;
   }
 
   /** What a stream that begins now has to be compiled from. */

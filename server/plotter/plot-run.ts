@@ -19,14 +19,13 @@ import {
   type Place,
   type StrokeSet,
 } from "../../src/index.js";
+import { movedPlace, placeBehindSent, pointOfPlace, stoppedPlace } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type { Carriage } from "./carriage.js";
 import { PenStops } from "./pen-stops.js";
-import { movedPlace, pointOfPlace } from "./plan-places.js";
 import { RunProgress } from "./run-progress.js";
 import { RunSettings } from "./run-settings.js";
 import { RunStream } from "./run-stream.js";
-import { placeBehindSent, stoppedPlace } from "./stopped-place.js";
 import type {
   JournalEntry,
   LivePlotRun,

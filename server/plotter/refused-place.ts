@@ -9,8 +9,14 @@
  * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
  */
 import type { MachineProfile, Place, StreamPlace, StrokeSet } from "../../src/index.js";
-import { isPenUpBefore, type RefusedCommand } from "../../src/internal.js";
-import { boardStateBefore, placeOfSteps, pointOfPlace, snappedPlace } from "./plan-places.js";
+import {
+  boardStateBefore,
+  isPenUpBefore,
+  placeFromMotors,
+  pointOfPlace,
+  snappedPlace,
+  type RefusedCommand,
+} from "../../src/internal.js";
 import type { Part } from "./run-progress.js";
 
 /** What is drawn so near to the stroke counts as drawn. */
@@ -40,10 +46,10 @@ export function placeAfterRefusal(
   const index = refused.at.commandIndex;
   const pointBefore = (i: number): Point => {
     const state = boardStateBefore(commands, i, start);
-    return placeOfSteps(machine, state.steps1, state.steps2);
+    return placeFromMotors(machine, state.steps1, state.steps2);
   };
   const [from, to] = [pointBefore(index), pointBefore(index + 1)];
-  const stand = placeOfSteps(machine, steps1, steps2);
+  const stand = placeFromMotors(machine, steps1, steps2);
   const isAfter = at !== null && refused.command !== null && at.number > refused.command.number;
   const dropsPen =
     isPenUpBefore(trajectory, commands.planS[index]!) &&

@@ -9,7 +9,7 @@ import {
   type StreamPlace,
   type Trajectory,
 } from "../../src/index.js";
-import { nextPlace } from "./plan-places.js";
+import { nextPlace } from "../../src/internal.js";
 import type { PlotProgress } from "./types.js";
 
 /** A stretch of motion that is or will be streamed, and the plan that it came from. */

@@ -22,20 +22,22 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
-import { isPenUpBefore, reseatWaitS, type RefusedCommand } from "../../src/internal.js";
-import type { Carriage } from "./carriage.js";
-import type { CertainAt } from "./certain-place.js";
 import {
   boardStateBefore,
   commandAfter,
+  isPenUpBefore,
   nextPlace,
   placeAt,
-  placeOfSteps,
+  placeFromMotors,
+  reseatWaitS,
   restingStream,
   snappedPlace,
   strokeLengthMm,
   withoutDrop,
-} from "./plan-places.js";
+  type RefusedCommand,
+} from "../../src/internal.js";
+import type { Carriage } from "./carriage.js";
+import type { CertainAt } from "./certain-place.js";
 import { placeAfterRefusal } from "./refused-place.js";
 import type { Part, RunProgress } from "./run-progress.js";
 import type { RunSettings } from "./run-settings.js";
@@ -268,7 +270,7 @@ export class RunStream {
   /** A place that the board told of while it played. */
   private reached({ place, steps1, steps2 }: CertainAt): void {
     if (!this.progress.knows(place.stream)) return;
-    const { x, y } = placeOfSteps(machineOf(this.settings.current), steps1, steps2);
+    const { x, y } = placeFromMotors(machineOf(this.settings.current), steps1, steps2);
     this.certain = this.placeOrEnd(place, x, y);
   }
 

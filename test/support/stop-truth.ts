@@ -2,7 +2,7 @@
  * Where a virtual board was stopped, by its own count of the ticks that its motors ran: the truth that a host has to
  * find from what the board answers.
  */
-import { strokeLengthMm } from "../../server/plotter/plan-places.js";
+import { strokeLengthMm } from "../../src/plan/place-on-drawing.js";
 import type { PlannedPlot, PlanRequest } from "../../server/plotter/types.js";
 import {
   commandLine,
