@@ -9,7 +9,6 @@ import {
   strokeCount,
   trajectoryStats,
   trajectoryToSvg,
-  plotLines,
   svgOptionsOf,
   toJson,
   toSvg,
@@ -120,7 +119,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const planMs = clock();
   const commands = planned.commands();
   const compileMs = clock();
-  const lines = plotLines(commands, { machine, pen: settings.pen, firmware });
+  const lines = planned.lines();
   const stats = trajectoryStats(trajectory);
   const report: PlanReport = {
     strokes: strokeCount(job.prepared.strokes),

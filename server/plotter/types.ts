@@ -2,21 +2,11 @@
  * Between the queue (which job, which drawing) and the driver (which board): a job's planner goes in,
  * a run comes out. The driver never plans; the planner (a worker thread) never sees the board.
  */
-import type {
-  BoardState,
-  CommandStream,
-  MotionSettings,
-  PenSettings,
-  Place,
-  StrokeSet,
-  Trajectory,
-} from "../../src/index.js";
+import type { MotionSettings, PenSettings, Place, StrokeSet } from "../../src/index.js";
+import type { MachineState, PlannedPlot, PlotProgress } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
-export interface PlannedPlot {
-  readonly trajectory: Trajectory;
-  readonly commands: CommandStream;
-}
+export type { PlannedPlot, PlotProgress } from "../../src/internal.js";
 
 export interface PlanRequest {
   /** Where in the drawing to begin; null for its beginning. */
@@ -29,7 +19,8 @@ export interface PlanRequest {
   /** May differ from the job's first ones: changed while held. */
   readonly settings: PlotSettings;
   readonly firmware: string;
-  readonly board: BoardState;
+  /** How the machine stands there; left out: at home, with its motors just switched on. */
+  readonly board?: MachineState | undefined;
 }
 
 /** One prepared drawing, living in a worker thread, ready to be planned from any place. */
@@ -37,18 +28,6 @@ export interface PlotPlanner {
   readonly strokes: StrokeSet;
   plan(request: PlanRequest): Promise<PlannedPlot>;
   close(): Promise<void>;
-}
-
-export interface PlotProgress {
-  /** Of the whole plot's time, 0 … 1. */
-  readonly progress: number;
-  readonly elapsedS: number;
-  readonly remainingS: number;
-  /** Seconds along the first, whole trajectory. */
-  readonly planS: number;
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly penUp: boolean;
 }
 
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };

@@ -2,54 +2,19 @@
  * The one recipe from prepared strokes to a job for a machine. Page, server, command line and library all call it,
  * so the preview is the plot.
  *
- *   settings ──layer codes──> what each layer asks for ──firmware's limits──> plan ──> trajectory ──compile──> commands
+ *   strokes ──until──> settings with the layers' codes ──the controller's driver──> trajectory and commands
  */
-import type { StrokeLayer, StrokeSet } from "../drawing/stroke-set.js";
-import type { BoardState, CommandStream } from "../drivers/ebb/compile/command-stream.js";
-import { compile } from "../drivers/ebb/compile/compile.js";
-import { motionForFirmware } from "../drivers/ebb/protocol/firmware-motion.js";
+import type { StrokeSet } from "../drawing/stroke-set.js";
+import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
+import { driverOf, type AnyCommands } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
-import { plan } from "../plan/plan.js";
-import type { MotionSettings } from "../settings/motion.js";
-import type { PenSettings } from "../settings/pen.js";
-import type { Place, Trajectory } from "../plan/trajectory.js";
 
-/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
-export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
+export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
 
-/** The part of a job's settings that decides its motion. */
-export interface JobSettings {
-  readonly motion: MotionSettings;
-  readonly pen: PenSettings;
-}
-
-export interface JobOptions {
-  /** Where in the drawing to begin, in the middle of a stroke too; default: its beginning. */
-  readonly from?: Place | null | undefined;
+export interface JobOptions extends DriverPlanOptions {
   /** Number of the stroke before which to stop and go home; default: the end of the drawing. */
   readonly until?: number | null | undefined;
-  /** Where the carriage is, mm from home; default 0, 0. The pen is up there. */
-  readonly startXMm?: number | undefined;
-  readonly startYMm?: number | undefined;
-  /** What the board's counters show there; default: at home, as they are after the motors were switched on. */
-  readonly board?: BoardState | undefined;
-  /** Of the board: "2.8.1". Default, and where it is null: the oldest that executes accelerations. */
-  readonly firmware?: string | null | undefined;
-  /** Begin with a lift, because nobody knows where the pen is. Default false. */
-  readonly liftFirst?: boolean | undefined;
-  /** Where to go when everything is drawn, mm from home; default home itself. */
-  readonly endXMm?: number | undefined;
-  readonly endYMm?: number | undefined;
-  /** Checked before every stroke. An AbortSignal fits. */
-  readonly cancel?: { readonly aborted: boolean } | undefined;
-}
-
-/** What one machine will do: its motion, and the commands for it. */
-export interface MachineJob {
-  readonly trajectory: Trajectory;
-  /** Compiled on each call: a preview needs the motion only. */
-  commands(): CommandStream;
 }
 
 /**
@@ -62,44 +27,10 @@ export function planJob(
   { strokes }: { readonly strokes: StrokeSet },
   settings: JobSettings,
   machine: MachineProfile,
-  options: JobOptions = {},
-): MachineJob {
-  const firmware = options.firmware ?? OLDEST_PLANNED_FIRMWARE;
-  const { motion, pen } = followedSettings(settings, strokes.layers, firmware);
-  const trajectory = plan(firstStrokes(strokes, options.until ?? null), motion, pen, {
-    machine,
-    from: options.from ?? undefined,
-    startX: options.startXMm,
-    startY: options.startYMm,
-    endX: options.endXMm,
-    endY: options.endYMm,
-    penBesideMm: penBesideMmOf(motion, machine),
-    liftFirst: options.liftFirst,
-    cancel: options.cancel,
-  });
-  return {
-    trajectory,
-    commands: () => compile(trajectory, { machine, firmware, pen, start: options.board }),
-  };
-}
-
-/** The settings that a plan follows: with the codes of the layers' names, within what the firmware can execute. */
-export function followedSettings<S extends JobSettings>(
-  settings: S,
-  layers: readonly StrokeLayer[],
-  firmware: string,
-): S {
-  const coded = withLayerCodes(settings, layers);
-  return { ...coded, motion: motionForFirmware(coded.motion, firmware) };
-}
-
-/**
- * How far beside the drawing a pen may stand that was stopped on its line: what the planned line may leave it by, and
- * the rounding to steps.
- */
-function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {
-  const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);
-  return Math.max(draw.cornerMm, ...corners) + (fit?.toleranceMm ?? 0) + 2 / machine.stepsPerMm;
+  { until = null, ...options }: JobOptions = {},
+): MachineJob<AnyCommands> {
+  const coded = withLayerCodes(settings, strokes.layers);
+  return driverOf(machine).plan(firstStrokes(strokes, until), coded, machine, options);
 }
 
 /** A drawing without its last strokes; the others keep their numbers. */

@@ -7,7 +7,7 @@ import { planAndCompile, prepareDrawing } from "../../../server/planning/stages.
 import { PlotwrightError } from "../../../src/errors.js";
 import { importDrawing } from "../../../src/import/registry.js";
 import { machineOf, type Drawing } from "../../../src/index.js";
-import { OLDEST_PLANNED_FIRMWARE } from "../../../src/internal.js";
+import { OLDEST_PLANNED_FIRMWARE } from "../../../src/drivers/ebb/compile/ebb-job.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { cpuS, endWhenOver } from "../../support/watchdog.js";
 import { generator, mutate } from "./support/mutate.js";

@@ -1,8 +1,10 @@
+import type { MachineCommands } from "../../machine-job.js";
+
 /**
  * EBB commands for one trajectory, with what the host knows to be true after each.
  * Columns only, no functions: it is transferred between threads. Read a line with `commandLine(stream, i)`.
  */
-export interface CommandStream {
+export interface CommandStream extends MachineCommands {
   readonly count: number;
   /** ASCII of all commands, each ended by CR: ready to be written. */
   readonly text: Uint8Array;
@@ -22,6 +24,12 @@ export interface CommandStream {
   readonly run: Int32Array;
   /** Limits that had to be met by splitting or slowing, in words. */
   readonly warnings: readonly string[];
+}
+
+/** The commands of a job as this driver's own. Throws TypeError for those of another one. */
+export function streamOf(commands: MachineCommands): CommandStream {
+  if (!("steps1" in commands)) throw new TypeError("these commands are for another controller");
+  return commands as CommandStream;
 }
 
 /** Where the board stands between two command streams. */
