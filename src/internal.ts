@@ -1,7 +1,5 @@
 /** What server and web use besides the public library. No promise is made to anybody else. */
-export { followedSettings, OLDEST_PLANNED_FIRMWARE } from "./job/plan-job.js";
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
-export { planWalk } from "./job/plan-walk.js";
 export {
   isAllowed,
   rangeInWords,
@@ -14,10 +12,20 @@ export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/moti
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
 export type { EbbController } from "./machines/profile.js";
-export { isPenUpBefore, penMovesOf } from "./plan/pen-moves.js";
 export { STREAM_TABLE } from "./settings/stream.js";
-export { reseatWaitS } from "./plan/pen-times.js";
-export { mostAheadS } from "./drivers/ebb/stream/streamer.js";
-export type { PollTime, RefusedCommand } from "./drivers/ebb/stream/stream-types.js";
 export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
+export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
+export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
+export { driverOf } from "./drivers/registry.js";
+export type {
+  Driver,
+  Machine,
+  MachineEvents,
+  MachineRun,
+  PlaceAhead,
+  VirtualMachine,
+} from "./drivers/driver.js";
+export { powerLost, powerLow } from "./drivers/faults.js";
+export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
+export type { PlotProgress } from "./drivers/run-progress.js";

@@ -8,7 +8,6 @@ import {
   strokeCount,
   trajectoryStats,
   trajectoryToSvg,
-  plotLines,
   svgOptionsOf,
   toJson,
   toSvg,
@@ -122,7 +121,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const planMs = clock();
   const commands = planned.commands();
   const compileMs = clock();
-  const lines = plotLines(commands, { machine, pen: settings.pen, firmware });
+  const lines = planned.lines();
   const stats = trajectoryStats(trajectory);
   const report: PlanReport = {
     strokes: strokeCount(job.prepared.strokes),

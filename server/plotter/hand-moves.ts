@@ -1,12 +1,11 @@
 /**
- * What may be asked of an idle plotter by hand, as data, and how the carriage does it. Every move begins with the
+ * What may be asked of an idle plotter by hand, as data, and how the machine does it. Every move begins with the
  * pen up and stays within the machine; where nobody knows where the carriage is, it stands at home.
  */
-import { machineOf, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import { machineOf, planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import type { Machine } from "../../src/internal.js";
 import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
-import type { Carriage } from "./carriage.js";
-import { testPatch } from "./health.js";
-import { seekHome } from "./homing.js";
+import { testPatch } from "./test-patch.js";
 
 export type HandMove =
   /** To a position, mm from home. */
@@ -29,53 +28,53 @@ export type HandMove =
   | { readonly kind: "servo"; readonly pos: number };
 
 /** Rejects with `out-of-bounds` before anything moves, or with what the board fails with. */
-export async function moveByHand(carriage: Carriage, move: HandMove, settings: PlotSettings): Promise<void> {
+export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
   switch (move.kind) {
     case "walk":
       mustReach(machine, move.xMm, move.yMm);
-      return carriage.walk(move.xMm, move.yMm, settings);
+      return plotter.walk(move.xMm, move.yMm, settings);
     case "jog":
-      return jog(carriage, move.dxMm, move.dyMm, settings);
+      return jog(plotter, move.dxMm, move.dyMm, settings);
     case "home":
-      if (machine.controller.homing) return seekHome(carriage, settings, machine.controller.homing);
-      return carriage.walk(0, 0, settings);
+      if (!(await plotter.findHome(settings))) await plotter.walk(0, 0, settings);
+      return;
     case "set-home":
-      return carriage.setHome(machine, settings.pen);
+      return plotter.setHome(machine, settings.pen);
     case "cycle-pen":
-      await carriage.movePen(false, settings);
-      return carriage.movePen(true, settings);
+      await plotter.movePen(false, settings);
+      return plotter.movePen(true, settings);
     case "frame":
-      return traceFrame(carriage, move.boxMm, settings);
+      return traceFrame(plotter, move.boxMm, settings);
     case "test-patch":
-      return drawHere(carriage, testPatch(), settings);
+      return drawHere(plotter, testPatch(), settings);
     case "square":
-      return drawHere(carriage, squareOf(move.sizeMm), settings);
+      return drawHere(plotter, squareOf(move.sizeMm), settings);
     case "servo":
-      return carriage.moveServo(machine, move.pos);
+      return plotter.moveServo(machine, move.pos);
   }
 }
 
-async function jog(carriage: Carriage, dxMm: number, dyMm: number, settings: PlotSettings): Promise<void> {
+async function jog(plotter: Machine, dxMm: number, dyMm: number, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
   const { widthMm, heightMm } = machine;
   if (!(Math.abs(dxMm) <= widthMm && Math.abs(dyMm) <= heightMm)) {
     throw new PlotwrightError("out-of-bounds", `A step of ${dxMm}, ${dyMm} mm is longer than the machine.`);
   }
-  const { x, y } = await standing(carriage, settings);
+  const { x, y } = await standing(plotter, settings);
   // Home may not be where the machine's corner is, but it can't be further from it than the machine is long.
   const isWithin =
     x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
   if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);
-  await carriage.walk(x + dxMm, y + dyMm, settings);
+  await plotter.walk(x + dxMm, y + dyMm, settings);
 }
 
-async function traceFrame(carriage: Carriage, box: BoxMm, settings: PlotSettings): Promise<void> {
+async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
   const [x1, y1] = [box.xMm + box.widthMm, box.yMm + box.heightMm];
   mustReach(machine, box.xMm, box.yMm);
   mustReach(machine, x1, y1);
-  const { x, y } = await standing(carriage, settings);
+  const { x, y } = await standing(plotter, settings);
   const corners = [
     [box.xMm, box.yMm],
     [x1, box.yMm],
@@ -84,21 +83,32 @@ async function traceFrame(carriage: Carriage, box: BoxMm, settings: PlotSettings
     [box.xMm, box.yMm],
     [x, y],
   ] as const;
-  for (const [cornerX, cornerY] of corners) await carriage.walk(cornerX, cornerY, settings);
+  for (const [cornerX, cornerY] of corners) await plotter.walk(cornerX, cornerY, settings);
 }
 
-async function drawHere(carriage: Carriage, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
+/** Draws strokes in mm from where the carriage stands, and comes back there. */
+async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
-  const { x, y } = await standing(carriage, settings);
+  const { x, y } = await standing(plotter, settings);
   const { xy } = strokes;
   for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i]!, y + xy[i + 1]!);
-  await carriage.drawHere(strokes, settings);
+  if (plotter.penUp !== true) await plotter.movePen(true, settings);
+  const here = { ...strokes, xy: xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
+  const job = planJob({ strokes: here }, settings, machine, {
+    startXMm: x,
+    startYMm: y,
+    endXMm: x,
+    endYMm: y,
+    firmware: plotter.firmware,
+    board: plotter.state!,
+  });
+  await plotter.perform({ trajectory: job.trajectory, commands: job.commands() }, settings);
 }
 
-async function standing(carriage: Carriage, settings: PlotSettings): Promise<{ x: number; y: number }> {
+async function standing(plotter: Machine, settings: PlotSettings): Promise<{ x: number; y: number }> {
   const machine = machineOf(settings);
-  await carriage.ready(machine, settings.pen);
-  return carriage.place(machine)!;
+  await plotter.ready(machine, settings.pen);
+  return plotter.place(machine)!;
 }
 
 /** Tolerance for positions read from motor steps, mm. */

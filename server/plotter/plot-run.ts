@@ -1,9 +1,9 @@
 /**
- * One plot on a carriage: plan, stream, and what the user asks of it on the way.
+ * One plot on a machine: plan, stream, and what the user asks of it on the way.
  *
  *              ┌──────── resume: plan what is left, from the very place ────────┐
  *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
- *    ^          │ │ │  └──emergency──> ES, counters read back, lifts ──> held
+ *    ^          │ │ │  └──emergency──> stops at once, lifts ──> held
  *    │          │ │ └──cancel──> slows down, lifts, walks home ──> cancelled
  *    │          │ └──a pen is due──> lifts, walks home ──> held
  *    └──────────┘                                          done when nothing is left
@@ -15,18 +15,21 @@ import {
   PlaceTimes,
   PlotwrightError,
   strokeCount,
-  type BoardState,
   type Place,
   type StrokeSet,
 } from "../../src/index.js";
+import {
+  movedPlace,
+  placeBehindSent,
+  pointOfPlace,
+  stoppedPlace,
+  type Machine,
+  type MachineRun,
+  type MachineState,
+} from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import type { Carriage } from "./carriage.js";
 import { PenStops } from "./pen-stops.js";
-import { movedPlace, pointOfPlace } from "./plan-places.js";
-import { RunProgress } from "./run-progress.js";
 import { RunSettings } from "./run-settings.js";
-import { RunStream } from "./run-stream.js";
-import { placeBehindSent, stoppedPlace } from "./stopped-place.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -50,12 +53,10 @@ const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
 
-const AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
-
 type Wish = "run" | "hold" | "cancel";
 type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 
-export class CarriageRun implements LivePlotRun {
+export class MachinePlot implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: Place | null;
@@ -64,8 +65,7 @@ export class CarriageRun implements LivePlotRun {
   private held = false;
   /** What the plot waits for, if it was not held by the user. */
   private wait: PlotWait | null = null;
-  private readonly stream: RunStream;
-  private readonly progress = new RunProgress();
+  private readonly stream: MachineRun;
   private readonly settings: RunSettings;
   private readonly stops: PenStops;
   private readonly strokes: StrokeSet;
@@ -87,17 +87,21 @@ export class CarriageRun implements LivePlotRun {
   private readonly waiters = new Waiters();
 
   constructor(
-    private readonly carriage: Carriage,
+    private readonly machine: Machine,
     private readonly planner: PlotPlanner,
     settings: PlotSettings,
     private readonly start: PlotStart = {},
   ) {
     this.strokes = planner.strokes;
-    this.settings = new RunSettings(settings, this.strokes, carriage.connection.features.version);
+    this.settings = new RunSettings(settings);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
-    this.stream = new RunStream(carriage, this.strokes, this.settings, this.progress, {
-      tell: (progress) => this.tell(progress),
-      ended: (place) => this.streamEnded(place),
+    this.stream = machine.startRun({
+      strokes: this.strokes,
+      settings: () => this.settings.current,
+      events: {
+        tell: (progress) => this.tell(progress),
+        ended: (place) => this.streamEnded(place),
+      },
     });
     this.holdPlace = start.from ? this.placeLeft(start.from) : null;
     if (start.held ?? this.holdPlace !== null) this.wish = "hold";
@@ -121,7 +125,7 @@ export class CarriageRun implements LivePlotRun {
 
   onProgress(listener: (progress: PlotProgress) => void): void {
     this.progressListeners.push(listener);
-    if (this.progress.latest) listener(this.progress.latest);
+    if (this.stream.progress.latest) listener(this.stream.progress.latest);
   }
 
   /** A stop before the first stroke may come before the listener is added, so it is reported here. */
@@ -148,8 +152,8 @@ export class CarriageRun implements LivePlotRun {
 
   emergencyStop(): Promise<void> {
     if (this.wish === "run") this.wish = "hold";
-    if (this.stream.isPlaying) this.stream.stopAtOnce();
-    else this.carriage.stopAtOnce();
+    if (this.stream.playing) this.stream.stopAtOnce();
+    else this.machine.stopAtOnce();
     return this.waiters.until(() => this.held || this.wish === "cancel");
   }
 
@@ -172,7 +176,7 @@ export class CarriageRun implements LivePlotRun {
     this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
-    const moved = this.progress.movedTo(this.holdPlace, this.standing());
+    const moved = this.stream.progress.movedTo(this.holdPlace, this.standing());
     if (moved) this.tell(moved);
     if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
     this.writeJournal(this.holdPlace);
@@ -181,19 +185,19 @@ export class CarriageRun implements LivePlotRun {
 
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
-    const walk = this.walking.then(() => this.carriage.walk(x, y, this.settings.current));
+    const walk = this.walking.then(() => this.machine.walk(x, y, this.settings.current));
     this.walking = walk.catch(() => undefined);
     await walk;
   }
 
   /** Where an interrupted plot stopped, from the board's step counters if it still has them. */
   private placeLeft(from: Place): Place {
-    const { left, connection } = this.carriage;
-    const at = this.carriage.place(machineOf(this.settings.current));
+    const { left, speed } = this.machine;
+    const at = this.machine.place(machineOf(this.settings.current));
     if (!left || !at) return from;
     const { draw, travel } = this.settings.current.motion;
-    const drawMmPerS = connection.speed * draw.speedMmPerS;
-    const mostMmPerS = Math.max(drawMmPerS, connection.speed * travel.speedMmPerS);
+    const drawMmPerS = speed * draw.speedMmPerS;
+    const mostMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
     const pen = { ...at, up: left.penUp };
     const { sent } = this.start;
     return (
@@ -247,15 +251,15 @@ export class CarriageRun implements LivePlotRun {
     if (!this.start.from) return;
     // Plan now, while the user checks pen and paper.
     this.timesOfWhole().catch(() => undefined);
-    if (this.carriage.boardState && this.carriage.penUp !== true) {
-      await this.carriage.movePen(true, this.settings.current);
+    if (this.machine.state && this.machine.penUp !== true) {
+      await this.machine.movePen(true, this.settings.current);
     }
   }
 
   private async planFromRest(): Promise<PlannedPlot> {
     const machine = machineOf(this.settings.current);
-    const board = await this.carriage.ready(machine, this.settings.current.pen);
-    const { x, y } = this.carriage.place(machine)!;
+    const board = await this.machine.ready(machine, this.settings.current.pen);
+    const { x, y } = this.machine.place(machine)!;
     const planning = this.plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
       this.cancelPlanning = reject;
@@ -269,13 +273,13 @@ export class CarriageRun implements LivePlotRun {
   }
 
   /** Plans on from a place, to the next change of pens. */
-  private async plan(from: Place | null, x: number, y: number, board: BoardState): Promise<PlannedPlot> {
+  private async plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
     const until = this.stops.nextAfter(from);
     if (until !== null || this.start.from) {
       const times = await this.timesOfWhole();
       this.afterPartS = until === null ? 0 : times.leftFrom({ stroke: until, alongMm: 0 });
     } else this.afterPartS = 0;
-    const clock = this.carriage.connection.boardClock;
+    const clock = this.machine.clock;
     const startS = clock.nowS();
     const plot = await this.planner.plan({
       from,
@@ -283,7 +287,7 @@ export class CarriageRun implements LivePlotRun {
       startXMm: x,
       startYMm: y,
       settings: this.settings.planned,
-      firmware: this.carriage.connection.features.version,
+      firmware: this.machine.firmware,
       board,
     });
     this.planningS = clock.nowS() - startS;
@@ -298,12 +302,11 @@ export class CarriageRun implements LivePlotRun {
       startXMm: 0,
       startYMm: 0,
       settings: this.settings.planned,
-      firmware: this.carriage.connection.features.version,
-      board: AT_HOME,
+      firmware: this.machine.firmware,
     };
     this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
       const times = new PlaceTimes(trajectory);
-      this.progress.isPartOf(trajectory, times, this.start.from ?? null);
+      this.stream.progress.isPartOf(trajectory, times, this.start.from ?? null);
       return times;
     });
     return this.whole;
@@ -311,17 +314,17 @@ export class CarriageRun implements LivePlotRun {
 
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
   private async changeInMotion(): Promise<void> {
-    const { speed, boardClock } = this.carriage.connection;
+    const { speed, clock } = this.machine;
     for (let tries = 0; this.wish === "run" && tries < CHANGE_TRIES;) {
-      const { streamer } = this.stream;
+      const { playing } = this.stream;
       const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** tries);
       if (over) {
         tries++;
-        const plot = await this.plan(over.from, over.x, over.y, over.rest.state);
-        if (this.wish !== "run" || this.stream.streamer !== streamer) return;
-        if (this.stream.goOver(over, plot, this.afterPartS)) return;
+        const plot = await this.plan(over.from, over.x, over.y, over.board);
+        if (this.wish !== "run" || this.stream.playing !== playing) return;
+        if (over.goOver(plot, this.afterPartS)) return;
       } else if (!this.stream.isGoingOver) return;
-      else await new Promise<void>((resolve) => void boardClock.after(PROGRESS_S * speed, resolve));
+      else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
   }
 
@@ -355,7 +358,7 @@ export class CarriageRun implements LivePlotRun {
 
   private async goHome(): Promise<PlotOutcome> {
     try {
-      await this.carriage.walk(0, 0, this.settings.current);
+      await this.machine.walk(0, 0, this.settings.current);
     } catch (error) {
       // An emergency stop on the way home: the carriage stays where it is.
       if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
@@ -378,20 +381,21 @@ export class CarriageRun implements LivePlotRun {
 
   private streamEnded(place: Place | null): void {
     this.stopTicking();
-    this.writeJournal(place ?? this.progress.place);
+    this.writeJournal(place ?? this.stream.progress.place);
   }
 
   private tick(): () => void {
-    const { boardClock, speed } = this.carriage.connection;
+    const { clock, speed } = this.machine;
     let cancel = (): void => undefined;
     const next = (): void => {
-      if (this.stream.streamer) {
-        this.tell(this.progress.update(this.stream.streamer.place()));
-        if (boardClock.nowS() >= this.journalDueS) {
-          this.writeJournal(this.progress.place, this.stream.sentPlace);
+      const now = this.stream.now();
+      if (now) {
+        this.tell(now);
+        if (clock.nowS() >= this.journalDueS) {
+          this.writeJournal(this.stream.progress.place, this.stream.sentPlace);
         }
       }
-      cancel = boardClock.after(PROGRESS_S * speed, next);
+      cancel = clock.after(PROGRESS_S * speed, next);
     };
     next();
     return () => cancel();
@@ -402,9 +406,9 @@ export class CarriageRun implements LivePlotRun {
   }
 
   private writeJournal(left: Place | null, sent?: Place): void {
-    const { latest } = this.progress;
-    const { boardClock, speed } = this.carriage.connection;
-    this.journalDueS = boardClock.nowS() + JOURNAL_S * speed;
+    const { latest } = this.stream.progress;
+    const { clock, speed } = this.machine;
+    this.journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!left) return;
     const { xMm, yMm, penUp, elapsedS } = latest ?? this.standing();
     this.start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
@@ -412,8 +416,8 @@ export class CarriageRun implements LivePlotRun {
 
   /** The progress before anything has been streamed. */
   private standing(): Omit<JournalEntry, "place"> {
-    const { x, y } = this.carriage.place(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
-    return { xMm: x, yMm: y, penUp: this.carriage.penUp ?? true, elapsedS: 0 };
+    const { x, y } = this.machine.place(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
+    return { xMm: x, yMm: y, penUp: this.machine.penUp ?? true, elapsedS: 0 };
   }
 }
 

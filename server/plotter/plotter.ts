@@ -7,6 +7,7 @@
  *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
  */
 import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
+import { driverOf, powerLost, powerLow, type Machine, type VirtualMachine } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -14,12 +15,9 @@ import {
   type PlotSettings,
 } from "../../src/schema/index.js";
 import { nodeClock } from "../serial/node-clock.js";
-import { Carriage } from "./carriage.js";
 import { connect, type Connection } from "./connection.js";
-import { isButtonPressed, isPowerLow, powerLost, powerLow } from "./health.js";
-import { sendLine } from "./console.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
-import { CarriageRun } from "./plot-run.js";
+import { MachinePlot } from "./plot-run.js";
 import type { LivePlotRun, PlotPlanner, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
@@ -53,12 +51,12 @@ export class PlotterDriver {
   private current: PlotterState;
   private readonly listeners: ((state: PlotterState) => void)[] = [];
   private connection: Connection | null = null;
-  private carriage: Carriage | null = null;
+  private machine: Machine | null = null;
   /** Why there is no connection. */
   private trouble: PlotwrightError | null = null;
   private connecting: Promise<void> | null = null;
   private cancelRetry: (() => void) | null = null;
-  private run: CarriageRun | null = null;
+  private run: MachinePlot | null = null;
   private movingByHand = false;
   private closed = false;
   /** After a real board was connected, the virtual board is never used in its place. */
@@ -66,7 +64,7 @@ export class PlotterDriver {
   private powerIsLow = false;
   private lastSupplyLow = false;
   private cancelSupply: (() => void) | null = null;
-  private virtual: VirtualBoard | null = null;
+  private virtual: VirtualMachine | null = null;
 
   constructor(private readonly options: PlotterOptions) {
     this.clock = options.clock ?? nodeClock;
@@ -94,7 +92,8 @@ export class PlotterDriver {
 
   /** The built-in virtual board while it is in use: gives access to the drawn line and simulated faults. */
   get virtualBoard(): VirtualBoard | null {
-    return this.connection?.virtualBoard ?? null;
+    const { virtual } = this;
+    return this.connection?.kind === "virtual" && virtual instanceof VirtualBoard ? virtual : null;
   }
 
   onChange(listener: (state: PlotterState) => void): void {
@@ -114,16 +113,16 @@ export class PlotterDriver {
 
   /** Commands and replies of the current connection, as text to download. */
   log(): string {
-    return this.connection?.session.log.text() ?? "";
+    return this.connection?.machine.log() ?? "";
   }
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
     await this.connecting;
-    const carriage = this.idleCarriage();
+    const machine = this.idleMachine();
     this.settings = settings;
-    this.carriageChanged();
-    const run = new CarriageRun(carriage, planner, settings, start);
+    this.machineChanged();
+    const run = new MachinePlot(machine, planner, settings, start);
     this.run = run;
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
     this.tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
@@ -140,15 +139,15 @@ export class PlotterDriver {
   use(settings: PlotSettings): void {
     machineOf(settings);
     this.settings = settings;
-    this.carriageChanged();
+    this.machineChanged();
   }
 
   async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
-    await this.byHand((carriage) => carriage.movePen(request.up, this.settings, request.heightPct));
+    await this.byHand((machine) => machine.movePen(request.up, this.settings, request.heightPct));
   }
 
   async motorsOff(): Promise<void> {
-    await this.byHand((carriage) => carriage.motorsOff());
+    await this.byHand((machine) => machine.motorsOff());
   }
 
   /**
@@ -157,9 +156,9 @@ export class PlotterDriver {
    */
   async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
     machineOf(settings);
-    await this.byHand((carriage) => {
+    await this.byHand((machine) => {
       this.settings = settings;
-      return moveByHand(carriage, move, settings);
+      return moveByHand(machine, move, settings);
     });
   }
 
@@ -211,7 +210,7 @@ export class PlotterDriver {
 
   /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
   async command(line: string): Promise<CommandAnswer> {
-    return this.byHand((carriage) => sendLine(carriage, line));
+    return this.byHand((machine) => machine.command(line));
   }
 
   /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
@@ -223,8 +222,8 @@ export class PlotterDriver {
     const { run } = this;
     run?.fail(closedError());
     // A lost board can't be told anything.
-    if (run || this.movingByHand) await this.carriage?.leave(this.settings).catch(() => undefined);
-    await this.connection?.session.close();
+    if (run || this.movingByHand) await this.machine?.leave(this.settings).catch(() => undefined);
+    await this.connection?.machine.close();
     this.virtual?.close();
   }
 
@@ -245,7 +244,14 @@ export class PlotterDriver {
         virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
-        virtualBoard: () => this.makeVirtual(),
+        driver: driverOf(machineOf(this.settings)),
+        virtualMachine: () => this.makeVirtual(),
+        events: {
+          changed: () => this.machineChanged(),
+          buttonPressed: () => void this.run?.pause().catch(() => undefined),
+          supplyRead: (isLow) => this.supplyRead(isLow),
+          lost: (error) => this.lost(error),
+        },
       });
       await this.adopt(connection);
     } catch (error) {
@@ -253,40 +259,37 @@ export class PlotterDriver {
     }
   }
 
-  private makeVirtual(): VirtualBoard {
-    this.virtual ??= new VirtualBoard({
+  private makeVirtual(): VirtualMachine {
+    const machine = machineOf(this.settings);
+    this.virtual ??= driverOf(machine).virtualMachine({
       clock: this.clock,
       speed: this.options.virtualSpeed ?? 1,
-      firmware: this.options.firmware ?? "2.8.1",
-      machine: machineOf(this.settings),
+      firmware: this.options.firmware,
+      machine,
     });
     return this.virtual;
   }
 
   private async adopt(connection: Connection): Promise<void> {
     if (this.closed) {
-      await connection.session.close();
+      await connection.machine.close();
       return;
     }
     this.connection = connection;
     this.hadSerial ||= connection.kind === "serial";
-    connection.session.onFault((error) => this.lost(error));
-    const carriage = new Carriage(connection, {
-      changed: () => this.carriageChanged(),
-      polled: (line, reply) => this.polled(line, reply),
-    });
-    await carriage.takeOver();
-    this.carriage = carriage;
+    const { machine } = connection;
+    await machine.takeOver();
+    this.machine = machine;
     this.trouble = null;
     this.powerIsLow = false;
-    this.watchSupply(carriage);
-    this.carriageChanged();
+    this.watchSupply(machine);
+    this.machineChanged();
     this.tell({
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
-      boardName: connection.boardName,
-      firmware: connection.features.version,
+      boardName: machine.name,
+      firmware: machine.firmware,
       message: this.welcome(connection),
     });
   }
@@ -301,8 +304,8 @@ export class PlotterDriver {
   private lost(error: PlotwrightError): void {
     if (this.closed) return;
     this.trouble = error;
-    this.carriage = null;
-    this.connection?.session.close().catch(() => undefined);
+    this.machine = null;
+    this.connection?.machine.close().catch(() => undefined);
     this.connection = null;
     // A held run does not notice the lost board by itself.
     this.run?.fail(error);
@@ -314,14 +317,8 @@ export class PlotterDriver {
 
   private runEnded(): void {
     this.run = null;
-    this.tell({ activity: "none", ...(this.carriage && !this.powerIsLow ? { connection: "idle" } : {}) });
-    this.carriageChanged();
-  }
-
-  /** Answers that come while a stream plays. */
-  private polled(line: string, reply: string): void {
-    if (isButtonPressed(line, reply)) this.run?.pause().catch(() => undefined);
-    if (line === "QC") this.supplyRead(isPowerLow(line, reply));
+    this.tell({ activity: "none", ...(this.machine && !this.powerIsLow ? { connection: "idle" } : {}) });
+    this.machineChanged();
   }
 
   /**
@@ -333,24 +330,23 @@ export class PlotterDriver {
   }
 
   /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
-  private watchSupply(carriage: Carriage): void {
+  private watchSupply(machine: Machine): void {
     if (this.closed) return;
     this.cancelSupply = this.clock.after(SUPPLY_S, () => {
-      if (this.closed || this.carriage !== carriage) return;
+      if (this.closed || this.machine !== machine) return;
       const isPlaying = this.movingByHand || (this.run !== null && !this.run.isHeld);
-      const asked = isPlaying ? Promise.resolve() : this.askSupply(carriage);
+      const asked = isPlaying ? Promise.resolve() : this.askSupply(machine);
       // A lost board has its own way to be told of.
-      asked.catch(() => undefined).finally(() => this.watchSupply(carriage));
+      asked.catch(() => undefined).finally(() => this.watchSupply(machine));
     });
   }
 
-  private async askSupply(carriage: Carriage): Promise<void> {
-    const readLow = async (): Promise<boolean> => isPowerLow("QC", await carriage.supplyReading());
-    const isLow = (await readLow()) && (await readLow());
+  private async askSupply(machine: Machine): Promise<void> {
+    const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
     if (isLow) this.powerLost();
     else if (this.powerIsLow) {
       this.powerIsLow = false;
-      this.tell({ connection: "idle", message: this.welcome(carriage.connection) });
+      this.tell({ connection: "idle", message: this.connection && this.welcome(this.connection) });
     }
   }
 
@@ -359,47 +355,47 @@ export class PlotterDriver {
     this.powerIsLow = true;
     this.run?.fail(powerLost());
     this.tell({ connection: "fault", message: powerLow().message });
-    const { carriage, settings } = this;
-    carriage
+    const { machine, settings } = this;
+    machine
       ?.forgetPlace()
-      .then(() => carriage.letGo(settings))
+      .then(() => machine.letGo(settings))
       .catch(() => undefined);
   }
 
-  private async byHand<T>(action: (carriage: Carriage) => Promise<T>): Promise<T> {
+  private async byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
     await this.connecting;
-    const carriage = this.idleCarriage();
+    const machine = this.idleMachine();
     this.movingByHand = true;
     this.tell({ connection: "busy", activity: "moving" });
     try {
-      return await action(carriage);
+      return await action(machine);
     } finally {
       this.movingByHand = false;
-      this.tell({ activity: "none", ...(this.carriage && !this.powerIsLow ? { connection: "idle" } : {}) });
+      this.tell({ activity: "none", ...(this.machine && !this.powerIsLow ? { connection: "idle" } : {}) });
     }
   }
 
   /** To be taken at once: between asking and taking, another one could ask. */
-  private idleCarriage(): Carriage {
+  private idleMachine(): Machine {
     if (this.run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
     }
     if (this.movingByHand) {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
-    if (!this.carriage) throw this.trouble ?? notStarted();
+    if (!this.machine) throw this.trouble ?? notStarted();
     if (this.powerIsLow) throw powerLow();
-    return this.carriage;
+    return this.machine;
   }
 
-  private carriageChanged(): void {
-    const carriage = this.carriage;
-    if (!carriage) return;
-    const place = carriage.place(machineOf(this.settings));
+  private machineChanged(): void {
+    const machine = this.machine;
+    if (!machine) return;
+    const place = machine.place(machineOf(this.settings));
     this.tell({
-      emergencyStopMs: carriage.emergencyStopMs(this.settings),
-      penUp: carriage.penUp,
-      motorsOn: carriage.motorsOn,
+      emergencyStopMs: machine.emergencyStopMs(this.settings),
+      penUp: machine.penUp,
+      motorsOn: machine.motorsOn,
       xMm: place?.x ?? null,
       yMm: place?.y ?? null,
     });
@@ -408,7 +404,7 @@ export class PlotterDriver {
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
   private movedTo(xMm: number, yMm: number, penUp: boolean): void {
     // A run that ends with the connection still tells where it was; nobody knows where the carriage is then.
-    if (this.carriage) this.current = { ...this.current, xMm, yMm, penUp };
+    if (this.machine) this.current = { ...this.current, xMm, yMm, penUp };
   }
 
   private tell(change: Partial<PlotterState>): void {

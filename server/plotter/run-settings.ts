@@ -1,24 +1,11 @@
 /** The settings of a plot under way, as they were changed on the way. */
-import {
-  drawLimitsOf,
-  penOfLayer,
-  settingsIdOf,
-  type PenSettings,
-  type Place,
-  type StrokeSet,
-} from "../../src/index.js";
-import { followedSettings } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./types.js";
 
 export class RunSettings {
   private speedPct = 100;
 
-  constructor(
-    public current: PlotSettings,
-    private readonly strokes: StrokeSet,
-    private readonly firmware: string,
-  ) {}
+  constructor(public current: PlotSettings) {}
 
   change({ pen, motion, speedPct }: PlotChange): void {
     this.current = {
@@ -45,20 +32,6 @@ export class RunSettings {
         travel: scaled(travel),
         layers: Object.fromEntries(scaledLayers),
       },
-    };
-  }
-
-  /** What the layer of a place brakes and lifts with: as it was planned. */
-  at(place: Place | null): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
-    const { layer, layers } = this.strokes;
-    const { motion, pen } = followedSettings(this.current, layers, this.firmware);
-    const own = place ? layers[layer[place.stroke]!] : undefined;
-    const travelAccel = motion.travel.accelMmPerS2;
-    if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };
-    const id = settingsIdOf(own);
-    return {
-      limits: { drawAccel: drawLimitsOf(motion, id).accelMmPerS2, travelAccel },
-      pen: penOfLayer(pen, id),
     };
   }
 }

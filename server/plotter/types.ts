@@ -3,21 +3,11 @@
  * driver is given a planner and returns a run. It never plans; the planner (a worker thread) never accesses
  * the board.
  */
-import type {
-  BoardState,
-  CommandStream,
-  MotionSettings,
-  PenSettings,
-  Place,
-  StrokeSet,
-  Trajectory,
-} from "../../src/index.js";
+import type { MotionSettings, PenSettings, Place, StrokeSet } from "../../src/index.js";
+import type { MachineState, PlannedPlot, PlotProgress } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
-export interface PlannedPlot {
-  readonly trajectory: Trajectory;
-  readonly commands: CommandStream;
-}
+export type { PlannedPlot, PlotProgress } from "../../src/internal.js";
 
 export interface PlanRequest {
   /** Where in the drawing to start; null: at its beginning. */
@@ -30,7 +20,8 @@ export interface PlanRequest {
   /** May differ from the job's original settings, because they can change while the plot is held. */
   readonly settings: PlotSettings;
   readonly firmware: string;
-  readonly board: BoardState;
+  /** How the machine stands there; left out: at home, with its motors just switched on. */
+  readonly board?: MachineState | undefined;
 }
 
 /** A prepared drawing in a worker thread, ready to be planned from any place. */
@@ -38,18 +29,6 @@ export interface PlotPlanner {
   readonly strokes: StrokeSet;
   plan(request: PlanRequest): Promise<PlannedPlot>;
   close(): Promise<void>;
-}
-
-export interface PlotProgress {
-  /** Of the whole plot's time, 0 … 1. */
-  readonly progress: number;
-  readonly elapsedS: number;
-  readonly remainingS: number;
-  /** Seconds along the first, whole trajectory. */
-  readonly planS: number;
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly penUp: boolean;
 }
 
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };

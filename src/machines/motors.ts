@@ -46,3 +46,13 @@ const firstAxis = (machine: MachineProfile, steps1: number, steps2: number): num
 
 const secondAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
   (machine.motors === "mixed" ? (steps1 - steps2) / 2 : steps2) / machine.stepsPerMm;
+
+/** mm from home of motor steps (whole or not). */
+export const placeFromMotors = (
+  machine: MachineProfile,
+  steps1: number,
+  steps2: number,
+): { x: number; y: number } => ({
+  x: xFromMotors(machine, steps1, steps2),
+  y: yFromMotors(machine, steps1, steps2),
+});

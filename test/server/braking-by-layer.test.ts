@@ -1,8 +1,16 @@
 /** A stop in the middle of a stroke is made with the acceleration of that stroke's layer, whatever the others have. */
 import { describe, expect, it } from "vitest";
-import { comeToRest, DEFAULT_PEN, plan, stateAt, type StrokeSet, type Trajectory } from "../../src/index.js";
+import {
+  comeToRest,
+  DEFAULT_PEN,
+  plan,
+  stateAt,
+  type Place,
+  type StrokeSet,
+  type Trajectory,
+} from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { RunSettings } from "../../server/plotter/run-settings.js";
+import { brakingAt } from "../../src/drivers/ebb/machine/braking.js";
 
 const ACCEL = { slow: 90, plain: 500, quick: 2_000 } as const;
 const LAYERS = ["slow", "plain", "quick"] as const;
@@ -40,7 +48,7 @@ const mostAccel = ({ blockCount, ax, ay }: Trajectory): number => {
 };
 
 describe("a stop in the middle of a stroke", () => {
-  const settings = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES, "2.8.1");
+  const settings = { ...DEFAULT_PLOT_SETTINGS, motion: MOTION };
   const trajectory = plan(STROKES, MOTION, DEFAULT_PEN);
   const { runs } = trajectory;
 
@@ -55,7 +63,7 @@ describe("a stop in the middle of a stroke", () => {
       for (let i = 1; i < 60; i++) {
         const tS = fromS + ((untilS - fromS) * i) / 60;
         const { alongMm } = stateAt(trajectory, tS);
-        const { limits } = settings.at({ stroke, alongMm });
+        const { limits } = brakingAt(settings, STROKES, { stroke, alongMm }, "2.8.1");
         const stop = comeToRest(trajectory, tS, limits, null);
         most = Math.max(most, mostAccel(stop.trajectory));
         const end = stateAt(trajectory, stop.planS);
@@ -67,17 +75,17 @@ describe("a stop in the middle of a stroke", () => {
   );
 
   it("is as gentle as the plan on firmware that takes constant speeds only", () => {
-    const old = new RunSettings({ ...DEFAULT_PLOT_SETTINGS, motion: MOTION }, STROKES, "2.4.4");
-    const drawAccels = SHAPES.map((_, stroke) => old.at({ stroke, alongMm: 1 }).limits.drawAccel);
+    const old = (place: Place | null) => brakingAt(settings, STROKES, place, "2.4.4").limits;
+    const drawAccels = SHAPES.map((_, stroke) => old({ stroke, alongMm: 1 }).drawAccel);
     expect(drawAccels).toEqual([ACCEL.slow, ACCEL.slow, ACCEL.plain, ACCEL.plain, 500, 500]);
-    expect(old.at(null).limits.travelAccel).toBe(500);
+    expect(old(null).travelAccel).toBe(500);
   });
 
   it("on the way between strokes uses that of travel", () => {
-    expect(settings.at(null).limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);
+    expect(brakingAt(settings, STROKES, null, "2.8.1").limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);
     const travel = [...runs.stroke].findIndex((stroke, run) => stroke < 0 && run > 0);
     const tS = runs.startS[travel]! + 0.1;
-    const stop = comeToRest(trajectory, tS, settings.at(null).limits, null);
+    const stop = comeToRest(trajectory, tS, brakingAt(settings, STROKES, null, "2.8.1").limits, null);
     expect(mostAccel(stop.trajectory)).toBeLessThanOrEqual(1.001 * MOTION.travel.accelMmPerS2);
   });
 });

@@ -2,16 +2,11 @@
  * Where a virtual board was stopped, by its own count of the ticks that its motors ran: the truth that a host has to
  * find from what the board answers.
  */
-import { strokeLengthMm } from "../../server/plotter/plan-places.js";
+import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
+import type { MachineCommands } from "../../src/drivers/machine-job.js";
+import { strokeLengthMm } from "../../src/plan/place-on-drawing.js";
 import type { PlannedPlot, PlanRequest } from "../../server/plotter/types.js";
-import {
-  commandLine,
-  stateAt,
-  type CommandStream,
-  type Place,
-  type StrokeSet,
-  type VirtualBoard,
-} from "../../src/index.js";
+import { commandLine, stateAt, type Place, type StrokeSet, type VirtualBoard } from "../../src/index.js";
 import { TICKS_PER_S } from "../../src/units.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 
@@ -33,7 +28,8 @@ const isMove = (line: string): boolean => /^(LM|LT|T3|SM)/.test(line) && !/^SM,\
 export const ranTicks = (board: VirtualBoard): number => Math.round(board.statistics().movingS * TICKS_PER_S);
 
 /** The plan's time after so many ticks of motion; at rest, the earliest. */
-export function planSAfter(stream: CommandStream, ticks: number): number {
+export function planSAfter(commands: MachineCommands, ticks: number): number {
+  const stream = streamOf(commands);
   let left = ticks;
   for (let i = 0; i < stream.count; i++) {
     if (!isMove(commandLine(stream, i))) continue;

@@ -1,8 +1,10 @@
+import type { MachineCommands } from "../../machine-job.js";
+
 /**
  * EBB commands for one trajectory, with the predicted board state after each. Columns only, no functions, so
  * that it can be transferred between threads. Read a line with `commandLine(stream, i)`.
  */
-export interface CommandStream {
+export interface CommandStream extends MachineCommands {
   readonly count: number;
   /** ASCII of all commands, each terminated by CR: ready to be written. */
   readonly text: Uint8Array;
@@ -25,6 +27,12 @@ export interface CommandStream {
   readonly run: Int32Array;
   /** Messages about limits that required splitting or slowing down. */
   readonly warnings: readonly string[];
+}
+
+/** The commands of a job as this driver's own. Throws TypeError for those of another driver. */
+export function streamOf(commands: MachineCommands): CommandStream {
+  if (!("steps1" in commands)) throw new TypeError("these commands are for another controller");
+  return commands as CommandStream;
 }
 
 /** Step counters and accumulators of the board between two command streams. */

@@ -1,23 +1,25 @@
 /** How far a plot is: translates the place of whatever stream is playing into the terms of the whole plot. */
-import {
-  PlaceTimes,
-  stateAt,
-  type BoardState,
-  type CommandStream,
-  type MotionState,
-  type Place,
-  type StreamPlace,
-  type Trajectory,
-} from "../../src/index.js";
-import { nextPlace } from "./plan-places.js";
-import type { PlotProgress } from "./types.js";
+import { nextPlace } from "../plan/place-on-plan.js";
+import { PlaceTimes } from "../plan/place-times.js";
+import { stateAt, type MotionState, type Place, type Trajectory } from "../plan/trajectory.js";
+import type { MachineCommands } from "./machine-job.js";
+
+export interface PlotProgress {
+  /** Of the whole plot's time, 0 … 1. */
+  readonly progress: number;
+  readonly elapsedS: number;
+  readonly remainingS: number;
+  /** Seconds along the first, whole trajectory. */
+  readonly planS: number;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+}
 
 /** A stretch of motion that is or will be streamed, and the plan that it came from. */
 export interface Part {
-  readonly commands: CommandStream;
+  readonly commands: MachineCommands;
   readonly trajectory: Trajectory;
-  /** What the board holds before its first command. */
-  readonly start: BoardState;
   /** What of the plot still follows its end: a way to rest ends in the middle of the drawing. */
   readonly afterS: number;
   /** What is drawn next after its end, by another part of the same stream; left out: nothing. */
@@ -27,13 +29,14 @@ export interface Part {
 /** Of the parts left behind, these are remembered: a plan, the way to rest in it, and a change of heights. */
 const LEFT_COUNT = 3;
 
-export class RunProgress {
+/** `P`: what a driver keeps of each part besides. */
+export class RunProgress<P extends Part = Part> {
   latest: PlotProgress | null = null;
   /** The first place that is still to be drawn. */
   place: Place | null = null;
 
-  private parts: Part[] = [];
-  private part: Part | null = null;
+  private parts: P[] = [];
+  private part: P | null = null;
   private firstTrajectory: Trajectory | null = null;
   private times: PlaceTimes | null = null;
   /** Of the parts that are over. */
@@ -64,7 +67,7 @@ export class RunProgress {
   }
 
   /** A part that will be streamed; the first of all is the plan that the page has too, where that was not told. */
-  add(part: Part): void {
+  add(part: P): void {
     if (!this.firstTrajectory) {
       this.firstTrajectory = part.trajectory;
       this.times = new PlaceTimes(part.trajectory);
@@ -73,18 +76,18 @@ export class RunProgress {
   }
 
   /** Parts long left behind are forgotten. */
-  knows(commands: CommandStream): boolean {
+  knows(commands: MachineCommands): boolean {
     return this.parts.some((part) => part.commands === commands);
   }
 
-  partOf(commands: CommandStream): Part {
+  partOf(commands: MachineCommands): P {
     const found = this.parts.find((part) => part.commands === commands);
     if (!found) throw new TypeError("a stream plays that was never announced");
     return found;
   }
 
   /** Where the board is now. */
-  update(at: StreamPlace): PlotProgress {
+  update(at: { readonly stream: MachineCommands; readonly planS: number }): PlotProgress {
     const part = this.partOf(at.stream);
     if (part !== this.part) this.enter(part, at.stream.planS[0]!);
     this.partS = Math.max(this.partS, at.planS - this.partStartS);
@@ -122,7 +125,7 @@ export class RunProgress {
     return this.latest;
   }
 
-  private enter(part: Part, startS: number): void {
+  private enter(part: P, startS: number): void {
     this.doneS += this.partS;
     this.partS = 0;
     this.partStartS = startS;

@@ -8,10 +8,16 @@
  * Where the stroke is straight, or the refused command was a short one, a to c' lies on the stroke, and the plot goes on
  * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
  */
-import type { MachineProfile, Place, StreamPlace, StrokeSet } from "../../src/index.js";
-import { isPenUpBefore, type RefusedCommand } from "../../src/internal.js";
-import { boardStateBefore, placeOfSteps, pointOfPlace, snappedPlace } from "./plan-places.js";
-import type { Part } from "./run-progress.js";
+import type { StrokeSet } from "../../../drawing/stroke-set.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { isPenUpBefore } from "../../../plan/pen-moves.js";
+import { pointOfPlace, snappedPlace } from "../../../plan/place-on-drawing.js";
+import type { Place } from "../../../plan/trajectory.js";
+import { boardStateBefore } from "../stream/cut-streams.js";
+import type { RefusedCommand } from "../stream/stream-types.js";
+import type { StreamPlace } from "../stream/timeline.js";
+import type { EbbPart } from "./ebb-part.js";
 
 /** What is drawn so near to the stroke counts as drawn. */
 const BESIDE_MM = 0.08;
@@ -32,7 +38,7 @@ type Point = { readonly x: number; readonly y: number };
 export function placeAfterRefusal(
   strokes: StrokeSet,
   machine: MachineProfile,
-  part: Part,
+  part: EbbPart,
   { refused, at, steps1, steps2 }: RefusedStop,
   placeOf: (place: StreamPlace, x: number, y: number) => Place | null,
 ): Place | null {
@@ -40,10 +46,10 @@ export function placeAfterRefusal(
   const index = refused.at.commandIndex;
   const pointBefore = (i: number): Point => {
     const state = boardStateBefore(commands, i, start);
-    return placeOfSteps(machine, state.steps1, state.steps2);
+    return placeFromMotors(machine, state.steps1, state.steps2);
   };
   const [from, to] = [pointBefore(index), pointBefore(index + 1)];
-  const stand = placeOfSteps(machine, steps1, steps2);
+  const stand = placeFromMotors(machine, steps1, steps2);
   const isAfter = at !== null && refused.command !== null && at.number > refused.command.number;
   const dropsPen =
     isPenUpBefore(trajectory, commands.planS[index]!) &&

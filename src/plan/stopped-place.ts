@@ -9,8 +9,9 @@
  * The first place that fits counts, looking on from the journal's: what is drawn twice does less harm than what
  * is not drawn at all.
  */
-import type { Place, StrokeSet } from "../../src/index.js";
-import { strokeLengthMm } from "./plan-places.js";
+import type { StrokeSet } from "../drawing/stroke-set.js";
+import { strokeLengthMm } from "./place-on-drawing.js";
+import type { Place } from "./trajectory.js";
 
 /** Rounded corners, fitted curves and whole steps, mm. */
 const NEAR_MM = 0.08;

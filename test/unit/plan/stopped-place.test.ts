@@ -1,10 +1,10 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { pointOfPlace, strokeLengthMm } from "../../server/plotter/plan-places.js";
-import { placeBehindSent, stoppedPlace } from "../../server/plotter/stopped-place.js";
-import type { Place } from "../../src/index.js";
-import { strokesOf } from "../support/local-planner.js";
-import { cases } from "../support/full-run.js";
+import { pointOfPlace, strokeLengthMm } from "../../../src/plan/place-on-drawing.js";
+import { placeBehindSent, stoppedPlace } from "../../../src/plan/stopped-place.js";
+import type { Place } from "../../../src/index.js";
+import { cases } from "../../support/full-run.js";
+import { strokesOf } from "../../support/local-planner.js";
 
 const coordinate = fc.double({ min: 0, max: 200, noNaN: true });
 const line = fc

@@ -4,14 +4,10 @@
  *
  * Asking between short moves needs nothing but the board's PI, which every firmware has.
  */
-import {
-  machineOf,
-  PlotwrightError,
-  type HomingSwitches,
-  type MachineProfile,
-  type SwitchInput,
-} from "../../src/index.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import { PlotwrightError } from "../../../errors.js";
+import type { HomingSwitches, MachineProfile, SwitchInput } from "../../../machines/profile.js";
+import { machineOf } from "../../../machines/profiles.js";
+import type { MachineSettings } from "../../machine-job.js";
 import type { Carriage } from "./carriage.js";
 
 /** No longer than what a switch gives way. */
@@ -25,7 +21,7 @@ const SEEK_SPEED_MM_PER_S = 30;
 
 export async function seekHome(
   carriage: Carriage,
-  settings: PlotSettings,
+  settings: MachineSettings,
   homing: HomingSwitches,
 ): Promise<void> {
   const machine = machineOf(settings);
@@ -38,7 +34,7 @@ export async function seekHome(
 
 async function seekAxis(
   carriage: Carriage,
-  settings: PlotSettings,
+  settings: MachineSettings,
   input: SwitchInput,
   axis: "x" | "y",
   mostMm: number,
@@ -63,7 +59,7 @@ async function isPressed(carriage: Carriage, { port, pin, pressed }: SwitchInput
   return Number(await carriage.connection.session.query(`PI,${port},${pin}`)) === pressed;
 }
 
-const withTravelSpeed = (settings: PlotSettings, speedMmPerS: number): PlotSettings => {
+const withTravelSpeed = (settings: MachineSettings, speedMmPerS: number): MachineSettings => {
   const { motion } = settings;
   const travel = { ...motion.travel, speedMmPerS: Math.min(speedMmPerS, motion.travel.speedMmPerS) };
   return { ...settings, motion: { ...motion, travel } };

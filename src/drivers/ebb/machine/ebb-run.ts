@@ -1,45 +1,35 @@
 /**
  * The stream of one plot on the board: plays plans, brings them to rest along the path, and goes over from one
- * plan to another in motion. What is to be drawn, and when, is said by `plot-run.ts`.
+ * plan to another in motion. What is to be drawn, and when, is said by the caller.
  *
  * What has been written to the board plays out, at most the streamer's window; everything after it is new.
  */
-import {
-  comeToRest,
-  compile,
-  machineOf,
-  penCommand,
-  penMoveOf,
-  penSetUpCommands,
-  PlotwrightError,
-  stateAt,
-  type BoardState,
-  type CommandStream,
-  type PenSettings,
-  type Place,
-  type Streamer,
-  type StreamPlace,
-  type StrokeSet,
-  type Trajectory,
-} from "../../src/index.js";
-import { isPenUpBefore, reseatWaitS, type RefusedCommand } from "../../src/internal.js";
-import type { Carriage } from "./carriage.js";
+import type { StrokeSet } from "../../../drawing/stroke-set.js";
+import { PlotwrightError } from "../../../errors.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import { machineOf } from "../../../machines/profiles.js";
+import { comeToRest } from "../../../plan/come-to-rest.js";
+import { isPenUpBefore } from "../../../plan/pen-moves.js";
+import { reseatWaitS } from "../../../plan/pen-times.js";
+import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
+import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
+import { stateAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
+import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
+import { RunProgress, type PlotProgress } from "../../run-progress.js";
+import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
+import { compile } from "../compile/compile.js";
+import { penCommand, penMoveOf, penSetUpCommands } from "../protocol/commands.js";
+import { boardStateBefore, commandAfter, restingStream, withoutDrop } from "../stream/cut-streams.js";
+import type { RefusedCommand } from "../stream/stream-types.js";
+import type { Streamer } from "../stream/streamer.js";
+import type { StreamPlace } from "../stream/timeline.js";
+import { brakingAt } from "./braking.js";
 import type { CertainAt } from "./certain-place.js";
-import {
-  boardStateBefore,
-  commandAfter,
-  nextPlace,
-  placeAt,
-  placeOfSteps,
-  restingStream,
-  snappedPlace,
-  strokeLengthMm,
-  withoutDrop,
-} from "./plan-places.js";
+import type { Carriage } from "./carriage.js";
+import type { EbbPart } from "./ebb-part.js";
 import { placeAfterRefusal } from "./refused-place.js";
-import type { Part, RunProgress } from "./run-progress.js";
-import type { RunSettings } from "./run-settings.js";
-import type { PlannedPlot, PlotProgress } from "./types.js";
 
 /** How far mm along the plan and mm along the drawing may be apart. */
 const SNAP_MM = 0.5;
@@ -48,34 +38,20 @@ const EDGE_MM = 0.05;
 
 /** A way to rest, and what follows from it. */
 interface Rest {
-  readonly part: Part;
+  readonly part: EbbPart;
   /** What is still to be drawn then; null when it is all. */
   readonly place: Place | null;
   readonly state: BoardState;
 }
 
-/** A way over to another plan, which begins where `rest` ends. */
-export interface GoOver {
-  readonly index: number;
-  readonly part: Part;
-  readonly rest: Rest;
-  readonly isDown: boolean;
-  readonly from: Place;
-  readonly x: number;
-  readonly y: number;
-}
-
-export interface RunStreamEvents {
-  tell(progress: PlotProgress): void;
-  /** The stream has ended, however it did; `place`: the first that is still to be drawn, null where that is not known. */
-  ended(place: Place | null): void;
-}
-
-export class RunStream {
+export class EbbRun implements MachineRun {
   /** Set when the stream was stopped on purpose: what is still to be drawn then. */
   stopped: { readonly place: Place | null } | null = null;
-  streamer: Streamer | null = null;
+  readonly progress = new RunProgress<EbbPart>();
 
+  private streamer: Streamer | null = null;
+  private readonly strokes: StrokeSet;
+  private readonly events: RunEvents;
   private emergency = false;
   /** The last place that the board surely reached with its motors supplied. */
   private certain: Place | null = null;
@@ -86,17 +62,24 @@ export class RunStream {
 
   constructor(
     private readonly carriage: Carriage,
-    private readonly strokes: StrokeSet,
-    private readonly settings: RunSettings,
-    private readonly progress: RunProgress,
-    private readonly events: RunStreamEvents,
+    private readonly request: RunRequest,
   ) {
-    this.boardPen = settings.current.pen;
+    this.strokes = request.strokes;
+    this.events = request.events;
+    this.boardPen = this.settings.pen;
+  }
+
+  private get settings(): MachineSettings {
+    return this.request.settings();
   }
 
   /** Also while nothing is left to be written and the board is asked whether it is at rest. */
-  get isPlaying(): boolean {
-    return this.streamer !== null;
+  get playing(): object | null {
+    return this.streamer;
+  }
+
+  now(): PlotProgress | null {
+    return this.streamer && this.progress.update(this.streamer.place());
   }
 
   /** On its way to another plan; until it is there, it can't be told to go to a third one. */
@@ -116,14 +99,16 @@ export class RunStream {
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { carriage } = this;
     this.stopped = null;
-    if (carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
+    if (carriage.penUp !== true) await carriage.movePen(true, this.settings);
     // It may have come while the pen went up.
     if (this.failure) throw this.failure;
-    this.boardPen = this.settings.current.pen;
-    this.progress.add({ ...plot, start: carriage.boardState!, afterS });
-    this.certain = placeAt(plot.trajectory, plot.commands.planS[0]!);
-    const streamer = carriage.streamer(this.settings.current, (at) => this.reached(at));
-    const played = carriage.play(streamer, plot, this.settings.current);
+    this.boardPen = this.settings.pen;
+    const { trajectory: whole } = plot;
+    const commands = streamOf(plot.commands);
+    this.progress.add({ trajectory: whole, commands, start: carriage.state!, afterS });
+    this.certain = placeAt(whole, commands.planS[0]!);
+    const streamer = carriage.streamer(this.settings, (at) => this.reached(at));
+    const played = carriage.play(streamer, plot, this.settings);
     this.streamer = streamer;
     begun();
     let left: Place | null = null;
@@ -151,7 +136,7 @@ export class RunStream {
       this.streamer = null;
       this.events.ended(left);
     }
-    if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings.current);
+    if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings);
   }
 
   /** Cuts the stream where the board has not got it yet, and puts the way to rest in its place. */
@@ -170,7 +155,7 @@ export class RunStream {
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency = true;
-    this.carriage.noteEmergencyStop(this.settings.current);
+    this.carriage.noteEmergencyStop(this.settings);
     this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
@@ -185,7 +170,7 @@ export class RunStream {
    * A place some time ahead that the board has not got yet; null when what is left is too short for one. Either the
    * pen is up there or it is within a stroke: at the end of one, a new plan would set out with the pen down.
    */
-  placeAhead(leadS: number): GoOver | null {
+  placeAhead(leadS: number): PlaceAhead | null {
     const { streamer } = this;
     if (!streamer?.playing) return null;
     const part = this.progress.partOf(streamer.nextStream);
@@ -195,21 +180,28 @@ export class RunStream {
       if (!rest.place) return null;
       const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
       if (isDown && !isWithinStroke(this.strokes, rest.place)) continue;
-      const { endX, endY } = rest.part.trajectory;
-      return { index, part, rest, isDown, from: rest.place, x: endX, y: endY };
+      const { endX: x, endY: y } = rest.part.trajectory;
+      const from = rest.place;
+      const goOver = (plot: PlannedPlot, afterS: number): boolean =>
+        this.goOver({ index, part, rest, isDown }, plot, afterS);
+      return { from, x, y, board: rest.state, goOver };
     }
     return null;
   }
 
-  /** Goes over to a plan from there; false when the board has got there meanwhile. */
-  goOver({ index, part, rest, isDown }: GoOver, plot: PlannedPlot, afterSectionS: number): boolean {
+  private goOver(
+    { index, part, rest, isDown }: { index: number; part: EbbPart; rest: Rest; isDown: boolean },
+    plot: PlannedPlot,
+    afterSectionS: number,
+  ): boolean {
     const { streamer } = this;
     if (streamer?.nextStream !== part.commands) return false;
     const { trajectory } = rest.part;
-    const commands = isDown ? withoutDrop(plot.commands) : plot.commands;
+    const planned = streamOf(plot.commands);
+    const commands = isDown ? withoutDrop(planned) : planned;
     const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
     if (!streamer.cutAt(index, rest.part.commands, heights, commands)) return false;
-    this.boardPen = this.settings.current.pen;
+    this.boardPen = this.settings.pen;
     const afterS = plot.trajectory.totalS + afterSectionS;
     this.progress.add({ ...rest.part, afterS });
     this.progress.add({ commands: heights, trajectory, start: rest.state, afterS, next: rest.place });
@@ -217,17 +209,21 @@ export class RunStream {
     return true;
   }
 
+  private brakingAt(place: Place | null): ReturnType<typeof brakingAt> {
+    return brakingAt(this.settings, this.strokes, place, this.carriage.connection.features.version);
+  }
+
   /** The way to rest from before a command that is still to be written. */
-  private restAt(part: Part, index: number, lifts: boolean): Rest {
+  private restAt(part: EbbPart, index: number, lifts: boolean): Rest {
     const { commands, trajectory } = part;
     const fromS = commands.planS[index]!;
-    const { limits, pen } = this.settings.at(placeAt(trajectory, fromS));
+    const { limits, pen } = this.brakingAt(placeAt(trajectory, fromS));
     const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
     const { trajectory: restTrajectory, planS } = rest;
     const leftS = Math.max(0, trajectory.totalS - planS) + part.afterS;
     const start = boardStateBefore(commands, index, part.start);
     const restCommands = compile(restTrajectory, {
-      machine: machineOf(this.settings.current),
+      machine: machineOf(this.settings),
       firmware: this.carriage.connection.features.version,
       pen,
       start,
@@ -242,7 +238,7 @@ export class RunStream {
   }
 
   /** What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. */
-  private placeIn({ trajectory, next }: Part, planS: number, x: number, y: number): Place | null {
+  private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
     const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
     return alongMm === 0
@@ -252,8 +248,8 @@ export class RunStream {
 
   /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
   private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
-    const { pen } = this.settings.current;
-    const machine = machineOf(this.settings.current);
+    const { pen } = this.settings;
+    const machine = machineOf(this.settings);
     const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
     const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
     if (isDown && byPct > 0) {
@@ -268,7 +264,7 @@ export class RunStream {
   /** A place that the board told of while it played. */
   private reached({ place, steps1, steps2 }: CertainAt): void {
     if (!this.progress.knows(place.stream)) return;
-    const { x, y } = placeOfSteps(machineOf(this.settings.current), steps1, steps2);
+    const { x, y } = placeFromMotors(machineOf(this.settings), steps1, steps2);
     this.certain = this.placeOrEnd(place, x, y);
   }
 
@@ -276,9 +272,9 @@ export class RunStream {
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
     this.emergency = false;
     await this.carriage.findPlace();
-    const { steps1, steps2 } = this.carriage.boardState!;
+    const { steps1, steps2 } = this.carriage.state!;
     const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
-    const { x, y } = this.carriage.place(machineOf(this.settings.current))!;
+    const { x, y } = this.carriage.place(machineOf(this.settings))!;
     const place = this.placeOrEnd(at, x, y);
     this.stopped = { place };
     this.carriage.penUp = null;
@@ -290,16 +286,16 @@ export class RunStream {
     const { carriage, strokes, settings } = this;
     try {
       await carriage.findPlace();
-      const { steps1, steps2 } = carriage.boardState!;
+      const { steps1, steps2 } = carriage.state!;
       const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2);
       const stop = { refused, at, steps1, steps2 };
-      const machine = machineOf(settings.current);
+      const machine = machineOf(settings);
       const part = this.progress.partOf(refused.at.stream);
       const place = placeAfterRefusal(strokes, machine, part, stop, (found, x, y) =>
         this.placeOrEnd(found, x, y),
       );
       carriage.penUp = null;
-      await carriage.movePen(true, settings.current);
+      await carriage.movePen(true, settings);
       return place;
     } catch {
       // It does not say where it is: home has to be set again.

@@ -6,10 +6,12 @@
  *
  * The board answers these in order: what QC and QL find was true at QS already.
  */
-import { parseSteps, type FirmwareFeatures, type Streamer } from "../../src/index.js";
-import { type PollTime } from "../../src/internal.js";
-import type { StreamPlace } from "../../src/index.js";
-import { isPowerLow } from "./health.js";
+import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { parseSteps } from "../protocol/replies.js";
+import type { PollTime } from "../stream/stream-types.js";
+import type { Streamer } from "../stream/streamer.js";
+import type { StreamPlace } from "../stream/timeline.js";
+import { isPowerLow } from "./readings.js";
 
 /** A place of a stream, and the counters there (from home). */
 export interface CertainAt {

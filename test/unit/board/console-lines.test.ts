@@ -1,6 +1,6 @@
 /** Which typed lines are kept from the board, however they are written. */
 import { describe, expect, it } from "vitest";
-import { whyRefused } from "../../server/plotter/console-lines.js";
+import { whyRefused } from "../../../src/drivers/ebb/machine/console-lines.js";
 
 describe("a line for the board", () => {
   it.each(

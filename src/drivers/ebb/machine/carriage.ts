@@ -5,31 +5,25 @@
  * on; `origin` is what they stood for then. An AxiDraw has no end switches: where the carriage stands when
  * the motors are switched on after a pause by hand *is* home.
  */
-import {
-  machineOf,
-  parseSteps,
-  planJob,
-  PlotwrightError,
-  penCommand,
-  penMoveOf,
-  penSetUpCommands,
-  setUpCommands,
-  Streamer,
-  type BoardState,
-  type MachineJob,
-  type MachineProfile,
-  type PenSettings,
-  type StreamReport,
-  type StrokeSet,
-} from "../../src/index.js";
-import { planWalk, mostAheadS } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import { PlotwrightError } from "../../../errors.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { machineOf } from "../../../machines/profiles.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import type { MachineEvents } from "../../driver.js";
+import { boardRestarted } from "../../faults.js";
+import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
+import { streamOf, type BoardState } from "../compile/command-stream.js";
+import { planEbbWalk } from "../compile/ebb-walk.js";
+import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
+import { parseSteps } from "../protocol/replies.js";
+import { boardStateBefore } from "../stream/cut-streams.js";
+import type { StreamReport } from "../stream/stream-types.js";
+import { mostAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
-import { boardRestarted } from "./health.js";
-import { boardStateBefore, placeOfSteps } from "./plan-places.js";
-import type { PlannedPlot } from "./types.js";
+import { isButtonPressed, isPowerLow } from "./readings.js";
 
 /** Of a command of motion, see `slice-search`. */
 const LONGEST_COMMAND_S = 0.15;
@@ -52,13 +46,6 @@ const PLACE_KNOWN = 112;
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 
-export interface CarriageEvents {
-  /** Pen, motors or place have changed. */
-  changed(): void;
-  /** An answer to one of the queries sent while a stream plays. */
-  polled(line: string, reply: string): void;
-}
-
 export class Carriage {
   penUp: boolean | null = null;
   motorsOn: boolean | null = null;
@@ -70,14 +57,15 @@ export class Carriage {
   private playing: Streamer | null = null;
   private hasRestarted = false;
   private origin: readonly [number, number] = [0, 0];
-  private state: BoardState | null = null;
+  /** What a stream that begins now has to be compiled from. */
+  state: BoardState | null = null;
   /** What the motors are set to while their place is known. */
   private microstepMode = 0;
   private readonly queueDepth: number;
 
   constructor(
     readonly connection: Connection,
-    private readonly events: CarriageEvents,
+    private readonly events: MachineEvents,
   ) {
     // Without QU,6 (3.0.0) nobody can tell how full a deep queue is.
     this.queueDepth = connection.features.hasImmediateLift ? connection.features.maxFifoDepth : 1;
@@ -197,32 +185,27 @@ export class Carriage {
 
   /** mm from home; null when nobody knows. */
   place(machine: MachineProfile): { x: number; y: number } | null {
-    return this.state ? placeOfSteps(machine, this.state.steps1, this.state.steps2) : null;
-  }
-
-  /** What a stream that begins now has to be compiled from. */
-  get boardState(): BoardState | null {
-    return this.state;
+    return this.state ? placeFromMotors(machine, this.state.steps1, this.state.steps2) : null;
   }
 
   /**
    * How long the motors may still run after an emergency stop. A queue of one is always full while something waits to
    * be sent, and the board reads nothing before it has room: it plays all that was sent ahead.
    */
-  emergencyStopMs({ sendAheadMs }: PlotSettings): number {
+  emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
     return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
   }
 
   /** For the log that users send along. */
-  noteEmergencyStop(settings: PlotSettings): void {
+  noteEmergencyStop(settings: MachineSettings): void {
     const { session, features } = this.connection;
     const takesMs = this.emergencyStopMs(settings);
     session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
   }
 
   /** `certain` hears of each place that the board surely reached with its motors supplied. */
-  streamer({ sendAheadMs }: PlotSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
+  streamer({ sendAheadMs }: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const lines = this.pollLines();
@@ -240,7 +223,7 @@ export class Carriage {
           const at = places.answered(line, reply, asked, streamer);
           if (at) certain(at);
         }
-        if (line !== "QS") this.events.polled(line, reply);
+        if (line !== "QS") this.polled(line, reply);
         else if (streamer.playing && watch.isStalled(reply, streamer.place())) this.stalled(streamer);
       },
     });
@@ -268,7 +251,7 @@ export class Carriage {
   }
 
   /** After the place is lost: the pen goes up, and the carriage can be pushed home. */
-  async letGo(settings: PlotSettings): Promise<void> {
+  async letGo(settings: MachineSettings): Promise<void> {
     await this.untilStill();
     if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
     await this.movePen(true, settings);
@@ -276,14 +259,14 @@ export class Carriage {
   }
 
   /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
-  async play(streamer: Streamer, plot: PlannedPlot, settings: PlotSettings): Promise<StreamReport> {
+  async play(streamer: Streamer, plot: PlannedPlot, settings: MachineSettings): Promise<StreamReport> {
     const start = this.state!;
     this.left = null;
     this.motorsOn = true;
     this.penUp = null;
     this.playing = streamer;
     try {
-      const report = await streamer.play(plot.commands);
+      const report = await streamer.play(streamOf(plot.commands));
       this.state = boardStateBefore(report.end.stream, report.end.commandIndex + 1, start);
       if (!report.exact) this.misplaced(report);
       return report;
@@ -302,12 +285,12 @@ export class Carriage {
   }
 
   /** Pen up, in a straight line to a place, at travel speed. */
-  async walk(x: number, y: number, settings: PlotSettings): Promise<void> {
+  async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
-    const job = planWalk(settings, machine, {
+    const job = planEbbWalk(settings, machine, {
       fromXMm: from.x,
       fromYMm: from.y,
       toXMm: x,
@@ -315,31 +298,14 @@ export class Carriage {
       firmware: this.connection.features.version,
       board: this.state!,
     });
-    if (job.trajectory.blockCount > 0) await this.playJob(job, settings);
+    const { trajectory } = job;
+    if (trajectory.blockCount > 0) await this.perform({ trajectory, commands: job.commands() }, settings);
   }
 
-  /** Draws strokes given in mm from where the carriage stands, and comes back there. */
-  async drawHere(strokes: StrokeSet, settings: PlotSettings): Promise<void> {
-    const machine = machineOf(settings);
-    await this.ready(machine, settings.pen);
-    if (this.penUp !== true) await this.movePen(true, settings);
-    const { x, y } = this.place(machine)!;
-    const here = { ...strokes, xy: strokes.xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
-    const job = planJob({ strokes: here }, settings, machine, {
-      startXMm: x,
-      startYMm: y,
-      endXMm: x,
-      endYMm: y,
-      firmware: this.connection.features.version,
-      board: this.state!,
-    });
-    await this.playJob(job, settings);
-  }
-
-  private async playJob(job: MachineJob, settings: PlotSettings): Promise<void> {
+  async perform(plot: PlannedPlot, settings: MachineSettings): Promise<void> {
     const streamer = this.streamer(settings);
     try {
-      await this.play(streamer, { trajectory: job.trajectory, commands: job.commands() }, settings);
+      await this.play(streamer, plot, settings);
     } catch (error) {
       if (canFindPlace(streamer, error)) await this.findPlace();
       throw error;
@@ -356,14 +322,14 @@ export class Carriage {
   }
 
   /** Before the line is given up in the middle of something: nothing is drawn any more, and the pen is up. */
-  async leave(settings: PlotSettings): Promise<void> {
+  async leave(settings: MachineSettings): Promise<void> {
     this.stopAtOnce();
     await this.untilStill();
     await this.movePen(true, settings);
   }
 
   /** Lifts or drops the pen by hand; resolves when it is there. */
-  async movePen(up: boolean, settings: PlotSettings, heightPct?: number): Promise<void> {
+  async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
     const { session, boardClock } = this.connection;
     const machine = machineOf(settings);
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
@@ -427,9 +393,14 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** Motor supply as the board measures it, see `isPowerLow`. */
-  async supplyReading(): Promise<string> {
-    return this.connection.session.query("QC");
+  async isSupplyLow(): Promise<boolean> {
+    return isPowerLow("QC", await this.connection.session.query("QC"));
+  }
+
+  /** Answers that come while a stream plays. */
+  private polled(line: string, reply: string): void {
+    if (isButtonPressed(line, reply)) this.events.buttonPressed();
+    if (line === "QC") this.events.supplyRead(isPowerLow(line, reply));
   }
 
   /** What keeps the stream's time true, and tells of the button and of the motors' supply. */

@@ -3,17 +3,18 @@
  * no longer understand each other are refused (console-lines.ts); after those that move or reset the motors' counters,
  * the driver reads the place back or forgets it.
  */
-import { commandName, PlotwrightError } from "../../src/index.js";
-import type { CommandAnswer } from "../../src/schema/index.js";
-import type { Carriage } from "./carriage.js";
+import { PlotwrightError } from "../../../errors.js";
+import type { ConsoleAnswer } from "../../driver.js";
+import { commandName } from "../protocol/replies.js";
 import { LONGEST_S, whyRefused } from "./console-lines.js";
+import type { Carriage } from "./carriage.js";
 
 const MOVES = new Set(["SM", "XM", "LM", "LT", "L3", "T3", "TD", "TR", "HM", "ES"]);
 const ZEROES = new Set(["EM", "CS"]);
 const PEN = new Set(["SP", "TP", "S2", "SC", "SE"]);
 
 /** Rejects with `bad-setting` for a line that is refused, `board-timeout` when nothing is answered. */
-export async function sendLine(carriage: Carriage, line: string): Promise<CommandAnswer> {
+export async function sendLine(carriage: Carriage, line: string): Promise<ConsoleAnswer> {
   const why = whyRefused(line);
   if (why !== null) throw new PlotwrightError("bad-setting", `${line} is not sent: ${why}.`);
   const name = commandName(line);
@@ -49,7 +50,7 @@ async function noteOn(carriage: Carriage, name: string): Promise<string | null> 
   }
   if (ZEROES.has(name)) {
     await carriage.forgetPlace();
-    return "The motors' counters were set to zero: the place is forgotten, and home is where the carriage stands when it moves next.";
+    return "The motors' counters were set to zero: the place is forgotten, and home is where the machine stands when it moves next.";
   }
   if (!MOVES.has(name)) return null;
   return (await carriage.findPlaceAgain(LONGEST_S))

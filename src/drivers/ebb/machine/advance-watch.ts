@@ -2,7 +2,9 @@
  * Notices a board that answers and takes commands, but whose motors do not get on: asked again and again where
  * they stand, it says the same while the plan has gone on. A long command would hide that until its end.
  */
-import { parseSteps, type Clock, type StreamPlace } from "../../src/index.js";
+import { parseSteps } from "../protocol/replies.js";
+import type { StreamPlace } from "../stream/timeline.js";
+import type { Clock } from "../../transport.js";
 
 /** Seconds of ours without a step, with motion planned all the time. */
 const STALL_S = 1.2;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { snappedPlace } from "../../server/plotter/plan-places.js";
-import { strokesOf } from "../support/local-planner.js";
+import { snappedPlace } from "../../../src/plan/place-on-drawing.js";
+import { strokesOf } from "../../support/local-planner.js";
 
 /** Out to a tip and back, a hundredth of a millimetre beside. */
 const TIP = strokesOf([0, 0, 10, 0, 0, 0.01]);

@@ -2,7 +2,7 @@
  * Which typed lines must not reach the board: those that restart it, hang it, or change how it answers. Decided by
  * the command and its numbers as the board reads them, so that "cu,01,0" is the same line as "CU,1,0".
  */
-import { commandName } from "../../src/index.js";
+import { commandName } from "../protocol/replies.js";
 
 /** Motion that a user has started may last this long, seconds of board time. */
 export const LONGEST_S = 120;

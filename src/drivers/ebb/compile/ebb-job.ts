@@ -1,0 +1,59 @@
+/** Strokes to a job for an EBB: our own plan, within what its firmware can execute, and the commands for it. */
+import type { StrokeSet } from "../../../drawing/stroke-set.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { plan } from "../../../plan/plan.js";
+import type { Trajectory } from "../../../plan/trajectory.js";
+import type { MotionSettings } from "../../../settings/motion.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import type { DriverPlanOptions, JobSettings, MachineJob } from "../../machine-job.js";
+import { motionForFirmware } from "../protocol/firmware-motion.js";
+import type { BoardState, CommandStream } from "./command-stream.js";
+import { compile } from "./compile.js";
+import { plotLines } from "./plot-lines.js";
+
+/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
+export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
+
+export function planEbbJob(
+  strokes: StrokeSet,
+  settings: JobSettings,
+  machine: MachineProfile,
+  options: DriverPlanOptions,
+): MachineJob<CommandStream> {
+  const firmware = options.firmware ?? OLDEST_PLANNED_FIRMWARE;
+  const motion = motionForFirmware(settings.motion, firmware);
+  const trajectory = plan(strokes, motion, settings.pen, {
+    machine,
+    from: options.from ?? undefined,
+    startX: options.startXMm,
+    startY: options.startYMm,
+    endX: options.endXMm,
+    endY: options.endYMm,
+    penBesideMm: penBesideMmOf(motion, machine),
+    liftFirst: options.liftFirst,
+    cancel: options.cancel,
+  });
+  return ebbJob(trajectory, machine, firmware, settings.pen, options.board as BoardState | undefined);
+}
+
+/** A trajectory as a job. `start`: what the board's counters show; left out: as after its motors were switched on. */
+export function ebbJob(
+  trajectory: Trajectory,
+  machine: MachineProfile,
+  firmware: string,
+  pen: PenSettings,
+  start: BoardState | undefined,
+): MachineJob<CommandStream> {
+  let compiled: CommandStream | null = null;
+  const commands = (): CommandStream => (compiled ??= compile(trajectory, { machine, firmware, pen, start }));
+  return { trajectory, commands, lines: () => plotLines(commands(), { machine, pen, firmware }) };
+}
+
+/**
+ * How far beside the drawing a pen may stand that was stopped on its line: what the planned line may leave it by, and
+ * the rounding to steps.
+ */
+function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {
+  const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);
+  return Math.max(draw.cornerMm, ...corners) + (fit?.toleranceMm ?? 0) + 2 / machine.stepsPerMm;
+}

@@ -1,0 +1,28 @@
+/** What a stop brakes and lifts with. */
+import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
+import { withLayerCodes } from "../../../plan/coded-layers.js";
+import { drawLimitsOf } from "../../../plan/limits.js";
+import { penOfLayer } from "../../../plan/pen-times.js";
+import type { Place } from "../../../plan/trajectory.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import type { JobSettings } from "../../machine-job.js";
+import { motionForFirmware } from "../protocol/firmware-motion.js";
+
+/** As the layer of a place was planned; null: on the way to a stroke. */
+export function brakingAt(
+  settings: JobSettings,
+  { layer, layers }: StrokeSet,
+  place: Place | null,
+  firmware: string,
+): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
+  const { motion: coded, pen } = withLayerCodes(settings, layers);
+  const motion = motionForFirmware(coded, firmware);
+  const own = place ? layers[layer[place.stroke]!] : undefined;
+  const travelAccel = motion.travel.accelMmPerS2;
+  if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };
+  const id = settingsIdOf(own);
+  return {
+    limits: { drawAccel: drawLimitsOf(motion, id).accelMmPerS2, travelAccel },
+    pen: penOfLayer(pen, id),
+  };
+}

@@ -1,0 +1,42 @@
+/** A board that has said who it is, and what it can do. */
+import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
+import { BoardSession } from "../stream/session.js";
+import type { ConnectOptions } from "../../driver.js";
+import type { Clock, Transport } from "../../transport.js";
+
+export interface Connection {
+  readonly session: BoardSession;
+  readonly features: FirmwareFeatures;
+  /** The board's own name (ST); null where it has none. */
+  readonly boardName: string | null;
+  /** Counts board seconds. */
+  readonly boardClock: Clock;
+  /** Board seconds in one of ours. */
+  readonly speed: number;
+  /** The same for how long something may take: as long as the slower of the two, board or computer, would need. */
+  readonly waitSpeed: number;
+}
+
+/** Rejects with `board-timeout` or `disconnected`; the line is closed then. */
+export async function connectBoard(
+  transport: Transport,
+  { clock, machineClock, speed, events }: ConnectOptions,
+): Promise<Connection> {
+  // A fast board's line and computer are no faster than others: silence is measured on the slower clock.
+  const session = new BoardSession(transport, { clock: speed < 1 ? machineClock : clock });
+  try {
+    const identity = await session.identify();
+    const features = firmwareFeatures(identity.firmware);
+    const boardName = features.hasGeneralQuery ? await nameOf(session) : null;
+    session.onFault((error) => events.lost(error));
+    return { session, features, boardName, boardClock: machineClock, speed, waitSpeed: Math.max(1, speed) };
+  } catch (error) {
+    await session.close();
+    throw error;
+  }
+}
+
+async function nameOf(session: BoardSession): Promise<string | null> {
+  const name = (await session.query("QT")).trim();
+  return name === "" ? null : name;
+}

@@ -1,0 +1,73 @@
+/** Command streams cut up and made by hand: what is played when one plan takes the place of another in motion. */
+import type { BoardState, CommandStream } from "../compile/command-stream.js";
+
+/** What the board holds after the commands before `index`. */
+export function boardStateBefore(stream: CommandStream, index: number, start: BoardState): BoardState {
+  if (index === 0) return start;
+  return {
+    steps1: stream.steps1[index - 1]!,
+    steps2: stream.steps2[index - 1]!,
+    acc1: stream.acc1[index - 1]!,
+    acc2: stream.acc2[index - 1]!,
+  };
+}
+
+/** The first command that begins `leadS` after command `index` or later. */
+export function commandAfter(commands: CommandStream, index: number, leadS: number): number {
+  const fromS = commands.boardS[index]! + leadS;
+  let i = index;
+  while (i < commands.count && commands.boardS[i]! < fromS) i++;
+  return i;
+}
+
+/** A plan begins with the pen coming down; here it is down already. */
+export function withoutDrop(commands: CommandStream): CommandStream {
+  let first = 0;
+  while (first < commands.count && commands.run[first]! < 0) first++;
+  return streamFrom(commands, first);
+}
+
+/** A stream without its first commands. */
+function streamFrom(stream: CommandStream, index: number): CommandStream {
+  return {
+    ...stream,
+    count: stream.count - index,
+    textOffsets: stream.textOffsets.subarray(index),
+    boardS: stream.boardS.subarray(index),
+    planS: stream.planS.subarray(index),
+    steps1: stream.steps1.subarray(index),
+    steps2: stream.steps2.subarray(index),
+    acc1: stream.acc1.subarray(index),
+    acc2: stream.acc2.subarray(index),
+    run: stream.run.subarray(index),
+  };
+}
+
+/** A stream of commands in which the motors rest: each with the seconds that it holds the board's queue. */
+export function restingStream(
+  lines: readonly (readonly [line: string, durationS: number])[],
+  state: BoardState,
+  planS: number,
+): CommandStream {
+  const count = lines.length;
+  const characters = lines.map(([line]) => `${line}\r`).join("");
+  const textOffsets = new Uint32Array(count + 1);
+  const boardS = new Float64Array(count + 1);
+  lines.forEach(([line, durationS], i) => {
+    textOffsets[i + 1] = textOffsets[i]! + line.length + 1;
+    boardS[i + 1] = boardS[i]! + durationS;
+  });
+  return {
+    count,
+    text: Uint8Array.from(characters, (character) => character.charCodeAt(0)),
+    textOffsets,
+    boardS,
+    planS: new Float64Array(count + 1).fill(planS),
+    steps1: new Int32Array(count).fill(state.steps1),
+    steps2: new Int32Array(count).fill(state.steps2),
+    acc1: new Uint32Array(count).fill(state.acc1),
+    acc2: new Uint32Array(count).fill(state.acc2),
+    run: new Int32Array(count).fill(-1),
+    warnings: [],
+  };
+}

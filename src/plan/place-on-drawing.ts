@@ -1,0 +1,98 @@
+/** Places on the strokes themselves: how long a stroke is, where a place lies, and which place is near a point. */
+import type { StrokeSet } from "../drawing/stroke-set.js";
+import type { Place } from "./trajectory.js";
+
+/** A place moved along the drawing by whole strokes or by mm; it stays within the drawing. */
+export function movedPlace(
+  strokes: StrokeSet,
+  place: Place,
+  by: { readonly strokes?: number | undefined; readonly mm?: number | undefined },
+): Place {
+  const last = strokes.offsets.length - 2;
+  let { stroke, alongMm } = place;
+  if (by.strokes) {
+    // Back from the middle of a stroke means to its beginning first.
+    const back = by.strokes < 0 && alongMm > 0 ? 1 : 0;
+    stroke = Math.min(last, Math.max(0, stroke + by.strokes + back));
+    alongMm = 0;
+  }
+  alongMm += by.mm ?? 0;
+  while (alongMm < 0 && stroke > 0) alongMm += strokeLengthMm(strokes, --stroke);
+  while (stroke < last && alongMm > strokeLengthMm(strokes, stroke)) {
+    alongMm -= strokeLengthMm(strokes, stroke++);
+  }
+  return { stroke, alongMm: Math.min(Math.max(0, alongMm), strokeLengthMm(strokes, stroke)) };
+}
+
+export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): number {
+  let lengthMm = 0;
+  for (let i = offsets[stroke]! + 1; i < offsets[stroke + 1]!; i++) {
+    lengthMm += Math.hypot(xy[2 * i]! - xy[2 * i - 2]!, xy[2 * i + 1]! - xy[2 * i - 1]!);
+  }
+  return lengthMm;
+}
+
+/** The point of the drawing at a place, mm. */
+export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: number; y: number } {
+  let leftMm = place.alongMm;
+  const end = offsets[place.stroke + 1]! - 1;
+  for (let i = offsets[place.stroke]!; i < end; i++) {
+    const x = xy[2 * i]!;
+    const y = xy[2 * i + 1]!;
+    const dx = xy[2 * i + 2]! - x;
+    const dy = xy[2 * i + 3]! - y;
+    const lengthMm = Math.hypot(dx, dy);
+    if (leftMm <= lengthMm && lengthMm > 0) {
+      return { x: x + (dx * leftMm) / lengthMm, y: y + (dy * leftMm) / lengthMm };
+    }
+    leftMm -= lengthMm;
+  }
+  return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
+}
+
+/** A pen's place, mm, and velocity, mm/s. */
+interface Moving {
+  readonly x: number;
+  readonly y: number;
+  readonly vx: number;
+  readonly vy: number;
+}
+
+/**
+ * The place on the same stroke that is nearest to a point, found by following the stroke as long as it comes nearer, not
+ * further than `withinMm`: where the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not
+ * quite the same. The other side of a narrow tip may be nearer still, and is another place; one that the stroke passes the
+ * other way than `vx`, `vy` is not where the pen is, and the given place stays.
+ */
+export function snappedPlace(
+  { xy, offsets }: StrokeSet,
+  place: Place,
+  { x, y, vx, vy }: Moving,
+  withinMm: number,
+): Place {
+  const { stroke, alongMm } = place;
+  const [first, end] = [offsets[stroke]!, offsets[stroke + 1]! - 1];
+  const lengthOf = (i: number): number =>
+    Math.hypot(xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!);
+  if (first >= end) return place;
+  let i = first;
+  let fromMm = 0;
+  while (i + 1 < end && fromMm + lengthOf(i) < alongMm) fromMm += lengthOf(i++);
+  for (let way = 0; ;) {
+    const lengthMm = lengthOf(i);
+    const [dx, dy] = [xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!];
+    const dot = (x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy;
+    const footMm = lengthMm > 0 ? dot / lengthMm : way;
+    const next = footMm > lengthMm ? 1 : footMm < 0 ? -1 : 0;
+    const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));
+    const isThere = next === 0 || next === -way || i + next < first || i + next >= end;
+    if (isThere || Math.abs(nearestMm - alongMm) >= withinMm) {
+      if (dx * vx + dy * vy < 0) return place;
+      const byMm = Math.min(withinMm, Math.max(-withinMm, nearestMm - alongMm));
+      return { stroke, alongMm: alongMm + byMm };
+    }
+    way = next;
+    fromMm += way > 0 ? lengthMm : -lengthOf(i - 1);
+    i += way;
+  }
+}

@@ -1,0 +1,23 @@
+/** Which place of the drawing a plan is at, by its time. */
+import { stateAt, type Place, type Trajectory } from "./trajectory.js";
+
+/** Rounding between a command's plan time and the trajectory's. */
+const SAME_TIME_S = 1e-7;
+
+/** The first place that is still to be drawn at `planS`, when the carriage rests there; null when none is. */
+export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
+  const { runs } = trajectory;
+  for (let run = 0; run < runs.count; run++) {
+    if (runs.stroke[run]! < 0 || runs.startS[run]! < planS - SAME_TIME_S) continue;
+    const block = runs.firstBlock[run]!;
+    const isDot = runs.firstBlock[run + 1] === block;
+    return { stroke: runs.stroke[run]!, alongMm: isDot ? 0 : trajectory.alongMm[block]! };
+  }
+  return null;
+}
+
+/** The place at `planS` where a stroke is being drawn, else the next one to be drawn. */
+export function placeAt(trajectory: Trajectory, planS: number): Place | null {
+  const state = stateAt(trajectory, planS);
+  return state.stroke >= 0 ? { stroke: state.stroke, alongMm: state.alongMm } : nextPlace(trajectory, planS);
+}
