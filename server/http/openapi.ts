@@ -27,17 +27,8 @@ import {
   squareRequestSchema,
   walkRequestSchema,
 } from "../../src/schema/index.js";
+import type { ApiRoute } from "./api-route.js";
 import { STUDIO_ROUTES } from "./studio-api.js";
-
-export interface ApiRoute {
-  readonly method: "get" | "post" | "put" | "patch" | "delete";
-  /** Below /api/v1, with :names as in express. */
-  readonly path: string;
-  readonly about: string;
-  readonly body?: ZodType;
-  readonly answer: ZodType | "text" | "events";
-  readonly status?: number;
-}
 
 const okSchema = z.object({ ok: z.literal(true) });
 const route = (

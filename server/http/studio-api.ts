@@ -13,7 +13,7 @@ import {
   sharedJobSchema,
   webhookSchema,
 } from "../../src/schema/index.js";
-import type { ApiRoute } from "./openapi.js";
+import type { ApiRoute } from "./api-route.js";
 
 const okSchema = z.object({ ok: z.literal(true) });
 
