@@ -91,8 +91,8 @@ export const en = {
     },
     ease: "Begin and end strokes slowly",
     fit: "Draw dense curves in long sweeps",
-      sendAheadHint:
-        "Before firmware 3 the board still plays this after an emergency stop. Less stops sooner, but then the pen may pause where this computer is busy.",
+    sendAheadHint:
+      "Before firmware 3 the board still plays this after an emergency stop. Less stops sooner, but then the pen may pause where this computer is busy.",
     fitHint: "Fewer, longer commands to the board, so that long curves run without stutter.",
   },
 

@@ -25,7 +25,7 @@ import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { isButtonPressed, isPowerLow } from "./readings.js";
 
-/** Of a command of motion, see `slice-search`. */
+/** The longest command of motion: the compiler splits what is longer. */
 const LONGEST_COMMAND_S = 0.15;
 /** The line, the board and this computer. */
 const ANSWER_MS = 30;
