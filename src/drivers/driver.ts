@@ -2,8 +2,8 @@
  * What plotwright asks of a controller. A driver is a folder beside this file and a line in `registry.ts`; nothing
  * outside its folder knows its commands.
  *
- *   Driver ──plan──────> MachineJob   the motion and its commands, without a machine
- *          ──identify──> Machine      one that is connected: pen, moves by hand, supply, console
+ *   PlanForMachine ──────> MachineJob   the motion and its commands, without a machine
+ *   Driver ──identify──> Machine      one that is connected: pen, moves by hand, supply, console
  *                          └──startRun──> MachineRun   one plot: play, hold, stop, go over to another plan
  *
  * A controller may follow our plan (EBB) or plan by itself (Grbl): then its trajectory is a model of what it does.
@@ -12,22 +12,11 @@ import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { Place } from "../plan/trajectory.js";
-import type {
-  MachineCommands,
-  MachineSettings,
-  MachineState,
-  PlanForMachine,
-  PlannedPlot,
-} from "./machine-job.js";
+import type { MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PlotProgress, RunProgress } from "./run-progress.js";
 import type { Clock, Transport } from "./transport.js";
 
-export interface Driver<Commands extends MachineCommands = MachineCommands> {
-  /**
-   * @throws PlotwrightError "bad-setting" for settings that contradict each other or a firmware that is no version, "cancelled"
-   * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
-   */
-  readonly plan: PlanForMachine<Commands>;
+export interface Driver {
   /** Learns who is at the other end. Closes the line and rejects when it is nobody that this driver knows. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** The controller in software, to plot without hardware. */

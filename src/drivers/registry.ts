@@ -1,21 +1,33 @@
-/** The drivers, by the `kind` of a machine's controller. */
+/**
+ * The drivers, by the `kind` of a machine's controller. Planning has a table of its own: a page that only plans does not
+ * load what talks to a machine.
+ */
 import { PlotwrightError } from "../errors.js";
 import type { Controller, MachineProfile } from "../machines/profile.js";
 import type { Driver } from "./driver.js";
-import { ebbDriver } from "./ebb/ebb-driver.js";
 import type { CommandStream } from "./ebb/compile/command-stream.js";
+import { planEbbJob } from "./ebb/compile/ebb-job.js";
+import { ebbDriver } from "./ebb/ebb-driver.js";
+import type { PlanForMachine } from "./machine-job.js";
 
 /** What a job's commands can be, one type for each driver. */
 export type AnyCommands = CommandStream;
 
-const DRIVERS: Readonly<Record<Controller["kind"], Driver<AnyCommands>>> = {
-  ebb: ebbDriver,
-};
+type ByController<T> = Readonly<Record<Controller["kind"], T>>;
 
-/** @throws PlotwrightError "bad-setting" for a profile from elsewhere whose controller is not known */
-export function driverOf({ name, controller }: MachineProfile): Driver<AnyCommands> {
-  if (Object.hasOwn(DRIVERS, controller.kind)) return DRIVERS[controller.kind];
-  const known = Object.keys(DRIVERS).join(", ");
+const PLANNERS: ByController<PlanForMachine<AnyCommands>> = { ebb: planEbbJob };
+const DRIVERS: ByController<Driver> = { ebb: ebbDriver };
+
+/** Plans jobs for a machine. Throws `bad-setting` for a profile whose controller is not known. */
+export const plannerOf = (machine: MachineProfile): PlanForMachine<AnyCommands> =>
+  ofController(PLANNERS, machine);
+
+/** Connects machines. Throws `bad-setting` for a profile whose controller is not known. */
+export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
+
+function ofController<T>(table: ByController<T>, { name, controller }: MachineProfile): T {
+  if (Object.hasOwn(table, controller.kind)) return table[controller.kind];
+  const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",
     `The controller of ${name}, "${controller.kind}", is not known. Known controllers: ${known}.`,

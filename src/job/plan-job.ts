@@ -6,7 +6,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
-import { driverOf, type AnyCommands } from "../drivers/registry.js";
+import { plannerOf, type AnyCommands } from "../drivers/registry.js";
 import { checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
@@ -33,7 +33,7 @@ export function planJob(
 ): MachineJob<AnyCommands> {
   checkProfile(machine);
   const coded = withLayerCodes(settings, strokes.layers);
-  return driverOf(machine).plan(firstStrokes(strokes, until), coded, machine, options);
+  return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);
 }
 
 /** The first `count` strokes; they keep their indices. */

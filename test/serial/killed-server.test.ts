@@ -14,6 +14,8 @@ const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 50, 4);
 const KILLS_PER_PLOT = 10;
 const SPEED = 10;
 /** Reports of progress (one in 60 ms) after which the server is killed, at most. */
+/** Nothing is drawn in this time without the user's word. */
+const STILL_MS = 300;
 const MOST_REPORTS = 12;
 
 const ROWS = 25;
@@ -107,10 +109,13 @@ it(
         if (state === "done") break;
         expect(state).toBe("interrupted");
         await post(server, `/jobs/${id}/recover`);
-        // The server has found its board, which by then had come to the end of what it had.
-        const leftMm = await drawnMm(board);
+        // The server finds its board, which plays what it had and lifts the pen.
         await events.find("job", ({ job }) => job.state === "paused");
-        expect((await board.report()).state).toMatchObject({ penUp: true, isBusy: false });
+        await expect
+          .poll(async () => (await board.report()).state, { timeout: 20_000 })
+          .toMatchObject({ penUp: true, isBusy: false });
+        const leftMm = await drawnMm(board);
+        await new Promise((resolve) => setTimeout(resolve, STILL_MS));
         expect(await drawnMm(board)).toBe(leftMm);
         await post(server, `/jobs/${id}/resume`);
       }

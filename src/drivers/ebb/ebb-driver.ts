@@ -1,13 +1,10 @@
 /** The EiBotBoard as a driver. */
 import type { Driver } from "../driver.js";
-import type { CommandStream } from "./compile/command-stream.js";
-import { planEbbJob } from "./compile/ebb-job.js";
 import { connectBoard } from "./machine/connection.js";
 import { EbbMachine } from "./machine/ebb-machine.js";
 import { VirtualBoard } from "./virtual/virtual-board.js";
 
-export const ebbDriver: Driver<CommandStream> = {
-  plan: planEbbJob,
+export const ebbDriver: Driver = {
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
   virtualMachine: ({ firmware, ...options }) =>
