@@ -15,7 +15,7 @@ const end = () => server.connected && server.disconnect();
 for (const signal of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(signal, end);
 server.on("exit", (code) => process.exit(code ?? 1));
 
-// npm tells its shell to end, not us: then we belong to another process. (Of a SIGKILL, its shell tells nobody.)
+// npm ends its shell, not this process: then the parent changes. (On SIGKILL of npm, its shell lives on unnoticed.)
 const npm = process.ppid;
 if (process.env.npm_lifecycle_event === "start") {
   setInterval(() => process.ppid !== npm && end(), 500).unref();

@@ -1,4 +1,4 @@
-/** All commands by name. What one is made of is loaded only when it is asked for: nobody waits for the others. */
+/** All commands by name. Each command's module is loaded only when the command is used, to start quickly. */
 import type { Declare } from "./options.js";
 
 export interface CliCommand {

@@ -1,6 +1,6 @@
 /**
  * `plotwright plot FILE…`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
- * cancels: the pen lifts and the carriage goes home. Without a keyboard to go on with, the first one cancels.
+ * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
  */
 import { basename } from "node:path";
 import { PlotwrightError, machineOf } from "../../src/index.js";
@@ -140,7 +140,7 @@ async function onPlotter(
   let progress = 0;
   begin();
   const journal = { record: (entry: JournalEntry) => record.save(entry, progress) };
-  // Taken up again without a keyboard, there is nobody to give the word.
+  // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const start: PlotStart = { from, journal, held: from !== null && io.hasKeyboard };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));

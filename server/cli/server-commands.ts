@@ -31,7 +31,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
     .option("--user <name>", "with --system: whose server it is")
     .option("--print", "only show what would be written")
     .action((serveArgs: string[], options: ServiceOptions) => {
-      // A service that dies of a mistyped option would be found out by nobody.
+      // A service that fails on a mistyped option would fail unnoticed, so check here.
       addServe(new Command("serve").copyInheritedSettings(service)).parse(serveArgs, { from: "user" });
       installService(options, serveArgs, io);
     });
