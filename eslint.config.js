@@ -19,6 +19,11 @@ export default tseslint.config(
     },
   },
   {
+    files: ["{src,server,web,test,scripts}/**/*.{ts,tsx}"],
+    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    rules: { "@typescript-eslint/no-unnecessary-type-assertion": "error" },
+  },
+  {
     files: ["src/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: {
@@ -60,11 +65,6 @@ export default tseslint.config(
         "performance",
       ],
     },
-  },
-  {
-    files: ["src/**/*.ts"],
-    ignores: ["src/schema/**"],
-    rules: {},
   },
   {
     files: ["server/**/*.ts"],

@@ -64,5 +64,5 @@ function row({ flags, description, defaultValue, envVar }: Option): string[] {
 
 const usage = (command: Command): string =>
   `plotwright ${command.parent?.name() ?? ""} ${command.name()} ${command.usage()}`.replace(/ +/g, " ");
-const sentence = (text: string): string => `${text[0]!.toUpperCase()}${text.slice(1)}.`;
+const sentence = (text: string): string => `${text[0].toUpperCase()}${text.slice(1)}.`;
 const fence = (lines: readonly string[]): string => ["```sh", ...lines, "```"].join("\n");

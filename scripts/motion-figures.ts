@@ -49,7 +49,7 @@ function cornerChart(): Chart {
   ];
   const series = [0.1, 0.25, 0.5].map((cornerMm, i): Series => {
     const t = planned(corner, "blend", { draw: { ...DRAW, cornerMm } });
-    return { label: `δ = ${cornerMm} mm`, color: COLORS[i]!, points: along(t, ({ x, y }) => [x, y]) };
+    return { label: `δ = ${cornerMm} mm`, color: COLORS[i], points: along(t, ({ x, y }) => [x, y]) };
   });
   const drawing = { label: "drawing", color: "#999", points: corner };
   return {
@@ -69,10 +69,10 @@ function overTime(what: "speed" | "acceleration"): Chart {
   ];
   const series = MOTION_MODES.map((mode, i): Series => {
     const t = planned(corner, mode);
-    const start = t.runs.startS[0]!;
+    const start = t.runs.startS[0];
     return {
       label: mode,
-      color: COLORS[i]!,
+      color: COLORS[i],
       points: along(t, (s, time) => [
         time - start,
         what === "speed" ? Math.hypot(s.vx, s.vy) : Math.hypot(s.ax, s.ay),
@@ -89,7 +89,7 @@ function resamplingChart(): Chart {
   const limits = { speed: 200, accel: DRAW.accelMmPerS2, deviation: DRAW.cornerMm };
   const alone = steps.map((step): Point => {
     const [corner] = cornersOf(circle(radius, step, 1));
-    return [Math.log10(step), Math.min(limits.speed, junctionDeviation(corner!, limits))];
+    return [Math.log10(step), Math.min(limits.speed, junctionDeviation(corner, limits))];
   });
   const draw = { ...DRAW, speedMmPerS: limits.speed };
   const ours = steps.map((step): Point => {
@@ -102,8 +102,8 @@ function resamplingChart(): Chart {
     xLabel: "log10 of the distance between samples, mm",
     yLabel: "mm/s",
     series: [
-      { label: "junction deviation alone", color: COLORS[1]!, points: alone },
-      { label: "with the tangent circle", color: COLORS[0]!, points: ours },
+      { label: "junction deviation alone", color: COLORS[1], points: alone },
+      { label: "with the tangent circle", color: COLORS[0], points: ours },
       { label: "√(A r)", color: "#999", points: steps.map((step) => [Math.log10(step), bound]) },
     ],
   };
@@ -113,7 +113,7 @@ function fitChart(fit: MotionSettings["fit"], label: string): Chart {
   const wave = Array.from({ length: 500 }, (_, i): Point => [i * 0.08, 6 * Math.sin(i / 40)]);
   const t = planned(wave, "blend", { fit });
   const ends: Point[] = [];
-  for (let k = t.runs.firstBlock[0]!; k < t.runs.firstBlock[1]!; k++) ends.push([t.x[k]!, t.y[k]!]);
+  for (let k = t.runs.firstBlock[0]; k < t.runs.firstBlock[1]; k++) ends.push([t.x[k], t.y[k]]);
   return {
     title: `A line of 500 points, ${label}: ${ends.length} pieces`,
     xLabel: "mm",
@@ -121,7 +121,7 @@ function fitChart(fit: MotionSettings["fit"], label: string): Chart {
     square: true,
     series: [
       { label: "drawing", color: "#999", points: wave },
-      { label: "where a piece begins", color: COLORS[1]!, points: ends, dots: true },
+      { label: "where a piece begins", color: COLORS[1], points: ends, dots: true },
     ],
   };
 }
@@ -137,15 +137,15 @@ function planned(
     layer: new Uint16Array(1),
     layers: [{ id: "all", name: "All", color: null }],
   };
-  const [startX, startY] = points[0]!;
+  const [startX, startY] = points[0];
   const motion: MotionSettings = { mode, draw: DRAW, travel: DRAW, ...other };
   return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false });
 }
 
 /** The first run at many instants. */
 function along(t: Trajectory, see: (state: ReturnType<typeof stateAt>, tS: number) => Point): Point[] {
-  const start = t.runs.startS[0]!;
-  const end = t.penMoves.startS[1]! - 1e-9;
+  const start = t.runs.startS[0];
+  const end = t.penMoves.startS[1] - 1e-9;
   const count = 1500;
   return Array.from({ length: count + 1 }, (_, i) => {
     const tS = start + ((end - start) * i) / count;

@@ -12,9 +12,9 @@ export function settingsTable(): string {
 
 /** Columns are padded as prettier does it. */
 export function markdownTable(rows: readonly (readonly string[])[]): string {
-  const widths = rows[0]!.map((_, column) => Math.max(...rows.map((row) => row[column]!.length)));
+  const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => row[column].length)));
   const line = (cells: readonly string[]): string =>
-    `| ${cells.map((cell, column) => cell.padEnd(widths[column]!)).join(" | ")} |`;
+    `| ${cells.map((cell, column) => cell.padEnd(widths[column])).join(" | ")} |`;
   const rule = `| ${widths.map((width) => "-".repeat(width)).join(" | ")} |`;
-  return `${[line(rows[0]!), rule, ...rows.slice(1).map(line)].join("\n")}`;
+  return `${[line(rows[0]), rule, ...rows.slice(1).map(line)].join("\n")}`;
 }

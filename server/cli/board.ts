@@ -195,7 +195,7 @@ function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
 function pathOf(xy: Float64Array): string {
   let d = "";
   for (let i = 0; i < xy.length; i += 2) {
-    d += `${i === 0 ? "M" : "L"}${Number(xy[i]!.toFixed(4))} ${Number(xy[i + 1]!.toFixed(4))}`;
+    d += `${i === 0 ? "M" : "L"}${Number(xy[i].toFixed(4))} ${Number(xy[i + 1].toFixed(4))}`;
   }
   return xy.length === 2 ? `${d}h0` : d;
 }
@@ -256,7 +256,7 @@ async function openPty(): Promise<OpenPty> {
       if (match === null) return;
       data.dispose();
       exit.dispose();
-      resolve(match[1]!);
+      resolve(match[1]);
     });
     const exit = pty.onExit(() => reject(noPty(`its keeper ended: ${text.trim()}`)));
   });

@@ -32,8 +32,8 @@ export class ConnectionLimits {
     });
     const all = [...this.#unknown.values()];
     const ofAddress = all.filter(({ remoteAddress }) => remoteAddress === socket.remoteAddress);
-    if (ofAddress.length > MAX_PER_ADDRESS) this.#close(ofAddress[0]!);
-    else if (all.length > MAX_UNKNOWN) this.#close(all[0]!);
+    if (ofAddress.length > MAX_PER_ADDRESS) this.#close(ofAddress[0]);
+    else if (all.length > MAX_UNKNOWN) this.#close(all[0]);
   }
 
   /** The client has identified itself: its connection no longer counts as unknown. */

@@ -41,7 +41,7 @@ export function handMovesRoutes(parts: HandMoveParts): Router {
   for (const [name, wantedOf] of Object.entries(MOVES)) {
     router.post(`/:id/${name}`, async (request, response) => {
       const { move, settings } = await wantedOf(request, parts);
-      const plotter = findFree(request.params["id"] as string);
+      const plotter = findFree(request.params["id"]);
       await plotter.move(move, settings === undefined ? undefined : parts.withMachine(settings));
       response.json(plotter.snapshot());
     });

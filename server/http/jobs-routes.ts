@@ -84,8 +84,8 @@ export function jobsRoutes(queue: JobQueue, files: DrawingFiles, machines: Machi
   };
   for (const [name, act] of Object.entries(onBoard)) {
     router.post(`/:id/${name}`, async (request, response) => {
-      await queue.plotterSettled(request.params["id"] as string);
-      response.json(await act(request.params["id"] as string));
+      await queue.plotterSettled(request.params["id"]);
+      response.json(await act(request.params["id"]));
     });
   }
 

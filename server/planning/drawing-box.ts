@@ -14,10 +14,10 @@ export async function drawingBoxMm(
     const { xy } = planner.strokes;
     let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
     for (let i = 0; i < xy.length; i += 2) {
-      x0 = Math.min(x0, xy[i]!);
-      x1 = Math.max(x1, xy[i]!);
-      y0 = Math.min(y0, xy[i + 1]!);
-      y1 = Math.max(y1, xy[i + 1]!);
+      x0 = Math.min(x0, xy[i]);
+      x1 = Math.max(x1, xy[i]);
+      y0 = Math.min(y0, xy[i + 1]);
+      y1 = Math.max(y1, xy[i + 1]);
     }
     return { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 };
   } finally {

@@ -31,7 +31,7 @@ function bundleOf(name: string, starterUrl: string): URL {
     target: "node20",
     write: false,
   });
-  const { contents } = outputFiles[0]!;
+  const { contents } = outputFiles[0];
   const folder = join(dirname(require.resolve("esbuild/package.json")), "..", ".cache", "plotwright");
   const path = join(
     folder,

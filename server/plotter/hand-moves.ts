@@ -91,7 +91,7 @@ async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSett
   const machine = machineOf(settings);
   const { x, y } = await standing(plotter, settings);
   const { xy } = strokes;
-  for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i]!, y + xy[i + 1]!);
+  for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i], y + xy[i + 1]);
   if (plotter.penUp !== true) await plotter.movePen(true, settings);
   const here = { ...strokes, xy: xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
   const job = planJob({ strokes: here }, settings, machine, {

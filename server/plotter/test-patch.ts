@@ -10,7 +10,7 @@ export function testPatch(): StrokeSet {
   const zigzag = [2, 14, 4, 17, 6, 14, 8, 17, 10, 14];
   const lines = [square, circle, zigzag];
   const offsets = new Uint32Array(lines.length + 1);
-  lines.forEach((line, i) => (offsets[i + 1] = offsets[i]! + line.length / 2));
+  lines.forEach((line, i) => (offsets[i + 1] = offsets[i] + line.length / 2));
   return {
     xy: Float64Array.from(lines.flat()),
     offsets,

@@ -26,9 +26,7 @@ export function timeRatio(jobs: readonly Job[], plotterId: string): number {
   if (ratios.length === 0) return 1;
   ratios.sort((a, b) => a - b);
   const middle = ratios.length >> 1;
-  return ratios.length % 2 === 1
-    ? (ratios[middle] as number)
-    : ((ratios[middle - 1] as number) + (ratios[middle] as number)) / 2;
+  return ratios.length % 2 === 1 ? ratios[middle] : (ratios[middle - 1] + ratios[middle]) / 2;
 }
 
 export const expectedS = (stats: Job["stats"], ratio: number): number | null =>

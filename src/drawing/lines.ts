@@ -15,9 +15,9 @@ export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER
   const offsets = new Uint32Array(lines.length + 1);
   lines.forEach((line, index) => {
     if (line.length === 0) throw new RangeError(`line ${index} has no points: leave it out`);
-    offsets[index + 1] = offsets[index]! + line.length;
+    offsets[index + 1] = offsets[index] + line.length;
   });
-  const xy = new Float64Array(2 * offsets[lines.length]!);
+  const xy = new Float64Array(2 * offsets[lines.length]);
   let at = 0;
   lines.forEach((line, index) => {
     for (const [x, y] of line) {

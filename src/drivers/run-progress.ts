@@ -89,7 +89,7 @@ export class RunProgress<P extends Part = Part> {
   /** Where the board is now. */
   update(at: { readonly stream: MachineCommands; readonly planS: number }): PlotProgress {
     const part = this.partOf(at.stream);
-    if (part !== this.part) this.enter(part, at.stream.planS[0]!);
+    if (part !== this.part) this.enter(part, at.stream.planS[0]);
     this.partS = Math.max(this.partS, at.planS - this.partStartS);
     const now = stateAt(part.trajectory, at.planS, this.motion);
     const left =

@@ -42,8 +42,8 @@ export function boxOfPoints(xy: ArrayLike<number>, from = 0, to = xy.length): Bo
   let x1 = -Infinity;
   let y1 = -Infinity;
   for (let k = from; k < to; k += 2) {
-    const x = xy[k]!;
-    const y = xy[k + 1]!;
+    const x = xy[k];
+    const y = xy[k + 1];
     if (x < x0) x0 = x;
     if (x > x1) x1 = x;
     if (y < y0) y0 = y;

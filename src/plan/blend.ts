@@ -67,15 +67,15 @@ export class BlendPlanner {
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
     maxSpeed[0] = maxSpeed[n] = 0;
-    let x0 = ux[0]!;
-    let y0 = uy[0]!;
-    let before = length[0]!;
-    let cap0 = cap2[0]!;
+    let x0 = ux[0];
+    let y0 = uy[0];
+    let before = length[0];
+    let cap0 = cap2[0];
     for (let i = 1; i < n; i++) {
-      const x1 = ux[i]!;
-      const y1 = uy[i]!;
-      const after = length[i]!;
-      const cap1 = cap2[i]!;
+      const x1 = ux[i];
+      const y1 = uy[i];
+      const after = length[i];
+      const cap1 = cap2[i];
       const bx = x1 - x0;
       const by = y1 - y0;
       const s = Math.sqrt(bx * bx + by * by) / 2;
@@ -109,26 +109,26 @@ export class BlendPlanner {
     for (let i = n - 1; i > 0; i--) {
       // The shortcut of `solve` for the backward pass, where no limit from before the corner is known yet and
       // the one behind it is not reached.
-      const v = maxSpeed[i]!;
-      const q = 2 * sine[i]! * v;
-      const behind = left + twoA * length[i]!;
+      const v = maxSpeed[i];
+      const q = 2 * sine[i] * v;
+      const behind = left + twoA * length[i];
       if (v * (v + q) <= behind) {
         vIn[i] = vOut[i] = v;
         change[i] = q;
         left = v * (v - q);
       } else {
         corners.solve(i, Infinity, behind, accel);
-        left = vIn[i]! * (vIn[i]! - change[i]!);
+        left = vIn[i] * (vIn[i] - change[i]);
       }
     }
     left = 0;
     for (let i = 1; i < n; i++) {
-      const ahead = left + twoA * length[i - 1]!;
-      if (vIn[i]! * (vIn[i]! + change[i]!) > ahead) {
-        const behind = vIn[i + 1]! * (vIn[i + 1]! - change[i + 1]!) + twoA * length[i]!;
+      const ahead = left + twoA * length[i - 1];
+      if (vIn[i] * (vIn[i] + change[i]) > ahead) {
+        const behind = vIn[i + 1] * (vIn[i + 1] - change[i + 1]) + twoA * length[i];
         corners.solve(i, ahead, behind, accel);
       }
-      left = vOut[i]! * (vOut[i]! - change[i]!);
+      left = vOut[i] * (vOut[i] - change[i]);
     }
   }
 
@@ -142,19 +142,19 @@ export class BlendPlanner {
     // mm of the segment used by the curve of the previous corner.
     let used = 0;
     for (let i = 0; i < n; i++) {
-      const v0 = vOut[i]!;
-      const v1 = vIn[i + 1]!;
-      const after = vOut[i + 1]!;
-      const perMm = drawn[i]! / length[i]!;
+      const v0 = vOut[i];
+      const v1 = vIn[i + 1];
+      const after = vOut[i + 1];
+      const perMm = drawn[i] / length[i];
       // Half the duration of the corner's curve: q/2A. Where the speed is constant from the previous corner
       // to the next, a longer and softer curve takes no more time, so use the full tangent; not for sharp
       // corners.
       const isSteady = v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1;
-      const tau = isSteady && sine[i + 1]! < SHARP ? tangent[i + 1]! / v1 : change[i + 1]! / (2 * accel);
-      const rest = length[i]! - used - v1 * tau;
+      const tau = isSteady && sine[i + 1] < SHARP ? tangent[i + 1] / v1 : change[i + 1] / (2 * accel);
+      const rest = length[i] - used - v1 * tau;
       if (rest > NO_PIECE) {
-        straight.x = x[i]! + ux[i]! * used;
-        straight.y = y[i]! + uy[i]! * used;
+        straight.x = x[i] + ux[i] * used;
+        straight.y = y[i] + uy[i] * used;
         straight.ux = ux[i]!;
         straight.uy = uy[i]!;
         straight.length = rest;
@@ -165,19 +165,19 @@ export class BlendPlanner {
         straight.alongPerMm = perMm;
         writeStraight(straight, accel, out);
       }
-      along += drawn[i]!;
+      along += drawn[i];
       used = after * tau;
       if (tau === 0) continue;
-      const wx = ux[i]! * v1;
-      const wy = uy[i]! * v1;
+      const wx = ux[i] * v1;
+      const wy = uy[i] * v1;
       out.push(
         2 * tau,
-        x[i + 1]! - wx * tau,
-        y[i + 1]! - wy * tau,
+        x[i + 1] - wx * tau,
+        y[i + 1] - wy * tau,
         wx,
         wy,
-        (ux[i + 1]! * after - wx) / (2 * tau),
-        (uy[i + 1]! * after - wy) / (2 * tau),
+        (ux[i + 1] * after - wx) / (2 * tau),
+        (uy[i + 1] * after - wy) / (2 * tau),
         along - v1 * tau * perMm,
       );
     }

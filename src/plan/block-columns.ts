@@ -79,7 +79,7 @@ export class BlockColumns {
   /** Appends block i, which lies beyond the current end. */
   moveToEnd(i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = this;
-    this.push(durationS[i]!, x[i]!, y[i]!, vx[i]!, vy[i]!, ax[i]!, ay[i]!, alongMm[i]!);
+    this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);
   }
 
   /** Sets the jerk of the last block; ignored without jerk columns. */

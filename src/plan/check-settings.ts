@@ -70,7 +70,7 @@ function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
   table: Table,
   values: Readonly<Record<keyof Table, number>>,
 ): void {
-  for (const [key, row] of Object.entries(table)) check(name, row, values[key] as number);
+  for (const [key, row] of Object.entries(table)) check(name, row, values[key]);
 }
 
 /** For an optional setting. */

@@ -86,11 +86,11 @@ export function comeToRest(
 function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: number, pieces: Pieces): number {
   const { runs, durationS, startS } = trajectory;
   let k = blockAt(trajectory, tS);
-  const end = runs.firstBlock[runOf(trajectory, k) + 1]!;
+  const end = runs.firstBlock[runOf(trajectory, k) + 1];
   let v2 = speed2;
-  let t = tS - startS[k]!;
+  let t = tS - startS[k];
   for (; k < end; k++, t = 0) {
-    while (durationS[k]! - t > 1e-9) {
+    while (durationS[k] - t > 1e-9) {
       const next = pieceEnd(trajectory, k, t);
       const lengthMm = blockLength(trajectory, k, next) - blockLength(trajectory, k, t);
       const curvature = maxCurvature(trajectory, k, t, next);
@@ -102,17 +102,17 @@ function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: num
       if (brake.stopMm <= lengthMm) {
         const until = timeAfter(trajectory, k, t, next, brake.stopMm);
         addPiece(from, blockState(trajectory, k, until, newState()), brake.stopMm, v2, 0, pieces);
-        return startS[k]! + until;
+        return startS[k] + until;
       }
       const to = blockState(trajectory, k, next, newState());
       const end2 = Math.min(brake.speed2After(lengthMm), to.vx * to.vx + to.vy * to.vy);
       addPiece(from, to, lengthMm, v2, end2, pieces);
-      if (end2 <= REST_SPEED * REST_SPEED) return startS[k]! + next;
+      if (end2 <= REST_SPEED * REST_SPEED) return startS[k] + next;
       v2 = end2;
       t = next;
     }
   }
-  return startS[end - 1]! + durationS[end - 1]!;
+  return startS[end - 1] + durationS[end - 1];
 }
 
 /** Braking along a circle of constant curvature, within the friction circle of `accel`. */
@@ -138,7 +138,7 @@ class Brake {
 /** The end of a piece that starts at `t` in block `k`, short enough that the path turns by little. */
 function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
   const from = blockState(trajectory, k, t, newState());
-  const leftS = trajectory.durationS[k]! - t;
+  const leftS = trajectory.durationS[k] - t;
   let stepS = Math.min(PIECE_S, leftS);
   for (; stepS > SHORTEST_PIECE_S; stepS /= 2) {
     const to = blockState(trajectory, k, t + stepS, newState());
@@ -146,7 +146,7 @@ function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
     if (Math.abs(turn) <= PIECE_TURN) break;
   }
   // Do not leave a remainder too short to be a piece.
-  return leftS - stepS < SHORTEST_PIECE_S ? trajectory.durationS[k]! : t + stepS;
+  return leftS - stepS < SHORTEST_PIECE_S ? trajectory.durationS[k] : t + stepS;
 }
 
 /** The largest curvature of block `k` from `t` to `until`, 1/mm, sampled at three points. */
@@ -210,8 +210,8 @@ function finish(
 ): RestPlan {
   const count = pieces.durationS.length;
   const startS = new Float64Array(count);
-  for (let k = 1; k < count; k++) startS[k] = startS[k - 1]! + pieces.durationS[k - 1]!;
-  const motionS = count > 0 ? startS[count - 1]! + pieces.durationS[count - 1]! : 0;
+  for (let k = 1; k < count; k++) startS[k] = startS[k - 1] + pieces.durationS[k - 1];
+  const motionS = count > 0 ? startS[count - 1] + pieces.durationS[count - 1] : 0;
   const runCount = count > 0 ? 1 : 0;
   const lifts = pen !== null && !isPenUpBefore(original, planS);
   const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
@@ -249,7 +249,7 @@ function blockAt(trajectory: Trajectory, tS: number): number {
   let high = trajectory.blockCount;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (trajectory.startS[middle]! <= tS) low = middle;
+    if (trajectory.startS[middle] <= tS) low = middle;
     else high = middle;
   }
   return low;
@@ -261,7 +261,7 @@ function runOf(trajectory: Trajectory, block: number): number {
   let high = count;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (firstBlock[middle]! <= block) low = middle;
+    if (firstBlock[middle] <= block) low = middle;
     else high = middle;
   }
   return low;

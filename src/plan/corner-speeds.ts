@@ -44,8 +44,8 @@ export class CornerSpeeds {
 
   /** Sets v0, v1 and q of corner i. F and B must be positive. */
   solve(i: number, F: number, B: number, accel: number): void {
-    const maxSpeed = this.maxSpeed[i]!;
-    const s = this.sine[i]!;
+    const maxSpeed = this.maxSpeed[i];
+    const s = this.sine[i];
     const change = 2 * s * maxSpeed;
     const through = maxSpeed * (maxSpeed + change);
     if (through <= F && through <= B) {
@@ -62,9 +62,9 @@ export class CornerSpeeds {
    * over and the steps would oscillate.
    */
   private search(corner: number, F: number, B: number, accel: number): void {
-    const s = this.sine[corner]!;
-    const maxSpeed = this.maxSpeed[corner]!;
-    const reach = 2 * accel * this.tangent[corner]!;
+    const s = this.sine[corner];
+    const maxSpeed = this.maxSpeed[corner];
+    const reach = 2 * accel * this.tangent[corner];
     const c = 1 - 2 * s * s;
     let low = 0;
     let high = 2 * maxSpeed;

@@ -43,19 +43,19 @@ export function limitJunctions(path: RunPath, accel: number, deviation: number):
   let curveBefore = 0;
   v2[0] = 0;
   for (let i = 1; i < n; i++) {
-    const x0 = ux[i - 1]!;
-    const y0 = uy[i - 1]!;
-    const x1 = ux[i]!;
-    const y1 = uy[i]!;
+    const x0 = ux[i - 1];
+    const y0 = uy[i - 1];
+    const x1 = ux[i];
+    const y1 = uy[i];
     const s2 = ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)) / 4;
-    let limit = cap2[i - 1]! < cap2[i]! ? cap2[i - 1]! : cap2[i]!;
+    let limit = cap2[i - 1] < cap2[i] ? cap2[i - 1] : cap2[i];
     let curve = 0;
     if (s2 > STRAIGHT) {
       const c2 = ((x1 + x0) * (x1 + x0) + (y1 + y0) * (y1 + y0)) / 4;
       const c = Math.sqrt(c2);
       const deviationLimit = (accelDeviation * c * (1 + c)) / s2;
       if (deviationLimit < limit) limit = deviationLimit;
-      const shorter = length[i - 1]! < length[i]! ? length[i - 1]! : length[i]!;
+      const shorter = length[i - 1] < length[i] ? length[i - 1] : length[i];
       const tangentLimit = (halfAccel * shorter * c) / Math.sqrt(s2);
       if (tangentLimit < limit) {
         limit = tangentLimit;

@@ -68,16 +68,16 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   const weights = Float64Array.from(taps, ({ weight }) => weight);
   const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
   const since = new Float64Array(n);
-  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]!));
+  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]));
   const isIntegral = kernel.of === "integral";
-  let x = px[0]!;
-  let y = py[0]!;
-  let along = from.alongMm[0]!;
+  let x = px[0];
+  let y = py[0];
+  let along = from.alongMm[0];
   for (;;) {
     let dt = Infinity;
     let isOneBlock = true;
     for (let i = 0; i < n; i++) {
-      if (left[i]! < dt) dt = left[i]!;
+      if (left[i] < dt) dt = left[i]!;
       if (block[i] !== block[0]) isOneBlock = false;
     }
     if (dt === Infinity) break;
@@ -91,44 +91,44 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
     let alongA = 0;
     let alongJ = 0;
     for (let i = 0; i < n; i++) {
-      const k = block[i]!;
-      const t = since[i]!;
-      const weight = weights[i]!;
-      const ax1 = pax[k]!;
-      const ay1 = pay[k]!;
-      const vx1 = pvx[k]! + t * ax1;
-      const vy1 = pvy[k]! + t * ay1;
-      const alongV1 = rate[k]! + t * change[k]!;
+      const k = block[i];
+      const t = since[i];
+      const weight = weights[i];
+      const ax1 = pax[k];
+      const ay1 = pay[k];
+      const vx1 = pvx[k] + t * ax1;
+      const vy1 = pvy[k] + t * ay1;
+      const alongV1 = rate[k] + t * change[k];
       if (isIntegral) {
         // The weights sum to zero, so positions are taken relative to the output's position: this keeps
         // precision far from the origin.
-        vx += weight * (px[k]! - x + (t * (pvx[k]! + vx1)) / 2);
-        vy += weight * (py[k]! - y + (t * (pvy[k]! + vy1)) / 2);
+        vx += weight * (px[k] - x + (t * (pvx[k] + vx1)) / 2);
+        vy += weight * (py[k] - y + (t * (pvy[k] + vy1)) / 2);
         ax += weight * vx1;
         ay += weight * vy1;
         jx += weight * ax1;
         jy += weight * ay1;
-        alongV += weight * (alongMm[k]! - along + (t * (rate[k]! + alongV1)) / 2);
+        alongV += weight * (alongMm[k] - along + (t * (rate[k] + alongV1)) / 2);
         alongA += weight * alongV1;
-        alongJ += weight * change[k]!;
+        alongJ += weight * change[k];
       } else {
         vx += weight * vx1;
         vy += weight * vy1;
         ax += weight * ax1;
         ay += weight * ay1;
         alongV += weight * alongV1;
-        alongA += weight * change[k]!;
+        alongA += weight * change[k];
       }
     }
     if (isOneBlock) {
       // Within a single block the mean is known exactly; rounding errors of differences would add up over a
       // long block.
-      const k = block[0]!;
-      const t = since[0]! - meanDelayS;
+      const k = block[0];
+      const t = since[0] - meanDelayS;
       ax = pax[k]!;
       ay = pay[k]!;
-      vx = pvx[k]! + t * ax;
-      vy = pvy[k]! + t * ay;
+      vx = pvx[k] + t * ax;
+      vy = pvy[k] + t * ay;
       jx = jy = 0;
     }
     if (dt > 2 * SAME_S) {
@@ -139,20 +139,20 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
     along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));
     for (let i = 0; i < n; i++) {
-      since[i]! += dt;
-      left[i]! -= dt;
-      if (left[i]! > SAME_S) continue;
+      since[i] += dt;
+      left[i] -= dt;
+      if (left[i] > SAME_S) continue;
       // Block 0 follows the rest before the start.
-      block[i] = block[i]! > count ? 0 : block[i]! + 1;
+      block[i] = block[i] > count ? 0 : block[i] + 1;
       since[i] = 0;
-      left[i] = durationS[block[i]!]!;
+      left[i] = durationS[block[i]]!;
     }
   }
 }
 
 /** Adds two rows after the last block: at rest at the end of the run, and at rest at its start. */
 function addRests(from: BlockColumns, end: RunEnd): void {
-  const [x0, y0, along0] = [from.x[0]!, from.y[0]!, from.alongMm[0]!];
+  const [x0, y0, along0] = [from.x[0], from.y[0], from.alongMm[0]];
   from.push(Infinity, end.x, end.y, 0, 0, 0, 0, end.alongMm);
   from.push(Infinity, x0, y0, 0, 0, 0, 0, along0);
 }
@@ -166,10 +166,10 @@ function alongRates(
   const change = new Float64Array(count + 2);
   let v1 = 0;
   for (let k = count - 1; k >= 0; k--) {
-    const v0 = Math.sqrt(vx[k]! * vx[k]! + vy[k]! * vy[k]!);
-    const perMm = v0 + v1 > 0 ? (2 * (alongMm[k + 1]! - alongMm[k]!)) / ((v0 + v1) * durationS[k]!) : 0;
+    const v0 = Math.sqrt(vx[k] * vx[k] + vy[k] * vy[k]);
+    const perMm = v0 + v1 > 0 ? (2 * (alongMm[k + 1] - alongMm[k])) / ((v0 + v1) * durationS[k]) : 0;
     rate[k] = perMm * v0;
-    change[k] = (perMm * (v1 - v0)) / durationS[k]!;
+    change[k] = (perMm * (v1 - v0)) / durationS[k];
     v1 = v0;
   }
   return { rate, change };

@@ -20,10 +20,10 @@ export function writeJunctionRun(path: RunPath, limits: RunLimits, out: BlockCol
     straight.ux = ux[i]!;
     straight.uy = uy[i]!;
     straight.length = length[i]!;
-    straight.v0 = Math.sqrt(v2[i]!);
-    straight.v1 = Math.sqrt(v2[i + 1]!);
+    straight.v0 = Math.sqrt(v2[i]);
+    straight.v1 = Math.sqrt(v2[i + 1]);
     straight.cap2 = cap2[i]!;
     writeStraight(straight, limits.accel, out);
-    straight.alongMm += length[i]!;
+    straight.alongMm += length[i];
   }
 }

@@ -76,25 +76,25 @@ export class LeastBending {
    */
   private begin(n: number, length: Float64Array): void {
     const { low, high, turn, rows } = this;
-    let before = length[0]!;
+    let before = length[0];
     let a = 1 / before;
-    let free1 = isFree(low[1]!, high[1]!);
-    let y0 = low[0]!;
-    let y1 = (1 - free1) * low[1]!;
+    let free1 = isFree(low[1], high[1]);
+    let y0 = low[0];
+    let y1 = (1 - free1) * low[1];
     rows[WEIGHT] = rows[BENDING] = rows[FREE] = 0;
     rows[PER_LENGTH] = a;
     let r = FIELDS;
     for (let i = 1; i < n; i++, r += FIELDS) {
-      const after = length[i]!;
+      const after = length[i];
       const c = 1 / after;
       const max = Math.max(a, c);
       const weight = ((before + after) / 2) * max * max;
-      const low2 = low[i + 1]!;
-      const high2 = high[i + 1]!;
+      const low2 = low[i + 1];
+      const high2 = high[i + 1];
       const free2 = isFree(low2, high2);
       const y2 = (1 - free2) * low2;
       rows[r + WEIGHT] = weight;
-      rows[r + BENDING] = weight * (turn[i]! + (y2 - y1) * c - (y1 - y0) * a);
+      rows[r + BENDING] = weight * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
       rows[r + FREE] = free1;
       rows[r + PER_LENGTH] = c;
       rows[r + FIELDS + LOW] = low2;
@@ -141,12 +141,12 @@ export class LeastBending {
     let a = 0;
     for (let r = 0; r < FIELDS * n; r += FIELDS) {
       const next = r + FIELDS;
-      const c = rows[r + PER_LENGTH]!;
-      const free2 = rows[next + FREE]!;
-      const weight2 = rows[next + WEIGHT]!;
-      const bending2 = rows[next + BENDING]!;
-      const e = rows[next + PER_LENGTH]!;
-      const free3 = rows[next + FIELDS + FREE]!;
+      const c = rows[r + PER_LENGTH];
+      const free2 = rows[next + FREE];
+      const weight2 = rows[next + WEIGHT];
+      const bending2 = rows[next + BENDING];
+      const e = rows[next + PER_LENGTH];
+      const free3 = rows[next + FIELDS + FREE];
       const around = a + c;
       const own = weight1 * around;
       const before = weight0 * a;
@@ -192,15 +192,15 @@ export class LeastBending {
     let x1 = 0;
     let x2 = 0;
     for (let r = FIELDS * (n - 1); r > 0; r -= FIELDS) {
-      const x = rows[r + HALFWAY]! * rows[r + INVERSE]! - rows[r + BELOW2]! * x2 - rows[r + BELOW1]! * x1;
+      const x = rows[r + HALFWAY] * rows[r + INVERSE] - rows[r + BELOW2] * x2 - rows[r + BELOW1] * x1;
       x2 = x1;
       x1 = x;
-      const low = rows[r + LOW]!;
-      const high = rows[r + HIGH]!;
-      const free = RELAXATION * x + rows[r + CARRY]!;
+      const low = rows[r + LOW];
+      const high = rows[r + HIGH];
+      const free = RELAXATION * x + rows[r + CARRY];
       const y = Math.min(high, Math.max(low, free));
       rows[r + CARRY] = free - RELAXATION * y;
-      rows[r + HALFWAY] = rows[r + RIGHT]! + rows[r + HELD]! * (2 * y - free);
+      rows[r + HALFWAY] = rows[r + RIGHT] + rows[r + HELD] * (2 * y - free);
     }
   }
 
@@ -214,7 +214,7 @@ export class LeastBending {
     let below2 = 0;
     let below2Before = 0;
     for (let r = FIELDS; r < FIELDS * n; r += FIELDS) {
-      const s = rows[r + HALFWAY]! - below2Before * s2 - below1 * s1;
+      const s = rows[r + HALFWAY] - below2Before * s2 - below1 * s1;
       rows[r + HALFWAY] = s;
       s2 = s1;
       s1 = s;
@@ -232,12 +232,12 @@ export class LeastBending {
     let x1 = 0;
     let x2 = 0;
     for (let i = n - 1, r = FIELDS * i; i > 0; i--, r -= FIELDS) {
-      const x = rows[r + HALFWAY]! * rows[r + INVERSE]! - rows[r + BELOW2]! * x2 - rows[r + BELOW1]! * x1;
+      const x = rows[r + HALFWAY] * rows[r + INVERSE] - rows[r + BELOW2] * x2 - rows[r + BELOW1] * x1;
       x2 = x1;
       x1 = x;
-      const free = RELAXATION * x + rows[r + CARRY]!;
-      const low = rows[r + LOW]!;
-      const high = rows[r + HIGH]!;
+      const free = RELAXATION * x + rows[r + CARRY];
+      const low = rows[r + LOW];
+      const high = rows[r + HIGH];
       y[i] = Math.min(high, Math.max(low, free));
     }
   }

@@ -88,9 +88,9 @@ export function capSegments(path: RunPath, limits: RunLimits): void {
   }
   if (isWithinMotors(limits)) return;
   for (let i = 0; i < n; i++) {
-    const ax = Math.abs(ux[i]!);
-    const ay = Math.abs(uy[i]!);
+    const ax = Math.abs(ux[i]);
+    const ay = Math.abs(uy[i]);
     const motor = limits.motorSpeed / (limits.mixed ? ax + ay : Math.max(ax, ay));
-    if (motor * motor < cap2[i]!) cap2[i] = motor * motor;
+    if (motor * motor < cap2[i]) cap2[i] = motor * motor;
   }
 }

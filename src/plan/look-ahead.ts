@@ -15,16 +15,16 @@
  */
 export function lookAhead(v2: Float64Array, length: Float64Array, segmentCount: number, accel: number): void {
   const twoA = 2 * accel;
-  let next = v2[segmentCount]!;
+  let next = v2[segmentCount];
   for (let i = segmentCount - 1; i >= 0; i--) {
-    const reachable = next + twoA * length[i]!;
-    if (v2[i]! > reachable) v2[i] = reachable;
+    const reachable = next + twoA * length[i];
+    if (v2[i] > reachable) v2[i] = reachable;
     next = v2[i]!;
   }
-  let previous = v2[0]!;
+  let previous = v2[0];
   for (let i = 0; i < segmentCount; i++) {
-    const reachable = previous + twoA * length[i]!;
-    if (v2[i + 1]! > reachable) v2[i + 1] = reachable;
+    const reachable = previous + twoA * length[i];
+    if (v2[i + 1] > reachable) v2[i + 1] = reachable;
     previous = v2[i + 1]!;
   }
 }

@@ -126,7 +126,7 @@ function pairOver(
   rules: MergeRules,
 ): Pair | null {
   if (!isWorth(blocks, i, m, rules.floorS)) return null;
-  const plannedS = blocks.startS[m]! - blocks.startS[i]!;
+  const plannedS = blocks.startS[m] - blocks.startS[i];
   const pair =
     pairIn(plannedS, blocks, i, m, limits) ?? pairIn(plannedS * (1 + STRETCH), blocks, i, m, limits);
   return pair !== null && isNear(blocks, i, pair, limits, rules) ? pair : null;
@@ -138,12 +138,12 @@ function pairOver(
  */
 function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limits: RunLimits): Pair | null {
   const { x, y, vx, vy } = blocks;
-  const vx0 = vx[i]!;
-  const vy0 = vy[i]!;
-  const vx1 = vx[m]!;
-  const vy1 = vy[m]!;
-  const wx = (2 * (x[m]! - x[i]!)) / wholeS - (vx0 + vx1) / 2;
-  const wy = (2 * (y[m]! - y[i]!)) / wholeS - (vy0 + vy1) / 2;
+  const vx0 = vx[i];
+  const vy0 = vy[i];
+  const vx1 = vx[m];
+  const vy1 = vy[m];
+  const wx = (2 * (x[m] - x[i])) / wholeS - (vx0 + vx1) / 2;
+  const wy = (2 * (y[m] - y[i])) / wholeS - (vy0 + vy1) / 2;
   const halfS = wholeS / 2;
   const maxChange = limits.accel * SLACK * halfS;
   const isWithin =
@@ -163,10 +163,10 @@ const isShorter = (x: number, y: number, maxLength: number): boolean =>
  * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.
  */
 function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
-  const wholeS = startS[m]! - startS[i]!;
+  const wholeS = startS[m] - startS[i];
   if (wholeS > LONGEST_S) return false;
   if (m - i >= MIN_GROUP) return true;
-  return m - i === 2 && wholeS >= 2 * floorS && Math.min(durationS[i]!, durationS[i + 1]!) < floorS;
+  return m - i === 2 && wholeS >= 2 * floorS && Math.min(durationS[i], durationS[i + 1]) < floorS;
 }
 
 /**
@@ -183,40 +183,39 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
   const { end: m, halfS, wx, wy } = pair;
   const { accel } = limits;
   const tolerance = rules.toleranceMm;
-  const x0 = x[i]!;
-  const y0 = y[i]!;
-  const vx0 = vx[i]!;
-  const vy0 = vy[i]!;
+  const x0 = x[i];
+  const y0 = y[i];
+  const vx0 = vx[i];
+  const vy0 = vy[i];
   const a1x = (wx - vx0) / halfS;
   const a1y = (wy - vy0) / halfS;
-  const x1 = x[m]!;
-  const y1 = y[m]!;
-  const vx1 = vx[m]!;
-  const vy1 = vy[m]!;
+  const x1 = x[m];
+  const y1 = y[m];
+  const vx1 = vx[m];
+  const vy1 = vy[m];
   const a2x = (vx1 - wx) / halfS;
   const a2y = (vy1 - wy) / halfS;
   const wholeS = 2 * halfS;
-  const start = startS[i]!;
-  const stretch = wholeS / (startS[m]! - start);
+  const start = startS[i];
+  const stretch = wholeS / (startS[m] - start);
   const slow2 = rules.isSmooth ? 16 * tolerance * accel : Infinity;
   for (let k = i; k < m; k++) {
-    const d = durationS[k]!;
-    const t = (startS[k]! - start) * stretch;
+    const d = durationS[k];
+    const t = (startS[k] - start) * stretch;
     const isFirst = t < halfS;
     const u = isFirst ? t : t - wholeS;
-    const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k]! : x1 + u * (vx1 + (u * a2x) / 2) - x[k]!;
-    const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k]! : y1 + u * (vy1 + (u * a2y) / 2) - y[k]!;
+    const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k] : x1 + u * (vx1 + (u * a2x) / 2) - x[k];
+    const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k] : y1 + u * (vy1 + (u * a2y) / 2) - y[k];
     // In the block that contains the pair's middle, use the half whose acceleration differs more.
     const hasKnot = isFirst && t + d > halfS;
-    const isMoreLater =
-      hasKnot && lengthOf(a2x - ax[k]!, a2y - ay[k]!) > lengthOf(a1x - ax[k]!, a1y - ay[k]!);
+    const isMoreLater = hasKnot && lengthOf(a2x - ax[k], a2y - ay[k]) > lengthOf(a1x - ax[k], a1y - ay[k]);
     const countsFirst = isFirst && !isMoreLater;
-    const ex = (((countsFirst ? a1x : a2x) - ax[k]!) * d * d) / 8;
-    const ey = (((countsFirst ? a1y : a2y) - ay[k]!) * d * d) / 8;
+    const ex = (((countsFirst ? a1x : a2x) - ax[k]) * d * d) / 8;
+    const ey = (((countsFirst ? a1y : a2y) - ay[k]) * d * d) / 8;
     const rest = tolerance - Math.abs(ex) - Math.abs(ey);
     if (rest > 0 && dx * dx + dy * dy <= rest * rest) continue;
-    const ux = vx[k]!;
-    const uy = vy[k]!;
+    const ux = vx[k];
+    const uy = vy[k];
     const v2 = ux * ux + uy * uy;
     if (v2 < slow2) return false;
     const across = Math.abs(dx * uy - dy * ux) + Math.abs(ex * uy - ey * ux);
@@ -228,13 +227,13 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
 
 function writePair(blocks: BlockColumns, i: number, { end: m, halfS, wx, wy }: Pair): void {
   const { x, y, vx, vy, alongMm } = blocks;
-  const [x0, y0, vx0, vy0, along] = [x[i]!, y[i]!, vx[i]!, vy[i]!, alongMm[i]!];
-  const [vx1, vy1] = [vx[m]!, vy[m]!];
+  const [x0, y0, vx0, vy0, along] = [x[i], y[i], vx[i], vy[i], alongMm[i]];
+  const [vx1, vy1] = [vx[m], vy[m]];
   const middle = lengthOf(wx, wy);
   const first = lengthOf(vx0, vy0) + middle;
   const second = middle + lengthOf(vx1, vy1);
   const share = first > 0 ? first / (first + second) : 0;
-  const halfway = along + share * (alongMm[m]! - along);
+  const halfway = along + share * (alongMm[m] - along);
   blocks.push(halfS, x0, y0, vx0, vy0, (wx - vx0) / halfS, (wy - vy0) / halfS, along);
   const kx = x0 + (halfS * (vx0 + wx)) / 2;
   const ky = y0 + (halfS * (vy0 + wy)) / 2;

@@ -35,11 +35,11 @@ export class PenMoveWriter implements PenMoveColumns {
 }
 
 export const penMoveAt = (moves: PenMoveColumns, i: number): PenMove => ({
-  beforeRun: moves.beforeRun[i]!,
+  beforeRun: moves.beforeRun[i],
   up: moves.up[i] === 1,
-  startS: moves.startS[i]!,
-  waitS: moves.waitS[i]!,
-  heightPct: moves.heightPct[i]!,
+  startS: moves.startS[i],
+  waitS: moves.waitS[i],
+  heightPct: moves.heightPct[i],
 });
 
 export const penMovesOf = ({ penMoves }: { readonly penMoves: PenMoveColumns }): PenMove[] =>
@@ -57,7 +57,6 @@ const SAME_TIME_S = 1e-7;
 /** True if the last pen move before `tS` lifts the pen, or there is none. */
 export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
   let up = true;
-  for (let i = 0; i < penMoves.count && penMoves.startS[i]! < tS - SAME_TIME_S; i++)
-    up = penMoves.up[i] === 1;
+  for (let i = 0; i < penMoves.count && penMoves.startS[i] < tS - SAME_TIME_S; i++) up = penMoves.up[i] === 1;
   return up;
 }

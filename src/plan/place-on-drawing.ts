@@ -26,8 +26,8 @@ export function movedPlace(
 
 export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): number {
   let lengthMm = 0;
-  for (let i = offsets[stroke]! + 1; i < offsets[stroke + 1]!; i++) {
-    lengthMm += Math.hypot(xy[2 * i]! - xy[2 * i - 2]!, xy[2 * i + 1]! - xy[2 * i - 1]!);
+  for (let i = offsets[stroke] + 1; i < offsets[stroke + 1]; i++) {
+    lengthMm += Math.hypot(xy[2 * i] - xy[2 * i - 2], xy[2 * i + 1] - xy[2 * i - 1]);
   }
   return lengthMm;
 }
@@ -35,19 +35,19 @@ export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): numb
 /** The point of the drawing at a place, mm. */
 export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: number; y: number } {
   let leftMm = place.alongMm;
-  const end = offsets[place.stroke + 1]! - 1;
-  for (let i = offsets[place.stroke]!; i < end; i++) {
-    const x = xy[2 * i]!;
-    const y = xy[2 * i + 1]!;
-    const dx = xy[2 * i + 2]! - x;
-    const dy = xy[2 * i + 3]! - y;
+  const end = offsets[place.stroke + 1] - 1;
+  for (let i = offsets[place.stroke]; i < end; i++) {
+    const x = xy[2 * i];
+    const y = xy[2 * i + 1];
+    const dx = xy[2 * i + 2] - x;
+    const dy = xy[2 * i + 3] - y;
     const lengthMm = Math.hypot(dx, dy);
     if (leftMm <= lengthMm && lengthMm > 0) {
       return { x: x + (dx * leftMm) / lengthMm, y: y + (dy * leftMm) / lengthMm };
     }
     leftMm -= lengthMm;
   }
-  return { x: xy[2 * end]!, y: xy[2 * end + 1]! };
+  return { x: xy[2 * end], y: xy[2 * end + 1] };
 }
 
 /** A pen's place, mm, and velocity, mm/s. */
@@ -71,17 +71,17 @@ export function snappedPlace(
   withinMm: number,
 ): Place {
   const { stroke, alongMm } = place;
-  const [first, end] = [offsets[stroke]!, offsets[stroke + 1]! - 1];
+  const [first, end] = [offsets[stroke], offsets[stroke + 1] - 1];
   const lengthOf = (i: number): number =>
-    Math.hypot(xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!);
+    Math.hypot(xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]);
   if (first >= end) return place;
   let i = first;
   let fromMm = 0;
   while (i + 1 < end && fromMm + lengthOf(i) < alongMm) fromMm += lengthOf(i++);
   for (let way = 0; ;) {
     const lengthMm = lengthOf(i);
-    const [dx, dy] = [xy[2 * i + 2]! - xy[2 * i]!, xy[2 * i + 3]! - xy[2 * i + 1]!];
-    const dot = (x - xy[2 * i]!) * dx + (y - xy[2 * i + 1]!) * dy;
+    const [dx, dy] = [xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]];
+    const dot = (x - xy[2 * i]) * dx + (y - xy[2 * i + 1]) * dy;
     const footMm = lengthMm > 0 ? dot / lengthMm : way;
     const next = footMm > lengthMm ? 1 : footMm < 0 ? -1 : 0;
     const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));

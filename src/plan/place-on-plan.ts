@@ -8,10 +8,10 @@ const SAME_TIME_S = 1e-7;
 export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
   const { runs } = trajectory;
   for (let run = 0; run < runs.count; run++) {
-    if (runs.stroke[run]! < 0 || runs.startS[run]! < planS - SAME_TIME_S) continue;
-    const block = runs.firstBlock[run]!;
+    if (runs.stroke[run] < 0 || runs.startS[run] < planS - SAME_TIME_S) continue;
+    const block = runs.firstBlock[run];
     const isDot = runs.firstBlock[run + 1] === block;
-    return { stroke: runs.stroke[run]!, alongMm: isDot ? 0 : trajectory.alongMm[block]! };
+    return { stroke: runs.stroke[run], alongMm: isDot ? 0 : trajectory.alongMm[block] };
   }
   return null;
 }

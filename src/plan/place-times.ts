@@ -7,7 +7,7 @@ export class PlaceTimes {
   constructor(private readonly trajectory: Trajectory) {
     const { runs } = trajectory;
     for (let run = 0; run < runs.count; run++) {
-      if (runs.stroke[run]! >= 0) this.runOfStroke.set(runs.stroke[run]!, run);
+      if (runs.stroke[run] >= 0) this.runOfStroke.set(runs.stroke[run], run);
     }
   }
 
@@ -22,17 +22,17 @@ export class PlaceTimes {
     const run = this.runOfStroke.get(place.stroke);
     if (run === undefined) return null;
     const { alongMm, startS, durationS, runs } = this.trajectory;
-    let low = runs.firstBlock[run]!;
-    let high = runs.firstBlock[run + 1]!;
-    if (low === high) return runs.startS[run]!;
+    let low = runs.firstBlock[run];
+    let high = runs.firstBlock[run + 1];
+    if (low === high) return runs.startS[run];
     const lastBlock = high - 1;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
-      if (alongMm[middle]! <= place.alongMm) low = middle;
+      if (alongMm[middle] <= place.alongMm) low = middle;
       else high = middle;
     }
-    const spanMm = low < lastBlock ? alongMm[low + 1]! - alongMm[low]! : 0;
-    const share = spanMm > 0 ? Math.min(1, Math.max(0, (place.alongMm - alongMm[low]!) / spanMm)) : 0;
-    return startS[low]! + share * durationS[low]!;
+    const spanMm = low < lastBlock ? alongMm[low + 1] - alongMm[low] : 0;
+    const share = spanMm > 0 ? Math.min(1, Math.max(0, (place.alongMm - alongMm[low]) / spanMm)) : 0;
+    return startS[low] + share * durationS[low];
   }
 }

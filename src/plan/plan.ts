@@ -159,24 +159,24 @@ class PlanBuilder {
    */
   draw(stroke: number, fromAlong: number, penBesideMm: number): void {
     const { path, strokes, motion } = this;
-    path.load(strokes.xy, strokes.offsets[stroke]!, strokes.offsets[stroke + 1]!, fromAlong);
+    path.load(strokes.xy, strokes.offsets[stroke], strokes.offsets[stroke + 1], fromAlong);
     if (fromAlong > 0 && path.segmentCount === 0) return;
-    const layer = strokes.layer[stroke]!;
-    const place = Math.hypot(path.x[0]! - this.x, path.y[0]! - this.y);
+    const layer = strokes.layer[stroke];
+    const place = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
     if (fromAlong > 0 && place >= SHORTEST_MM && place < penBesideMm) path.comeFrom(this.x, this.y);
-    const x = path.x[0]!;
-    const y = path.y[0]!;
+    const x = path.x[0];
+    const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
     if (layer !== this.lastLayer || gap >= SHORTEST_MM) this.lift(layer === this.lastLayer ? gap : Infinity);
     this.travel(x, y);
-    if (fromAlong === 0 && this.beginsLayer(stroke)) this.wait(this.waitsS[layer]!);
+    if (fromAlong === 0 && this.beginsLayer(stroke)) this.wait(this.waitsS[layer]);
     this.lastLayer = layer;
     path.startAt(this.x, this.y);
     this.pen = this.pens[layer]!;
     this.drop();
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
-    this.writer.write(path, this.drawLimits[layer]!, this.blocks);
+    this.writer.write(path, this.drawLimits[layer], this.blocks);
     this.x = path.x[path.segmentCount]!;
     this.y = path.y[path.segmentCount]!;
   }

@@ -65,8 +65,8 @@ export class RunPath {
     this.easeUntil = 0;
     this.easeFrom = Infinity;
     const { x, y, length, ux, uy } = this;
-    let px = xy[2 * first]!;
-    let py = xy[2 * first + 1]!;
+    let px = xy[2 * first];
+    let py = xy[2 * first + 1];
     if (!(Math.abs(px) + Math.abs(py) < Infinity)) throw notFinite(first, px, py);
     let n = 0;
     let left = fromAlong;
@@ -74,8 +74,8 @@ export class RunPath {
     x[0] = px;
     y[0] = py;
     for (let i = first + 1; i < end; i++) {
-      const qx = xy[2 * i]!;
-      const qy = xy[2 * i + 1]!;
+      const qx = xy[2 * i];
+      const qy = xy[2 * i + 1];
       let dx = qx - px;
       let dy = qy - py;
       let l = Math.sqrt(dx * dx + dy * dy);
@@ -122,8 +122,8 @@ export class RunPath {
   measure(): void {
     const { segmentCount: n, x, y, length, ux, uy } = this;
     for (let i = 0; i < n; i++) {
-      const dx = x[i + 1]! - x[i]!;
-      const dy = y[i + 1]! - y[i]!;
+      const dx = x[i + 1] - x[i];
+      const dy = y[i + 1] - y[i];
       const l = Math.sqrt(dx * dx + dy * dy);
       const per = 1 / l;
       length[i] = l;
@@ -137,10 +137,10 @@ export class RunPath {
     this.x[0] = x;
     this.y[0] = y;
     if (this.segmentCount === 0) return;
-    const l = Math.hypot(this.x[1]! - x, this.y[1]! - y);
+    const l = Math.hypot(this.x[1] - x, this.y[1] - y);
     this.length[0] = l;
-    this.ux[0] = (this.x[1]! - x) / l;
-    this.uy[0] = (this.y[1]! - y) / l;
+    this.ux[0] = (this.x[1] - x) / l;
+    this.uy[0] = (this.y[1] - y) / l;
   }
 
   /**
@@ -154,18 +154,18 @@ export class RunPath {
     this.x[0] = x;
     this.y[0] = y;
     this.startAt(x, y);
-    this.startAlong = Math.max(0, this.startAlong - this.length[0]!);
+    this.startAlong = Math.max(0, this.startAlong - this.length[0]);
   }
 
   end(): RunEnd {
     const { segmentCount: n } = this;
-    return { x: this.x[n]!, y: this.y[n]!, alongMm: this.endAlong(), segmentCount: n };
+    return { x: this.x[n], y: this.y[n], alongMm: this.endAlong(), segmentCount: n };
   }
 
   /** mm along the whole stroke at the last point. */
   private endAlong(): number {
     let along = this.startAlong;
-    for (let i = 0; i < this.segmentCount; i++) along += this.length[i]!;
+    for (let i = 0; i < this.segmentCount; i++) along += this.length[i];
     return along;
   }
 
@@ -186,14 +186,14 @@ export class RunPath {
     const { x, y, length, ux, uy } = this;
     let i = 0;
     let left = mm;
-    while (i < this.segmentCount - 1 && left > length[i]!) left -= length[i++]!;
+    while (i < this.segmentCount - 1 && left > length[i]) left -= length[i++];
     if (left < 2 * SHORTEST_MM) return i;
-    if (length[i]! - left < 2 * SHORTEST_MM) return i + 1;
+    if (length[i] - left < 2 * SHORTEST_MM) return i + 1;
     for (const column of [x, y]) column.copyWithin(i + 2, i + 1, this.segmentCount + 1);
     for (const column of [length, ux, uy]) column.copyWithin(i + 1, i, this.segmentCount);
-    x[i + 1] = x[i]! + ux[i]! * left;
-    y[i + 1] = y[i]! + uy[i]! * left;
-    length[i + 1] = length[i]! - left;
+    x[i + 1] = x[i] + ux[i] * left;
+    y[i + 1] = y[i] + uy[i] * left;
+    length[i + 1] = length[i] - left;
     length[i] = left;
     this.segmentCount++;
     return i + 1;

@@ -45,8 +45,8 @@ function forLine(limits: RunLimits): FilteredPlan {
 function forStraight(path: RunPath, limits: RunLimits): FilteredPlan {
   const { jerk } = limits;
   capSegments(path, limits);
-  const top = Math.sqrt(path.cap2[0]!);
-  const length = path.length[0]!;
+  const top = Math.sqrt(path.cap2[0]);
+  const length = path.length[0];
   const accel = Math.min(limits.accel, Math.cbrt((length * jerk * jerk) / 2), Math.sqrt(top * jerk));
   const width = accel / jerk;
   // v/A' to accelerate, the same to brake, and w at speed v: v²/A' + v w = L.

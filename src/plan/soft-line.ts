@@ -107,9 +107,9 @@ export class SoftLine {
    * such that the curve passes within `room`. (bx, by) is u1 − u0, of length 2 s.
    */
   reach(i: number, bx: number, by: number, s: number, half: number): number {
-    const dx = this.shiftX[i]!;
-    const dy = this.shiftY[i]!;
-    const left = this.left[i]!;
+    const dx = this.shiftX[i];
+    const dy = this.shiftY[i];
+    const left = this.left[i];
     const along = dx * bx + dy * by;
     const rest = left * left - dx * dx - dy * dy;
     const deep = (half * s) / 2;
@@ -135,15 +135,15 @@ export class SoftLine {
     const { sine, kind } = this;
     let found = NOTHING;
     sine[0] = sine[n] = kind[0] = kind[n] = 0;
-    let x0 = ux[0]!;
-    let y0 = uy[0]!;
-    let before = length[0]!;
-    let cap0 = cap2[0]!;
+    let x0 = ux[0];
+    let y0 = uy[0];
+    let before = length[0];
+    let cap0 = cap2[0];
     for (let i = 1; i < n; i++) {
-      const x1 = ux[i]!;
-      const y1 = uy[i]!;
-      const after = length[i]!;
-      const cap1 = cap2[i]!;
+      const x1 = ux[i];
+      const y1 = uy[i];
+      const after = length[i];
+      const cap1 = cap2[i];
       const dx = x1 - x0;
       const dy = y1 - y0;
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
@@ -183,23 +183,23 @@ export class SoftLine {
     ey[0] = y[0]!;
     taken[0] = 0;
     let forward = 0;
-    let px = x[0]!;
-    let py = y[0]!;
+    let px = x[0];
+    let py = y[0];
     for (let i = 1; i <= n; i++) {
-      const before = length[i - 1]!;
-      let qx = x[i]!;
-      let qy = y[i]!;
+      const before = length[i - 1];
+      let qx = x[i];
+      let qy = y[i];
       let tau = 0;
       let leaves = 0;
       if (kind[i] === FREE) {
-        const after = length[i]!;
-        const s = sine[i]!;
-        leaves = s + Math.max(sine[i - 1]!, sine[i + 1]!) / 2;
+        const after = length[i];
+        const s = sine[i];
+        leaves = s + Math.max(sine[i - 1], sine[i + 1]) / 2;
         const limit = Math.min((SHEAR / 2) * Math.min(before, after), mayLeave / (leaves + NOT_ZERO));
         tau = between(EVEN * (after - before), -limit, limit);
         const per = tau * halfPerCosine(s * s);
-        qx += per * (ux[i - 1]! + ux[i]!);
-        qy += per * (uy[i - 1]! + uy[i]!);
+        qx += per * (ux[i - 1] + ux[i]);
+        qy += per * (uy[i - 1] + uy[i]);
       }
       taken[i] = Math.abs(tau) * leaves;
       along[i - 1] = before + tau - forward;
@@ -235,10 +235,10 @@ export class SoftLine {
       let depth2 = 0;
       let taken2 = 0;
       if (k < n) {
-        const ax = ux[k - 1]!;
-        const ay = uy[k - 1]!;
-        const bx = ux[k]!;
-        const by = uy[k]!;
+        const ax = ux[k - 1];
+        const ay = uy[k - 1];
+        const bx = ux[k];
+        const by = uy[k];
         const cross = ax * by - ay * bx;
         taken2 = taken[k]!;
         if (kind[k] === FREE) {
@@ -247,7 +247,7 @@ export class SoftLine {
           const s = Math.abs(t) / 2;
           turn[k] = t;
           sine[k] = s;
-          depth2 = (s * Math.min(length[k - 1]!, length[k]!)) / 4;
+          depth2 = (s * Math.min(length[k - 1], length[k])) / 4;
         } else {
           const s = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / 2;
           turn[k] = cross < 0 ? -2 * s : 2 * s;
@@ -260,15 +260,15 @@ export class SoftLine {
         left[i] = rest;
         if (kind[i] === FREE) {
           const inside = Math.max(0, rest - Math.max(Math.max(depth0, depth2), depth1));
-          const side = between(turn[i]! / (2 * HARDLY), -1, 1);
+          const side = between(turn[i] / (2 * HARDLY), -1, 1);
           const more = (rest - inside) / 2;
           const middle = -side * more;
           const half = inside + Math.abs(side) * more;
           low[i] = middle - half;
           high[i] = middle + half;
         } else {
-          const outwards = Math.min(kind[i]!, rest);
-          low[i] = high[i] = turn[i]! >= 0 ? -outwards : outwards;
+          const outwards = Math.min(kind[i], rest);
+          low[i] = high[i] = turn[i] >= 0 ? -outwards : outwards;
         }
       }
       depth0 = depth1;
@@ -286,8 +286,8 @@ export class SoftLine {
     if (this.shift(n)) return true;
     if (this.stayWhereSheared(n) > 0 && this.stayWhereSheared(n) > 0) return false;
     for (let i = 0; i <= n; i++) {
-      soft.x[i] = even.x[i]! + shiftX[i]!;
-      soft.y[i] = even.y[i]! + shiftY[i]!;
+      soft.x[i] = even.x[i] + shiftX[i];
+      soft.y[i] = even.y[i] + shiftY[i];
     }
     soft.measure();
     return true;
@@ -303,36 +303,36 @@ export class SoftLine {
     let isSheared = false;
     let dx0 = 0;
     let dy0 = 0;
-    let px = x[0]!;
-    let py = y[0]!;
+    let px = x[0];
+    let py = y[0];
     shiftX[0] = shiftY[0] = 0;
     sx[0] = px;
     sy[0] = py;
     for (let i = 1; i <= n; i++) {
-      const left = moves[i]!;
+      const left = moves[i];
       let dx = 0;
       let dy = 0;
       if (kind[i] === FREE) {
-        const s = sine[i]!;
+        const s = sine[i];
         const per = left * halfPerCosine(s * s);
-        dx = -per * (uy[i - 1]! + uy[i]!);
-        dy = per * (ux[i - 1]! + ux[i]!);
+        dx = -per * (uy[i - 1] + uy[i]);
+        dy = per * (ux[i - 1] + ux[i]);
       } else if (left !== 0) {
         // Outwards, which is to the right in a left turn.
-        const per = -Math.abs(left) / (2 * sine[i]!);
-        dx = per * (ux[i]! - ux[i - 1]!);
-        dy = per * (uy[i]! - uy[i - 1]!);
+        const per = -Math.abs(left) / (2 * sine[i]);
+        dx = per * (ux[i] - ux[i - 1]);
+        dy = per * (uy[i] - uy[i - 1]);
       }
       shiftX[i] = dx;
       shiftY[i] = dy;
       const apartX = dx - dx0;
       const apartY = dy - dy0;
-      const before = length[i - 1]!;
+      const before = length[i - 1];
       if (apartX * apartX + apartY * apartY > SHEAR * SHEAR * before * before) isSheared = true;
       dx0 = dx;
       dy0 = dy;
-      const qx = x[i]! + dx;
-      const qy = y[i]! + dy;
+      const qx = x[i] + dx;
+      const qy = y[i] + dy;
       const stepX = qx - px;
       const stepY = qy - py;
       const l = Math.sqrt(stepX * stepX + stepY * stepY);
@@ -352,10 +352,10 @@ export class SoftLine {
     const { shiftX, shiftY, isSheared } = this;
     let count = 0;
     for (let i = 0; i < n; i++) {
-      const dx = shiftX[i + 1]! - shiftX[i]!;
-      const dy = shiftY[i + 1]! - shiftY[i]!;
-      isSheared[i] = dx * dx + dy * dy > SHEAR * SHEAR * length[i]! * length[i]! ? 1 : 0;
-      count += isSheared[i]!;
+      const dx = shiftX[i + 1] - shiftX[i];
+      const dy = shiftY[i + 1] - shiftY[i];
+      isSheared[i] = dx * dx + dy * dy > SHEAR * SHEAR * length[i] * length[i] ? 1 : 0;
+      count += isSheared[i];
     }
     if (count === 0) return 0;
     for (let i = 0; i < n; i++) {

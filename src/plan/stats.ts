@@ -23,12 +23,12 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   let accel2 = 0;
   for (let run = 0; run < runs.count; run++) {
     let lengthMm = 0;
-    for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) {
-      lengthMm += blockLength(trajectory, k, trajectory.durationS[k]!);
+    for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
+      lengthMm += blockLength(trajectory, k, trajectory.durationS[k]);
       speed2 = Math.max(speed2, blockMaxSpeed2(trajectory, k));
       accel2 = Math.max(accel2, blockMaxAccel2(trajectory, k));
     }
-    if (runs.stroke[run]! < 0) travelMm += lengthMm;
+    if (runs.stroke[run] < 0) travelMm += lengthMm;
     else drawMm += lengthMm;
   }
   return {
@@ -47,7 +47,7 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
  */
 function liftCount({ penMoves }: Trajectory): number {
   let lifts = 0;
-  for (let k = 1; k < penMoves.count; k++) if (penMoves.up[k]! > penMoves.up[k - 1]!) lifts++;
+  for (let k = 1; k < penMoves.count; k++) if (penMoves.up[k] > penMoves.up[k - 1]) lifts++;
   return lifts;
 }
 
@@ -59,19 +59,19 @@ function blockMaxSpeed2(trajectory: Trajectory, k: number): number {
   const inner = jx && jy && (jx[k] !== 0 || jy[k] !== 0) ? 8 : 1;
   let max2 = 0;
   for (let i = 0; i <= inner; i++) {
-    const t = (trajectory.durationS[k]! * i) / inner;
-    const vx = trajectory.vx[k]! + t * (trajectory.ax[k]! + (t * (jx ? jx[k]! : 0)) / 2);
-    const vy = trajectory.vy[k]! + t * (trajectory.ay[k]! + (t * (jy ? jy[k]! : 0)) / 2);
+    const t = (trajectory.durationS[k] * i) / inner;
+    const vx = trajectory.vx[k] + t * (trajectory.ax[k] + (t * (jx ? jx[k] : 0)) / 2);
+    const vy = trajectory.vy[k] + t * (trajectory.ay[k] + (t * (jy ? jy[k] : 0)) / 2);
     max2 = Math.max(max2, vx * vx + vy * vy);
   }
   return max2;
 }
 
 function blockMaxAccel2(trajectory: Trajectory, k: number): number {
-  const t = trajectory.durationS[k]!;
-  const ax = trajectory.ax[k]!;
-  const ay = trajectory.ay[k]!;
-  const bx = ax + t * (trajectory.jx ? trajectory.jx[k]! : 0);
-  const by = ay + t * (trajectory.jy ? trajectory.jy[k]! : 0);
+  const t = trajectory.durationS[k];
+  const ax = trajectory.ax[k];
+  const ay = trajectory.ay[k];
+  const bx = ax + t * (trajectory.jx ? trajectory.jx[k] : 0);
+  const by = ay + t * (trajectory.jy ? trajectory.jy[k] : 0);
   return Math.max(ax * ax + ay * ay, bx * bx + by * by);
 }

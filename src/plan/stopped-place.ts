@@ -46,15 +46,15 @@ export function stoppedPlace(
     }
     const lengthMm = strokeLengthMm(strokes, stroke);
     leftMm -= lengthMm;
-    const [end, next] = [2 * offsets[stroke + 1]! - 2, 2 * offsets[stroke + 1]!];
+    const [end, next] = [2 * offsets[stroke + 1] - 2, 2 * offsets[stroke + 1]];
     const isLast = stroke + 1 === count;
     if (pen.up && hasSetOut && (isLast || stops.includes(stroke + 1))) {
-      const { awayMm } = nearest(xy[end]!, xy[end + 1]!, 0, 0, pen.x, pen.y);
+      const { awayMm } = nearest(xy[end], xy[end + 1], 0, 0, pen.x, pen.y);
       if (awayMm <= NEAR_MM)
         return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
-    const travel = [xy[end]!, xy[end + 1]!, xy[next]!, xy[next + 1]!] as const;
+    const travel = [xy[end], xy[end + 1], xy[next], xy[next + 1]] as const;
     if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= NEAR_MM)
       return { stroke: stroke + 1, alongMm: 0 };
     leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
@@ -90,11 +90,11 @@ function alongOf(
   let startMm = 0;
   let passMm: number | null = null;
   let gapMm = NEAR_MM;
-  const last = offsets[stroke + 1]! - 1;
+  const last = offsets[stroke + 1] - 1;
   // A dot is a piece of no length.
-  for (let i = offsets[stroke]!; i < Math.max(last, offsets[stroke]! + 1); i++) {
+  for (let i = offsets[stroke]; i < Math.max(last, offsets[stroke] + 1); i++) {
     const j = Math.min(i + 1, last);
-    const piece = [xy[2 * i]!, xy[2 * i + 1]!, xy[2 * j]!, xy[2 * j + 1]!] as const;
+    const piece = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]] as const;
     const lengthMm = Math.hypot(piece[2] - piece[0], piece[3] - piece[1]);
     const { share, awayMm } = nearest(...piece, x, y);
     const isAfter = startMm + share * lengthMm >= fromMm - NEAR_MM;

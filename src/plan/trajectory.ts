@@ -110,31 +110,31 @@ export function stateAt(
 ): MotionState {
   if (Number.isNaN(tS)) throw new RangeError("stateAt: the time is NaN, it must be seconds");
   const { penMoves, runs } = trajectory;
-  const move = lastNotAfter(tS, penMoves.count, (i) => penMoves.startS[i]!);
+  const move = lastNotAfter(tS, penMoves.count, (i) => penMoves.startS[i]);
   out.penUp = move < 0 || penMoves.up[move] === 1;
-  const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]!);
+  const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]);
   if (k < 0) return rest(out, startOf(trajectory));
-  const t = tS - trajectory.startS[k]!;
+  const t = tS - trajectory.startS[k];
   // The end of a block belongs to that block, unless another block or a wait follows immediately.
-  if (t >= trajectory.durationS[k]! && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
-    blockState(trajectory, k, trajectory.durationS[k]!, out);
+  if (t >= trajectory.durationS[k] && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
+    blockState(trajectory, k, trajectory.durationS[k], out);
     return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
   }
-  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]!);
+  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
   out.stroke = runs.stroke[run]!;
-  return blockState(trajectory, k, Math.min(t, trajectory.durationS[k]!), out);
+  return blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
 }
 
 /** Position, velocity and acceleration `t` seconds into block `k`; 0 ≤ t ≤ its duration. */
 export function blockState(trajectory: Trajectory, k: number, t: number, out: MotionState): MotionState {
-  const jx = trajectory.jx ? trajectory.jx[k]! : 0;
-  const jy = trajectory.jy ? trajectory.jy[k]! : 0;
-  const ax = trajectory.ax[k]!;
-  const ay = trajectory.ay[k]!;
-  const vx = trajectory.vx[k]!;
-  const vy = trajectory.vy[k]!;
-  out.x = trajectory.x[k]! + t * (vx + t * (ax / 2 + (t * jx) / 6));
-  out.y = trajectory.y[k]! + t * (vy + t * (ay / 2 + (t * jy) / 6));
+  const jx = trajectory.jx ? trajectory.jx[k] : 0;
+  const jy = trajectory.jy ? trajectory.jy[k] : 0;
+  const ax = trajectory.ax[k];
+  const ay = trajectory.ay[k];
+  const vx = trajectory.vx[k];
+  const vy = trajectory.vy[k];
+  out.x = trajectory.x[k] + t * (vx + t * (ax / 2 + (t * jx) / 6));
+  out.y = trajectory.y[k] + t * (vy + t * (ay / 2 + (t * jy) / 6));
   out.vx = vx + t * (ax + (t * jx) / 2);
   out.vy = vy + t * (ay + (t * jy) / 2);
   out.ax = ax + t * jx;
@@ -145,8 +145,8 @@ export function blockState(trajectory: Trajectory, k: number, t: number, out: Mo
 
 /** mm along the source polyline, interpolated by the length of the block covered so far. */
 function alongAt(trajectory: Trajectory, k: number, t: number): number {
-  const along = trajectory.alongMm[k]!;
-  const duration = trajectory.durationS[k]!;
+  const along = trajectory.alongMm[k];
+  const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;
   const whole = blockLength(trajectory, k, duration);
   const span = blockAlongSpan(trajectory, k, whole);
@@ -156,7 +156,7 @@ function alongAt(trajectory: Trajectory, k: number, t: number): number {
 /** Length along the source polyline that block `k` covers; for the last block of a run, its own length. */
 function blockAlongSpan(trajectory: Trajectory, k: number, ownLength: number): number {
   if (k + 1 >= trajectory.blockCount || endsRun(trajectory, k)) return ownLength;
-  return trajectory.alongMm[k + 1]! - trajectory.alongMm[k]!;
+  return trajectory.alongMm[k + 1] - trajectory.alongMm[k];
 }
 
 /**
@@ -168,12 +168,12 @@ export function blockLength(
   k: number,
   t: number,
 ): number {
-  const vx = trajectory.vx[k]!;
-  const vy = trajectory.vy[k]!;
-  const ax = trajectory.ax[k]!;
-  const ay = trajectory.ay[k]!;
-  const jx = trajectory.jx ? trajectory.jx[k]! : 0;
-  const jy = trajectory.jy ? trajectory.jy[k]! : 0;
+  const vx = trajectory.vx[k];
+  const vy = trajectory.vy[k];
+  const ax = trajectory.ax[k];
+  const ay = trajectory.ay[k];
+  const jx = trajectory.jx ? trajectory.jx[k] : 0;
+  const jy = trajectory.jy ? trajectory.jy[k] : 0;
   // v(u) · d = c + b u + q u², with d the initial direction (from rest: the acceleration). At its roots the
   // velocity is perpendicular to d.
   const c = vx * vx + vy * vy;
@@ -207,10 +207,10 @@ function lengthBetween(
 ): number {
   let sum = 0;
   for (let i = 0; i < GAUSS_NODES.length; i++) {
-    const u = from + (to - from) * GAUSS_NODES[i]!;
+    const u = from + (to - from) * GAUSS_NODES[i];
     const wx = vx + u * (ax + (u * jx) / 2);
     const wy = vy + u * (ay + (u * jy) / 2);
-    sum += GAUSS_WEIGHTS[i]! * Math.sqrt(wx * wx + wy * wy);
+    sum += GAUSS_WEIGHTS[i] * Math.sqrt(wx * wx + wy * wy);
   }
   return sum * (to - from);
 }
@@ -222,7 +222,7 @@ const GAUSS_WEIGHTS = [5 / 18, 8 / 18, 5 / 18];
 /** True where block `k` is the last of its run. */
 function endsRun(trajectory: Trajectory, k: number): boolean {
   const { firstBlock, count } = trajectory.runs;
-  const run = lastNotAfter(k, count, (i) => firstBlock[i]!);
+  const run = lastNotAfter(k, count, (i) => firstBlock[i]);
   return firstBlock[run + 1] === k + 1;
 }
 
@@ -235,7 +235,7 @@ function rest(out: MotionState, [x, y]: readonly [number, number]): MotionState 
 }
 
 function startOf(trajectory: Trajectory): readonly [number, number] {
-  return trajectory.blockCount > 0 ? [trajectory.x[0]!, trajectory.y[0]!] : endOf(trajectory);
+  return trajectory.blockCount > 0 ? [trajectory.x[0], trajectory.y[0]] : endOf(trajectory);
 }
 
 const endOf = (trajectory: Trajectory): readonly [number, number] => [trajectory.endX, trajectory.endY];

@@ -26,10 +26,10 @@ const rows: MatrixRow[] = [];
 const combinations = FIRMWARE.flatMap((firmware, f) => {
   if (isWhole && asked !== "all" && asked !== firmware) return [];
   return MODES.flatMap((mode, m) => {
-    const often = QUICK[(f + m) % QUICK.length]!;
+    const often = QUICK[(f + m) % QUICK.length];
     // Each of the others once: along the diagonal of newer firmware.
     const others = SAMPLES.filter((sample) => !QUICK.includes(sample));
-    const once = m === f % MODES.length && f >= 2 ? others[f - 2]! : often;
+    const once = m === f % MODES.length && f >= 2 ? others[f - 2] : often;
     return (isWhole ? SAMPLES : [once]).map((sample) => ({ sample, firmware, mode }));
   });
 });

@@ -223,7 +223,7 @@ describe("cutting and replacing", () => {
     const played = streamer.play(first);
     await rig.world.advance(1);
     const { commandIndex } = streamer.cut();
-    const from = [first.steps1[commandIndex - 1]!, first.steps2[commandIndex - 1]!] as const;
+    const from = [first.steps1[commandIndex - 1], first.steps2[commandIndex - 1]] as const;
     expect(streamer.replace(makeStream(wavyRows(20, 30), from))).toBe(true);
     const report = await rig.world.run(played);
     expect(report).toMatchObject({ complete: true, exact: true });
@@ -237,7 +237,7 @@ describe("cutting and replacing", () => {
     const played = streamer.play(first);
     await rig.world.advance(1);
     expect(streamer.cutAt(3, makeStream([PEN_UP]))).toBe(false);
-    const from = [first.steps1[299]!, first.steps2[299]!] as const;
+    const from = [first.steps1[299], first.steps2[299]] as const;
     expect(streamer.cutAt(300, makeStream([PEN_UP], from))).toBe(true);
     const report = await rig.world.run(played);
     expect(report).toMatchObject({ complete: true, exact: true, end: { commandIndex: 0 } });
@@ -250,12 +250,12 @@ describe("cutting and replacing", () => {
     const seen: StreamProgress[] = [];
     const onProgress = (progress: StreamProgress): unknown => seen.push(progress);
     await rig.world.run(streamCommands(rig.session, stream, { clock: rig.world, onProgress }));
-    const totalS = stream.planS[stream.count]!;
+    const totalS = stream.planS[stream.count];
     for (const { fraction, leftS, planS } of seen) {
       expect(fraction).toBeCloseTo(planS / totalS, 9);
       expect(leftS).toBeCloseTo(totalS - planS, 9);
     }
-    expect(seen[0]!.fraction).toBeLessThan(0.1);
+    expect(seen[0].fraction).toBeLessThan(0.1);
     expect(seen.at(-1)!.fraction).toBeGreaterThan(0.9);
   });
 
@@ -272,7 +272,7 @@ describe("cutting and replacing", () => {
     const report = await rig.world.run(played);
     expect(report).toMatchObject({ complete: false, exact: true });
     expect(seen.length).toBeGreaterThan(20);
-    expect(seen.every((planS, i) => i === 0 || planS >= seen[i - 1]!)).toBe(true);
+    expect(seen.every((planS, i) => i === 0 || planS >= seen[i - 1])).toBe(true);
   });
 });
 

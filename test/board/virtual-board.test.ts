@@ -238,8 +238,8 @@ describe("the virtual board's pen", () => {
     ask("SM,100,-1600,0");
     const lines = board.drawn();
     expect(lines.map((line) => line.penDown)).toEqual([false, true, false]);
-    expect([...lines[1]!.xy].slice(0, 2)).toEqual([10, 0]);
-    expect([...lines[1]!.xy].slice(-2)).toEqual([10, 10]);
+    expect([...lines[1].xy].slice(0, 2)).toEqual([10, 0]);
+    expect([...lines[1].xy].slice(-2)).toEqual([10, 10]);
     expect(board.statistics()).toMatchObject({ penMoveCount: 2, moveCount: 3 });
     expect(board.statistics().drawnMm).toBeCloseTo(10, 6);
   });

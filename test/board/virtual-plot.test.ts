@@ -41,7 +41,7 @@ function jagged(x: number, y: number, size: number, count: number): Point[] {
   const next = (): number => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;
   const points: Point[] = [[x, y]];
   for (let i = 0; i < count; i++) {
-    const [px, py] = points[i]!;
+    const [px, py] = points[i];
     points.push([px + (next() - 0.45) * size, py + (next() - 0.45) * size]);
   }
   return points;
@@ -78,7 +78,7 @@ const DRAWING = strokeSetOf([
 
 const sourceGrid = new SegmentGrid(0.5);
 for (let i = 0; i + 1 < DRAWING.offsets.length; i++) {
-  sourceGrid.addPolyline(DRAWING.xy, 2 * DRAWING.offsets[i]!, 2 * DRAWING.offsets[i + 1]!);
+  sourceGrid.addPolyline(DRAWING.xy, 2 * DRAWING.offsets[i], 2 * DRAWING.offsets[i + 1]);
 }
 
 for (const mode of MODES) {
@@ -91,7 +91,7 @@ for (const mode of MODES) {
         const stream = fast.compile(trajectory);
         const { boardS, firstWrong } = fast.play(stream);
         expect(firstWrong).toBeNull();
-        expect(boardS).toBeCloseTo(stream.boardS[stream.count]!, 6);
+        expect(boardS).toBeCloseTo(stream.boardS[stream.count], 6);
         expect(Math.abs(boardS / trajectory.totalS - 1)).toBeLessThan(0.002);
         expect(fast.board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
       }
@@ -109,14 +109,14 @@ for (const mode of MODES) {
       for (const { xy } of lines) {
         drawnGrid.addPolyline(xy);
         for (let i = 0; i < xy.length; i += 2) {
-          farthest = Math.max(farthest, sourceGrid.distance(xy[i]!, xy[i + 1]!, farthest));
+          farthest = Math.max(farthest, sourceGrid.distance(xy[i], xy[i + 1], farthest));
         }
       }
       expect(lines.length).toBe(DRAWING.offsets.length - 1);
       expect(farthest).toBeLessThan(allowed);
       let missed = 0;
       for (let i = 0; i < DRAWING.xy.length; i += 2) {
-        missed = Math.max(missed, drawnGrid.distance(DRAWING.xy[i]!, DRAWING.xy[i + 1]!, missed));
+        missed = Math.max(missed, drawnGrid.distance(DRAWING.xy[i], DRAWING.xy[i + 1], missed));
       }
       expect(missed).toBeLessThan(allowed);
     });
@@ -158,16 +158,15 @@ function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
     Float64Array.from({ length: count }, (_, k) => of(k));
   const ends = [0, 1].map((axis) => {
     const places = [0];
-    for (let k = 0; k < count; k++)
-      places.push(places[k]! + (pieceS * (v[k]![axis]! + v[k + 1]![axis]!)) / 2);
+    for (let k = 0; k < count; k++) places.push(places[k] + (pieceS * (v[k][axis] + v[k + 1][axis])) / 2);
     return places;
   });
   return {
     ...{ blockCount: count, jx: null, jy: null, penMoves: penMoveColumns([]), totalS: count * pieceS },
-    ...{ x: column((k) => ends[0]![k]!), y: column((k) => ends[1]![k]!) },
-    ...{ vx: column((k) => v[k]![0]), vy: column((k) => v[k]![1]) },
-    ax: column((k) => (v[k + 1]![0] - v[k]![0]) / pieceS),
-    ay: column((k) => (v[k + 1]![1] - v[k]![1]) / pieceS),
+    ...{ x: column((k) => ends[0][k]), y: column((k) => ends[1][k]) },
+    ...{ vx: column((k) => v[k][0]), vy: column((k) => v[k][1]) },
+    ax: column((k) => (v[k + 1][0] - v[k][0]) / pieceS),
+    ay: column((k) => (v[k + 1][1] - v[k][1]) / pieceS),
     durationS: column(() => pieceS),
     startS: column((k) => k * pieceS),
     alongMm: column(() => 0),
@@ -175,7 +174,7 @@ function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
       ...{ count: 1, firstBlock: Uint32Array.of(0, count) },
       ...{ stroke: Int32Array.of(0), startS: Float64Array.of(0) },
     },
-    ...{ endX: ends[0]![count]!, endY: ends[1]![count]! },
+    ...{ endX: ends[0][count], endY: ends[1][count] },
   };
 }
 
@@ -238,9 +237,9 @@ describe("a plot on other machines", () => {
     const [line] = fast.board.drawn().filter((drawn) => drawn.penDown);
     const grid = new SegmentGrid(0.5);
     grid.addPolyline(square.flat());
-    for (let i = 0; i < line!.xy.length; i += 2) {
+    for (let i = 0; i < line.xy.length; i += 2) {
       const allowed = DEFAULT_MOTION.draw.cornerMm + 1 / machine.stepsPerMm;
-      expect(grid.distance(line!.xy[i]!, line!.xy[i + 1]!)).toBeLessThanOrEqual(allowed);
+      expect(grid.distance(line.xy[i], line.xy[i + 1])).toBeLessThanOrEqual(allowed);
     }
   });
 });

@@ -70,7 +70,7 @@ describe("plotwright plan", () => {
       `<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="20mm"><path d="M5 5h9" stroke="#000"/></svg>`,
     );
     for (const [index, name] of [dash, ...samples.map(sample)].entries()) {
-      for (const firmware of [generations[index % 3]!, "3.0.3"]) {
+      for (const firmware of [generations[index % 3], "3.0.3"]) {
         const ebb = join(dir, "commands.txt");
         const run = await cli("plan", name, "--json", "--ebb", ebb, "--firmware", firmware);
         const { durationS } = JSON.parse(run.out) as { durationS: number };

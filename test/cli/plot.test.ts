@@ -133,8 +133,8 @@ describe("plotwright add and queue", () => {
         const listed = await cli("queue", "--json", ...at);
         const jobs = JSON.parse(listed.out) as { name: string; settings: typeof DEFAULT_PLOT_SETTINGS }[];
         expect(jobs.map(({ name }) => name)).toEqual(["a.svg", "a.svg", "stdin", "stdin"]);
-        expect(jobs[0]!.settings.motion.draw.speedMmPerS).toBe(30);
-        expect(jobs[0]!.settings.machine).toBe("axidraw-v3-a3");
+        expect(jobs[0].settings.motion.draw.speedMmPerS).toBe(30);
+        expect(jobs[0].settings.machine).toBe("axidraw-v3-a3");
         expect((await cli("queue", ...at)).out.trimEnd().split("\n").length).toBe(4);
         writeFileSync(file, "hello");
         const refused = await cli("add", file, ...at);

@@ -63,7 +63,7 @@ async function saved(what: string): Promise<{ name: string; text: string }> {
 function expectSameStrokes(back: StrokeSet): void {
   expect([...back.offsets]).toEqual([...strokes.offsets]);
   expect([...back.layer]).toEqual([...strokes.layer]);
-  for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - strokes.xy[k]!)).toBeLessThan(1e-3);
+  for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - strokes.xy[k])).toBeLessThan(1e-3);
 }
 
 describe("saving", () => {
@@ -108,12 +108,10 @@ describe("saving", () => {
       const drawn = board.drawn().filter(({ penDown, xy }) => penDown && xy.length > 2);
       expect(drawn.length).toBe(strokes.offsets.length - 1);
       drawn.forEach(({ xy }, i) => {
-        const [first, last] = [2 * strokes.offsets[i]!, 2 * strokes.offsets[i + 1]! - 2];
-        expect(Math.hypot(xy[0]! - strokes.xy[first]!, xy[1]! - strokes.xy[first + 1]!)).toBeLessThan(0.05);
+        const [first, last] = [2 * strokes.offsets[i], 2 * strokes.offsets[i + 1] - 2];
+        expect(Math.hypot(xy[0] - strokes.xy[first], xy[1] - strokes.xy[first + 1])).toBeLessThan(0.05);
         const end = xy.length - 2;
-        expect(Math.hypot(xy[end]! - strokes.xy[last]!, xy[end + 1]! - strokes.xy[last + 1]!)).toBeLessThan(
-          0.05,
-        );
+        expect(Math.hypot(xy[end] - strokes.xy[last], xy[end + 1] - strokes.xy[last + 1])).toBeLessThan(0.05);
       });
       const { motion, pen } = withLayerCodes(job.settings, strokes.layers);
       const { totalS } = plan(strokes, motion, pen, { machine });
@@ -130,7 +128,7 @@ describe("saving", () => {
     const now = prepare(importSvg(SVG), prepareSettingsOf((await test.queue()).settings)).strokes;
     const back = prepare(importSvg(text), AS_IT_IS).strokes;
     expect(back.xy.length).toBe(now.xy.length);
-    for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - now.xy[k]!)).toBeLessThan(1e-3);
+    for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - now.xy[k])).toBeLessThan(1e-3);
   });
 
   it("meets no error in the browser's console on the way", () => {

@@ -38,7 +38,7 @@ async function openPage(): Promise<void> {
 
 async function theJob(): Promise<Job> {
   const answer: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
-  return snapshotSchema.parse(answer).jobs[0]!;
+  return snapshotSchema.parse(answer).jobs[0];
 }
 
 async function inkedCount(): Promise<number> {

@@ -42,10 +42,7 @@ const details = (name: string) => test.page.getByRole("button", { name: `Setting
 /** The layers in the order in which a job's own file and settings draw them. */
 async function drawnOrder(job: Job): Promise<string[]> {
   const { xy, offsets } = await test.strokesOf(job);
-  return Array.from(
-    { length: offsets.length - 1 },
-    (_, i) => LAYER_AT[Math.round(xy[2 * offsets[i]! + 1]!)]!,
-  );
+  return Array.from({ length: offsets.length - 1 }, (_, i) => LAYER_AT[Math.round(xy[2 * offsets[i] + 1])]);
 }
 
 /** The lines that the board has drawn, by all that the server sent to it, played once more on a board of our own. */
@@ -53,7 +50,7 @@ async function plottedOrder(): Promise<string[]> {
   const { plotters } = (await (await fetch(`${test.server.url}/api/v1/state`)).json()) as {
     plotters: { id: string }[];
   };
-  const log = await (await fetch(`${test.server.url}/api/v1/plotters/${plotters[0]!.id}/log`)).text();
+  const log = await (await fetch(`${test.server.url}/api/v1/plotters/${plotters[0].id}/log`)).text();
   const board = new VirtualBoard({
     clock: { nowS: () => 0, after: () => () => undefined },
     machine: machineOf({ machine: "axidraw-v3", customMachine: null }),
@@ -65,7 +62,7 @@ async function plottedOrder(): Promise<string[]> {
       .drawn()
       .filter(({ penDown, xy }) => penDown && xy.length > 2)
       // Within the offset of a pen.
-      .map(({ xy }) => LAYER_AT[20 * Math.round(xy[1]! / 20)] ?? `at ${xy[1]}`)
+      .map(({ xy }) => LAYER_AT[20 * Math.round(xy[1] / 20)] ?? `at ${xy[1]}`)
   );
 }
 
@@ -165,7 +162,7 @@ describe("pens on the page", () => {
     const ofChannel = (shift: number): number =>
       [...counts].reduce((sum, [rgb, count]) => {
         const [own, ...others] = [shift, (shift + 8) % 24, (shift + 16) % 24].map((by) => (rgb >> by) & 255);
-        return own! > Math.max(...others) + 60 ? sum + count : sum;
+        return own > Math.max(...others) + 60 ? sum + count : sum;
       }, 0);
     const [blue, green] = [ofChannel(0), ofChannel(8)];
     // As long as each other, the one 4 mm wide and the other 0.4.

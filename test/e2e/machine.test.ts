@@ -42,7 +42,7 @@ const button = (name: string | RegExp, within: Page | Locator = page): Locator =
 
 async function plotter(): Promise<Plotter> {
   const state: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
-  return snapshotSchema.parse(state).plotters[0]!;
+  return snapshotSchema.parse(state).plotters[0];
 }
 
 /** Presses, and waits until the server has answered with the plotter where it then stands. */

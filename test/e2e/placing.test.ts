@@ -51,8 +51,8 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
         // Rulers stand at two edges, tools and legend at a third.
         if (x < 26 || y < 26 || y > bitmap.height - 100) continue;
         const isIt = isPaper
-          ? Math.min(data[i]!, data[i + 1]!, data[i + 2]!) > 249
-          : Math.max(data[i]!, data[i + 1]!, data[i + 2]!) < 90;
+          ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
+          : Math.max(data[i], data[i + 1], data[i + 2]) < 90;
         if (!isIt) continue;
         box.left = Math.min(box.left, x);
         box.top = Math.min(box.top, y);
@@ -116,8 +116,7 @@ describe("placing the drawing", () => {
     await test.page.getByRole("button", { name: "Place the drawing by hand" }).click();
     await test.field("From the left").waitFor();
     const after = await test.queuedBox();
-    for (const [k, mm] of Object.values(after).entries())
-      expect(mm).toBeCloseTo(Object.values(before)[k]!, 1);
+    for (const [k, mm] of Object.values(after).entries()) expect(mm).toBeCloseTo(Object.values(before)[k], 1);
   });
 
   it("goes where the numbers say, at the size they say", async () => {
@@ -196,7 +195,7 @@ describe("placing the drawing", () => {
     ];
     expect([middle, level].map((mm) => Math.round(mm))).toEqual([161, 105]);
     // The dash, alone at the height of the middle, was at the left.
-    const dash = xs.filter((x, k) => Math.abs(ys[k]! - level) < 0.01 && Math.abs(x - middle) > 1);
+    const dash = xs.filter((x, k) => Math.abs(ys[k] - level) < 0.01 && Math.abs(x - middle) > 1);
     expect(dash.length).toBe(2);
     for (const x of dash) expect(x).toBeGreaterThan(middle);
   });

@@ -81,7 +81,7 @@ beforeAll(async () => {
   const [{ output }] = built as { output: { code: string }[] }[] as [{ output: { code: string }[] }];
   browser = await launchBrowser();
   page = await browser.newPage();
-  await page.addScriptTag({ content: output[0]!.code });
+  await page.addScriptTag({ content: output[0].code });
 });
 
 afterAll(async () => browser.close());
@@ -112,7 +112,7 @@ describe("without a graphics card", () => {
   it.each(FRAMES)("a picture %s is the card's", async (_what, frame) => {
     const [gl, soft] = [await pixelsOf("gl", frame, 1e9), await pixelsOf("soft", frame, 1e9)];
     expect(soft).toHaveLength(gl.length);
-    const apart = Array.from(gl, (value, i) => Math.abs(value - soft[i]!));
+    const apart = Array.from(gl, (value, i) => Math.abs(value - soft[i]));
     expect(apart.reduce((sum, d) => sum + d, 0) / apart.length).toBeLessThan(0.5);
     expect(apart.filter((d) => d > 24).length / apart.length).toBeLessThan(0.002);
   });
@@ -129,7 +129,7 @@ describe("without a graphics card", () => {
     const cut = Uint8Array.from(seen, (_, k) => {
       const x = (k >> 2) % 120;
       const y = Math.floor((k >> 2) / 120);
-      return around[((y + 200) * 520 + x + 200) * 4 + (k & 3)]!;
+      return around[((y + 200) * 520 + x + 200) * 4 + (k & 3)];
     });
     expect(inkCount(seen)).toBeGreaterThan(1_000);
     expect(Buffer.compare(seen, cut)).toBe(0);

@@ -31,9 +31,9 @@ beforeAll(async () => {
     return links;
   };
   const [operatePath, watchPath] = await vi.waitFor(linksSaid, { timeout: 60_000 });
-  anna = await pairedPage(operatePath!);
-  ben = await pairedPage(operatePath!);
-  watcher = await pairedPage(watchPath!);
+  anna = await pairedPage(operatePath);
+  ben = await pairedPage(operatePath);
+  watcher = await pairedPage(watchPath);
 });
 
 afterAll(async () => {
@@ -96,12 +96,12 @@ describe("two browsers and a watcher", () => {
     }
     const [annas, ...others] = await Promise.all(pages().map(seenAt));
     for (const theirs of others) {
-      const shared = [...annas!].filter(([what]) => theirs.has(what));
+      const shared = [...annas].filter(([what]) => theirs.has(what));
       const apartMs = shared.map(([what, at]) => Math.abs(at - theirs.get(what)!)).sort((a, b) => a - b);
       expect(shared.map(([what]) => what)).toEqual(
         expect.arrayContaining(["says lines", "says Plotting", "10 %"]),
       );
-      const medianMs = apartMs[Math.floor(apartMs.length / 2)]!;
+      const medianMs = apartMs[Math.floor(apartMs.length / 2)];
       console.log(
         `${shared.length} changes seen by both: apart by ${medianMs.toFixed(0)} ms (median), ${apartMs.at(-1)!.toFixed(0)} ms (most)`,
       );
@@ -129,8 +129,8 @@ describe("two browsers and a watcher", () => {
         ).status;
       return Promise.all([
         ask("PATCH", "/queue", { runOn: true }),
-        ask("POST", `/jobs/${jobs[0]!.id}/duplicate`),
-        ask("PATCH", `/jobs/${jobs[0]!.id}`, { name: "mine" }),
+        ask("POST", `/jobs/${jobs[0].id}/duplicate`),
+        ask("PATCH", `/jobs/${jobs[0].id}`, { name: "mine" }),
         ask("POST", "/operator/take"),
         ask("POST", "/access/keys", { name: "me", role: "operate" }),
       ]);

@@ -67,7 +67,7 @@ describe("in the middle of a plot", () => {
     expect(outcome).toMatch(/^disconnected: .*USB cable/);
     expect(afterS).toBeLessThan(WITHIN_S);
     expect(driver.state.connection).toBe("fault");
-    expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+    expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
   it("a board whose power fails for a moment ends it as disconnected, with the place in the journal", async () => {
@@ -78,7 +78,7 @@ describe("in the middle of a plot", () => {
     expect(afterS).toBeLessThan(WITHIN_S);
     // Its counters are gone: only the user knows where home is.
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
-    expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+    expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
   it("a board that falls silent ends it as timed out, and is used again when it answers", async () => {
@@ -104,7 +104,7 @@ describe("in the middle of a plot", () => {
         /^board-(error|timeout): The board (has stopped answering|answers but does not finish)/,
       );
       expect(afterS).toBeLessThan(WITHIN_S);
-      expect(journal[journal.length - 1]!.place.stroke).toBe(0);
+      expect(journal[journal.length - 1].place.stroke).toBe(0);
       board.tell({ type: "frozen", frozen: false });
       await state(driver, ({ connection }) => connection === "idle");
     },

@@ -50,8 +50,8 @@ const drawnMm = async (board: PtyBoard): Promise<number> => (await board.report(
 function rowsOf(report: BoardReport, from: number): { count: number; gapMm: number; doubledMm: number } {
   const rows = new Map<number, [number, number][]>();
   for (const { xy } of report.drawn.slice(from).filter(({ penDown, xy }) => penDown && xy.length > 2)) {
-    const row = Math.round(xy[1]! * 2);
-    const [x0, x1] = [xy[0]!, xy[xy.length - 2]!];
+    const row = Math.round(xy[1] * 2);
+    const [x0, x1] = [xy[0], xy[xy.length - 2]];
     rows.set(row, [...(rows.get(row) ?? []), [Math.min(x0, x1), Math.max(x0, x1)]]);
   }
   const all = [...rows.values()].flat();

@@ -78,7 +78,7 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
     // A busy computer lets some beats out: what they would have asked is asked with the next ones.
     const due = ((Date.now() - from) / 1_000) * REQUESTS_PER_S;
     for (let more = 0; more < MOST_AT_ONCE && answers.length < due; more++) {
-      answers.push(ask(paths[answers.length % paths.length]!));
+      answers.push(ask(paths[answers.length % paths.length]));
     }
   }, 1_000 / REQUESTS_PER_S);
   undo.push(() => clearInterval(asking));

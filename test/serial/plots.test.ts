@@ -21,13 +21,13 @@ const sample = (name: string): string =>
 
 function* pointsOf(prepared: Prepared): Iterable<readonly [number, number]> {
   const { xy } = prepared.strokes;
-  for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+  for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
 }
 
 function gridOf(prepared: Prepared): SegmentGrid {
   const { xy, offsets } = prepared.strokes;
   const grid = new SegmentGrid();
-  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s]!, 2 * offsets[s + 1]!);
+  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s], 2 * offsets[s + 1]);
   return grid;
 }
 
@@ -36,7 +36,7 @@ const drawnLines = (report: BoardReport): readonly (readonly number[])[] =>
 
 function* drawnPoints(report: BoardReport): Iterable<readonly [number, number]> {
   for (const xy of drawnLines(report)) {
-    for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+    for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
   }
 }
 

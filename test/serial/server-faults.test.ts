@@ -89,7 +89,7 @@ describe("a job whose board", () => {
       board.tell(mend);
       for (;;) {
         const before = new Set(events.seen);
-        if ((await state()).plotters[0]!.connection === "idle") break;
+        if ((await state()).plotters[0].connection === "idle") break;
         await events.find("plotter", (event) => !before.has(event));
       }
       const paused = reaches("paused");
@@ -111,6 +111,6 @@ describe("a job whose board", () => {
     const { state: end } = await ended;
     if (end === "interrupted") await post("cancel");
     expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
-    expect((await state()).jobs[0]!.state).toBe("cancelled");
+    expect((await state()).jobs[0].state).toBe("cancelled");
   });
 });

@@ -43,7 +43,7 @@ const MOTION = {
 
 const mostAccel = ({ blockCount, ax, ay }: Trajectory): number => {
   let most = 0;
-  for (let k = 0; k < blockCount; k++) most = Math.max(most, Math.hypot(ax[k]!, ay[k]!));
+  for (let k = 0; k < blockCount; k++) most = Math.max(most, Math.hypot(ax[k], ay[k]));
   return most;
 };
 
@@ -52,13 +52,13 @@ describe("a stop in the middle of a stroke", () => {
   const trajectory = plan(STROKES, MOTION, DEFAULT_PEN);
   const { runs } = trajectory;
 
-  it.each(SHAPES.map(({ layer }, stroke) => [stroke, LAYERS[layer]!] as const))(
+  it.each(SHAPES.map(({ layer }, stroke) => [stroke, LAYERS[layer]] as const))(
     "uses the acceleration of stroke %i's layer (%s), all of it and no more",
     (stroke, layer) => {
       const run = [...runs.stroke].indexOf(stroke);
-      const lastBlock = runs.firstBlock[run + 1]! - 1;
-      const fromS = runs.startS[run]!;
-      const untilS = trajectory.startS[lastBlock]! + trajectory.durationS[lastBlock]!;
+      const lastBlock = runs.firstBlock[run + 1] - 1;
+      const fromS = runs.startS[run];
+      const untilS = trajectory.startS[lastBlock] + trajectory.durationS[lastBlock];
       let most = 0;
       for (let i = 1; i < 60; i++) {
         const tS = fromS + ((untilS - fromS) * i) / 60;
@@ -84,7 +84,7 @@ describe("a stop in the middle of a stroke", () => {
   it("on the way between strokes uses that of travel", () => {
     expect(brakingAt(settings, STROKES, null, "2.8.1").limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);
     const travel = [...runs.stroke].findIndex((stroke, run) => stroke < 0 && run > 0);
-    const tS = runs.startS[travel]! + 0.1;
+    const tS = runs.startS[travel] + 0.1;
     const stop = comeToRest(trajectory, tS, brakingAt(settings, STROKES, null, "2.8.1").limits, null);
     expect(mostAccel(stop.trajectory)).toBeLessThanOrEqual(1.001 * MOTION.travel.accelMmPerS2);
   });

@@ -93,7 +93,7 @@ describe("a damaged database", () => {
       for (const [name, bytes] of whole) writeFileSync(inDir(name), bytes);
       const name = random() < 0.3 ? "plotwright.db-wal" : "plotwright.db";
       const bytes = Buffer.from(whole.get(name)!);
-      bytes[Math.floor(random() * bytes.length)]! ^= 1 << Math.floor(random() * 8);
+      bytes[Math.floor(random() * bytes.length)] ^= 1 << Math.floor(random() * 8);
       writeFileSync(inDir(name), bytes);
       const store = await start();
       expect(drawings()).toEqual(all);

@@ -169,13 +169,13 @@ describe("the queue", () => {
 
   it("marks what was plotting as interrupted after a restart, and keeps the others' order", async () => {
     const jobs = [await add("fern"), await add("moss"), await add("ivy")];
-    queue.move(jobs[2]!.id, jobs[1]!.id);
-    await queue.start(jobs[0]!.id);
+    queue.move(jobs[2].id, jobs[1].id);
+    await queue.start(jobs[0].id);
     await plotter.nextRun();
     store.close();
     openQueue();
     expect(names()).toEqual(["fern interrupted", "ivy queued", "moss queued"]);
-    expect(queue.get(jobs[0]!.id).message).toBe(SERVER_STOPPED);
+    expect(queue.get(jobs[0].id).message).toBe(SERVER_STOPPED);
   });
 
   it("takes an interrupted job up where the journal says, held, and the place can be moved", async () => {

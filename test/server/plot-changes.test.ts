@@ -26,7 +26,7 @@ function expectMorse(board: VirtualBoard): void {
   expectDrawn(board, strokesOf(...DASHES), 0.05);
   const touched = board.drawn().filter(({ penDown }) => penDown);
   for (const [x, y] of DOTS) {
-    const isOn = touched.some(({ xy }) => Math.hypot(xy[0]! - x, xy[1]! - y) < 0.05);
+    const isOn = touched.some(({ xy }) => Math.hypot(xy[0] - x, xy[1] - y) < 0.05);
     expect([x, y, isOn]).toEqual([x, y, true]);
   }
 }

@@ -178,14 +178,14 @@ it(
       await underWay(world, journal);
       await world.advance(1.5 + 4 * random());
       // A server that is killed writes nothing down at its end; the board plays what it has.
-      const { place: from, sent } = journal[journal.length - 1]!;
+      const { place: from, sent } = journal[journal.length - 1];
       driver.virtualBoard!.unplug();
       await world.run(run.finished.catch(() => undefined));
       await world.advance(5);
       const { idleTicksTimed } = firmwareFeatures("3.0.3");
       const ticks = ranTicks(driver.virtualBoard!) - (1 + idleTicksTimed);
       const [plot] = planner.plots;
-      const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot!, planSAfter(plot!.commands, ticks));
+      const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
       const again = await world.run(
         driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, sent }),
       );

@@ -38,11 +38,11 @@ describe.each(MOTION_MODES)("an emergency stop among lines that lie on one anoth
       const run = await world.run(driver.plot(planner, settingsOf(mode)));
       await world.advance(0.1);
       const [plot] = planner.plots;
-      await world.advance(instant(plot!.trajectory, random));
+      await world.advance(instant(plot.trajectory, random));
       await world.run(run.emergencyStop());
       // Reading the place back runs the motors for a tick, which makes no step.
       const ticks = ranTicks(driver.virtualBoard!) - (hasClear ? 1 + idleTicksTimed : 0);
-      const truthMm = drawnUntilMm(RETRACED, plot!, planSAfter(plot!.commands, ticks));
+      const truthMm = drawnUntilMm(RETRACED, plot, planSAfter(plot.commands, ticks));
       expect(Math.abs(mmOf(RETRACED, run.holdPlace!) - truthMm)).toBeLessThan(withinMm);
       await world.run(Promise.all([run.cancel(), run.finished]));
     }

@@ -50,7 +50,7 @@ async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}
     board
       .drawn()
       .filter(({ penDown, xy }) => penDown && xy.length > 2)
-      .map(({ xy }) => Math.round(xy[1]!));
+      .map(({ xy }) => Math.round(xy[1]));
   return { world, driver, board, journal, begin, drawnRows, ...(await begin(start)) };
 }
 
@@ -81,22 +81,22 @@ describe("a plot with a change of pens", () => {
     const seen: PlotProgress[] = [];
     run.onProgress((progress) => seen.push(progress));
     await world.run(nextHold());
-    const atStop = seen[seen.length - 1]!;
+    const atStop = seen[seen.length - 1];
     expect(atStop.progress).toBeGreaterThan(0.5);
     expect(atStop.progress).toBeLessThan(0.8);
     const beforeS = world.nowS();
     await world.advance(500);
     await world.run(run.resume());
     await world.run(run.finished);
-    const last = seen[seen.length - 1]!;
+    const last = seen[seen.length - 1];
     expect(last).toMatchObject({ progress: 1, remainingS: 0 });
     expect(last.elapsedS).toBeLessThan(beforeS + 20);
-    expect(seen.every((p, i) => i === 0 || p.progress >= seen[i - 1]!.progress)).toBe(true);
-    expect(seen.every((p, i) => i === 0 || p.planS >= seen[i - 1]!.planS - 1e-9)).toBe(true);
+    expect(seen.every((p, i) => i === 0 || p.progress >= seen[i - 1].progress)).toBe(true);
+    expect(seen.every((p, i) => i === 0 || p.planS >= seen[i - 1].planS - 1e-9)).toBe(true);
   });
 
   it("waits before the first stroke where its layer's name says so, though nobody listened yet", async () => {
-    const strokes = { ...DRAWING, layers: [{ ...LAYERS[0]!, name: "!Sky" }, ...LAYERS.slice(1)] };
+    const strokes = { ...DRAWING, layers: [{ ...LAYERS[0], name: "!Sky" }, ...LAYERS.slice(1)] };
     const { world, run, held, drawnRows } = await plotting(SETTINGS, {}, strokes);
     await world.advance(5);
     expect(held).toEqual([[true, expect.objectContaining({ layerName: "Sky", penName: "Blue" })]]);
@@ -104,7 +104,7 @@ describe("a plot with a change of pens", () => {
     await world.run(run.resume());
     await world.advance(3);
     expect(drawnRows()).toContain(10);
-    await world.run(run.cancel().catch(() => undefined) as Promise<void>);
+    await world.run(run.cancel().catch(() => undefined));
   });
 
   it("asks once: a hold after the answer, and a plot taken up behind it, do not ask again", async () => {
@@ -119,7 +119,7 @@ describe("a plot with a change of pens", () => {
     driver.virtualBoard!.unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
-    const { place } = journal[journal.length - 1]!;
+    const { place } = journal[journal.length - 1];
     expect(place.stroke).toBeGreaterThanOrEqual(3);
     const again = await begin({ from: place });
     await world.run(again.run.resume());
@@ -131,7 +131,7 @@ describe("a plot with a change of pens", () => {
   it("has its wait in the journal: taken up there, the answer to it is enough", async () => {
     const { world, driver, run, nextHold, journal, begin, drawnRows } = await plotting();
     await world.run(nextHold());
-    expect(journal[journal.length - 1]!.place).toEqual({ stroke: 3, alongMm: 0 });
+    expect(journal[journal.length - 1].place).toEqual({ stroke: 3, alongMm: 0 });
     driver.virtualBoard!.unplug();
     void run.cancel().catch(() => undefined);
     await world.run(run.finished.catch(() => undefined));

@@ -29,7 +29,7 @@ const drawn = (board: { drawn(): { penDown: boolean; xy: Float64Array }[] }): nu
     .drawn()
     .filter(({ penDown, xy }) => penDown && xy.length > 2)
     .map(({ xy }) =>
-      [xy[0]!, xy[1]!, xy[xy.length - 2]!, xy[xy.length - 1]!].map((v) => Math.round(v * 10) / 10),
+      [xy[0], xy[1], xy[xy.length - 2], xy[xy.length - 1]].map((v) => Math.round(v * 10) / 10),
     );
 
 describe("a plotter", () => {
@@ -62,10 +62,10 @@ describe("a plotter", () => {
     const seen: PlotProgress[] = [];
     run.onProgress((progress) => seen.push(progress));
     await world.run(run.finished);
-    const last = seen[seen.length - 1]!;
+    const last = seen[seen.length - 1];
     expect(last).toMatchObject({ progress: 1, remainingS: 0, xMm: 0, yMm: 0, penUp: true });
     expect(seen.length / last.elapsedS).toBeGreaterThan(10);
-    expect(seen.every((p, i) => i === 0 || p.progress >= seen[i - 1]!.progress)).toBe(true);
+    expect(seen.every((p, i) => i === 0 || p.progress >= seen[i - 1].progress)).toBe(true);
     expect(seen.some((p) => !p.penUp)).toBe(true);
   });
 
@@ -188,7 +188,7 @@ describe("a plot that was broken off", () => {
     await world.advance(5);
     expect(driver.state.connection).toBe("idle");
     expect(driver.state.xMm).not.toBeNull();
-    const { place } = journal[journal.length - 1]!;
+    const { place } = journal[journal.length - 1];
     const run = await world.run(driver.plot(planner, SETTINGS, { from: place }));
     await world.advance(2);
     const linesBefore = drawn(board).length;
@@ -212,7 +212,7 @@ describe("a plot that was broken off", () => {
       }),
     );
     await world.run(run.finished);
-    const gaps = times.slice(1).map((time, i) => time - times[i]!);
+    const gaps = times.slice(1).map((time, i) => time - times[i]);
     expect(times.length).toBeGreaterThan(5);
     expect(Math.max(...gaps)).toBeLessThanOrEqual(0.5);
   });

@@ -159,7 +159,7 @@ describe("a plotter that is said to be another machine", () => {
   it("stays connected, and home where it is", async () => {
     const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));
     const server = await createServer({ port: 0, device: "virtual", virtualSpeed: 50, dataDir });
-    const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0]!;
+    const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0];
     try {
       await expect.poll(async () => (await main()).connection).toBe("idle");
       expect((await send(server.url, "POST", "/plotters/main/walk", { xMm: 20, yMm: 15 })).status).toBe(200);

@@ -64,7 +64,7 @@ async function urlOf(started: Started): Promise<string> {
   return /http:\/\/127\.0\.0\.1:\d+/.exec(started.said())![0];
 }
 async function stateOf(url: string): Promise<Job> {
-  return snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).jobs[0]!;
+  return snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).jobs[0];
 }
 /** A plot that has come so far that the pen is at work. */
 async function plotting(url: string, line: PtyBoard): Promise<void> {

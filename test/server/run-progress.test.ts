@@ -20,9 +20,9 @@ async function begin() {
 
 /** Neither the share nor the time left jumps: no report differs from the one before by more than a second's work. */
 function expectSteady(seen: readonly PlotProgress[]): void {
-  const wholeS = seen[0]!.elapsedS + seen[0]!.remainingS;
+  const wholeS = seen[0].elapsedS + seen[0].remainingS;
   for (let i = 1; i < seen.length; i++) {
-    const [before, now] = [seen[i - 1]!, seen[i]!];
+    const [before, now] = [seen[i - 1], seen[i]];
     expect(now.progress).toBeGreaterThanOrEqual(before.progress);
     expect(now.progress - before.progress).toBeLessThan(1 / wholeS);
     expect(Math.abs(now.remainingS - before.remainingS)).toBeLessThan(1);
@@ -59,7 +59,7 @@ describe("the progress of a plot", () => {
     run.moveHoldPlace({ strokes: 5 });
     const on = seen.at(-1)!;
     expect(on.progress - held.progress).toBeGreaterThan(4 / 20);
-    expect(on.elapsedS + on.remainingS).toBeCloseTo(seen[0]!.elapsedS + seen[0]!.remainingS, 0);
+    expect(on.elapsedS + on.remainingS).toBeCloseTo(seen[0].elapsedS + seen[0].remainingS, 0);
     run.moveHoldPlace({ strokes: -6 });
     const back = seen.at(-1)!;
     expect(back.progress).toBeLessThan(held.progress);

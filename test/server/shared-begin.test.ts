@@ -46,7 +46,7 @@ describe("a plotter whose model nobody has named", () => {
     await share(server, "moss", { plotter: "Left" });
     await expect.poll(() => jobsOf(server)).toEqual(["moss queued"]);
     await send(server.url, "DELETE", `/jobs/${await jobNamed("moss")}`);
-    expect((await stateOf(server)).plotters[0]!.machine).toBe(null);
+    expect((await stateOf(server)).plotters[0].machine).toBe(null);
     await introduce(server, "Left", MACHINE);
     await expect.poll(() => jobsOf(server)).toEqual(["fern queued"]);
   });
@@ -81,7 +81,7 @@ describe("a shared job that was taken and has not begun", () => {
       .poll(async () => (await jobsOf(server)).slice(0, 3))
       .toEqual(["fern here queued", "behind done", "first done"]);
     const { jobs } = await stateOf(server);
-    expect(jobs[0]!.message).toMatch(/can't be reached/);
+    expect(jobs[0].message).toMatch(/can't be reached/);
     await send(server.url, "PATCH", "/queue", { runOn: false });
   });
 

@@ -57,7 +57,7 @@ describe("a job that a server has taken", () => {
     expect(await noticesOf(back)).toEqual(['"fern" was given to another server while this one was away.']);
 
     const { jobs } = await stateOf(right);
-    await expect.poll(() => startOf(right, jobs[0]!.id)).toBe("200");
+    await expect.poll(() => startOf(right, jobs[0].id)).toBe("200");
     await expect.poll(() => jobsOf(right)).toEqual(["fern done"]);
     await expect.poll(() => sharedOf(back, "fern")).toMatchObject({ state: "stored", hasBegun: true });
     await right.close();

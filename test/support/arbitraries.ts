@@ -10,7 +10,7 @@ export function strokeSetOf(
   layerOf: readonly number[] = [],
 ): StrokeSet {
   const offsets = [0];
-  for (const stroke of strokes) offsets.push(offsets[offsets.length - 1]! + stroke.length);
+  for (const stroke of strokes) offsets.push(offsets[offsets.length - 1] + stroke.length);
   const layerCount = 1 + Math.max(0, ...layerOf);
   return {
     xy: Float64Array.from(strokes.flat(2)),
@@ -39,7 +39,7 @@ const wandering = fc
     const points: Point[] = [[0, 0]];
     for (const [length, turn] of steps) {
       heading += turn;
-      const [x, y] = points[points.length - 1]!;
+      const [x, y] = points[points.length - 1];
       points.push([x + length * Math.cos(heading), y + length * Math.sin(heading)]);
     }
     return points;
@@ -54,7 +54,7 @@ const curve = fc
     for (let i = 0; i < count; i++) {
       const r = radius * (1 + (growth * i) / count);
       heading += step / r;
-      const [x, y] = points[points.length - 1]!;
+      const [x, y] = points[points.length - 1];
       points.push([x + step * Math.cos(heading), y + step * Math.sin(heading)]);
     }
     return points;

@@ -1,7 +1,7 @@
 /** Connects to a port as whoever it is run as, and tells its parent what came of it. */
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 
-const driver = new PlotterDriver({ device: process.argv[2]! });
+const driver = new PlotterDriver({ device: process.argv[2] });
 await driver.start();
 process.send!(driver.state);
 await driver.close();

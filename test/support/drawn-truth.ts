@@ -33,7 +33,7 @@ export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): Drawn
     const passed: Interval[] = [];
     let before: Nearest | null = null;
     for (let i = 0; i < xy.length; i += 2) {
-      const now = nearest(rail, xy[i]!, xy[i + 1]!);
+      const now = nearest(rail, xy[i], xy[i + 1]);
       awayMm = Math.max(awayMm, now.awayMm);
       // Between two strokes nothing of either is drawn; `awayMm` tells of such a line.
       if (before?.stroke === now.stroke) {
@@ -63,9 +63,9 @@ function railOf({ xy, offsets }: StrokeSet): readonly Piece[] {
   const pieces: Piece[] = [];
   let startMm = 0;
   for (let stroke = 0; stroke + 1 < offsets.length; stroke++) {
-    for (let i = offsets[stroke]!; i + 1 < offsets[stroke + 1]!; i++) {
-      const [x, y] = [xy[2 * i]!, xy[2 * i + 1]!];
-      const [dx, dy] = [xy[2 * i + 2]! - x, xy[2 * i + 3]! - y];
+    for (let i = offsets[stroke]; i + 1 < offsets[stroke + 1]; i++) {
+      const [x, y] = [xy[2 * i], xy[2 * i + 1]];
+      const [dx, dy] = [xy[2 * i + 2] - x, xy[2 * i + 3] - y];
       const lengthMm = Math.hypot(dx, dy);
       pieces.push({ stroke, startMm, lengthMm, x, y, dx, dy });
       startMm += lengthMm;

@@ -49,12 +49,12 @@ const lines = (board: Pick<VirtualBoard, "drawn">): Float64Array[] =>
 
 function gridOfStrokes({ xy, offsets }: StrokeSet): SegmentGrid {
   const grid = new SegmentGrid(1);
-  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s]!, 2 * offsets[s + 1]!);
+  for (let s = 0; s + 1 < offsets.length; s++) grid.addPolyline(xy, 2 * offsets[s], 2 * offsets[s + 1]);
   return grid;
 }
 
 function* pairs(xy: ArrayLike<number>): Iterable<readonly [number, number]> {
-  for (let i = 0; i < xy.length; i += 2) yield [xy[i]!, xy[i + 1]!];
+  for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
 }
 
 /** Everything drawn lies on the drawing, and everything of the drawing is drawn. */
@@ -73,8 +73,8 @@ export function seamsMm(board: VirtualBoard): number[] {
   const all = lines(board);
   const seams: number[] = [];
   for (let i = 1; i < all.length; i++) {
-    const [before, after] = [all[i - 1]!, all[i]!];
-    const mm = Math.hypot(after[0]! - before[before.length - 2]!, after[1]! - before[before.length - 1]!);
+    const [before, after] = [all[i - 1], all[i]];
+    const mm = Math.hypot(after[0] - before[before.length - 2], after[1] - before[before.length - 1]);
     if (mm < 2) seams.push(mm);
   }
   return seams;
@@ -90,7 +90,7 @@ export function drawnMm(board: Pick<VirtualBoard, "drawn">): number {
     const whole = { xy, offsets: Uint32Array.of(0, xy.length / 2), tag: Uint32Array.of(0) };
     const { xy: kept } = simplifyLines(whole, 0.02);
     for (let i = 2; i < kept.length; i += 2) {
-      sum += Math.hypot(kept[i]! - kept[i - 2]!, kept[i + 1]! - kept[i - 1]!);
+      sum += Math.hypot(kept[i] - kept[i - 2], kept[i + 1] - kept[i - 1]);
     }
   }
   return sum;

@@ -32,7 +32,7 @@ export function layeredStrokes(
   lines: readonly (readonly [layer: number, line: readonly number[]])[],
 ): StrokeSet {
   const offsets = new Uint32Array(lines.length + 1);
-  lines.forEach(([, line], i) => (offsets[i + 1] = offsets[i]! + line.length / 2));
+  lines.forEach(([, line], i) => (offsets[i + 1] = offsets[i] + line.length / 2));
   return {
     xy: Float64Array.from(lines.flatMap(([, line]) => line)),
     offsets,

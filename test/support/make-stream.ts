@@ -22,8 +22,8 @@ export function makeStream(
   const steps2 = new Int32Array(count);
   let at = from;
   rows.forEach((row, i) => {
-    textOffsets[i + 1] = textOffsets[i]! + row.line.length + 1;
-    boardS[i + 1] = boardS[i]! + row.durationS;
+    textOffsets[i + 1] = textOffsets[i] + row.line.length + 1;
+    boardS[i + 1] = boardS[i] + row.durationS;
     at = [at[0] + (row.steps?.[0] ?? 0), at[1] + (row.steps?.[1] ?? 0)];
     steps1[i] = at[0];
     steps2[i] = at[1];

@@ -34,7 +34,7 @@ export class ManualClock implements Clock {
   async advance(byS: number): Promise<void> {
     const untilS = this.timeS + byS;
     await settle();
-    while (this.timers.length > 0 && this.timers[0]!.dueS <= untilS) {
+    while (this.timers.length > 0 && this.timers[0].dueS <= untilS) {
       const timer = this.timers.shift()!;
       this.timeS = Math.max(this.timeS, timer.dueS);
       timer.callback();
@@ -69,7 +69,7 @@ export class ManualClock implements Clock {
 
   private insert(timer: Timer): void {
     let at = this.timers.length;
-    while (at > 0 && this.timers[at - 1]!.dueS > timer.dueS) at--;
+    while (at > 0 && this.timers[at - 1].dueS > timer.dueS) at--;
     this.timers.splice(at, 0, timer);
   }
 }

@@ -284,7 +284,7 @@ async function inGroup(
   lookAtIt: LookAtIt,
 ): Promise<void> {
   const data = temporaryFolder("page-state");
-  const { device, virtualSpeed = 20 } = states[0]!;
+  const { device, virtualSpeed = 20 } = states[0];
   const open = (port: string): Promise<ServerProcess> =>
     startServerProcess({
       dataDir: data.path,
@@ -308,7 +308,7 @@ async function inGroup(
   const page = await context.newPage();
   try {
     await page.goto(server.url);
-    if (!states[0]!.isFirstVisit) await chooseSample(page);
+    if (!states[0].isFirstVisit) await chooseSample(page);
     for (const state of states) {
       await state.reach({ page, server, restart });
       for (const colorScheme of SCHEMES) {

@@ -3,9 +3,9 @@ import { PlotterDriver } from "../../server/plotter/plotter.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 
-const driver = new PlotterDriver({ device: process.argv[2]! });
+const driver = new PlotterDriver({ device: process.argv[2] });
 await driver.start();
-const strokes = strokesOf(...(JSON.parse(process.argv[3]!) as number[][]));
+const strokes = strokesOf(...(JSON.parse(process.argv[3]) as number[][]));
 await driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, {
   journal: { record: (entry) => process.send!(entry) },
 });

@@ -73,7 +73,7 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
   const { strokes } = prepare(importSvg(text), DEFAULT_PREPARE);
   const grid = new SegmentGrid(0.5);
   for (let i = 0; i + 1 < strokes.offsets.length; i++) {
-    grid.addPolyline(strokes.xy, 2 * strokes.offsets[i]!, 2 * strokes.offsets[i + 1]!);
+    grid.addPolyline(strokes.xy, 2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
   }
   return { strokes, grid };
 });
@@ -121,11 +121,11 @@ function distances(
   fast.board.drawn().forEach(({ penDown, xy }, index) => {
     if (!penDown) return;
     if (index < firstPlotLines) drawn.addPolyline(xy);
-    for (let i = 0; i < xy.length; i += 2) offMm = Math.max(offMm, grid.distance(xy[i]!, xy[i + 1]!, offMm));
+    for (let i = 0; i < xy.length; i += 2) offMm = Math.max(offMm, grid.distance(xy[i], xy[i + 1], offMm));
   });
   let missedMm = 0;
   for (let i = 0; i < strokes.xy.length; i += 2) {
-    missedMm = Math.max(missedMm, drawn.distance(strokes.xy[i]!, strokes.xy[i + 1]!, missedMm));
+    missedMm = Math.max(missedMm, drawn.distance(strokes.xy[i], strokes.xy[i + 1], missedMm));
   }
   return { offMm, missedMm };
 }

@@ -13,7 +13,7 @@ import type { FromBoard, ToBoard } from "./pty-board.js";
 
 const CR = 13;
 
-const { firmware, speed, futureSyntax, wakeful } = JSON.parse(process.argv[2]!) as {
+const { firmware, speed, futureSyntax, wakeful } = JSON.parse(process.argv[2]) as {
   firmware: string;
   speed: number;
   futureSyntax: boolean;

@@ -24,8 +24,8 @@ export class SegmentGrid {
 
   /** x, y, x, y …; a single point is a segment of no length. */
   addPolyline(xy: ArrayLike<number>, from = 0, to = xy.length): void {
-    if (to - from === 2) this.addSegment(xy[from]!, xy[from + 1]!, xy[from]!, xy[from + 1]!);
-    for (let i = from; i + 3 < to; i += 2) this.addSegment(xy[i]!, xy[i + 1]!, xy[i + 2]!, xy[i + 3]!);
+    if (to - from === 2) this.addSegment(xy[from], xy[from + 1], xy[from], xy[from + 1]);
+    for (let i = from; i + 3 < to; i += 2) this.addSegment(xy[i], xy[i + 1], xy[i + 2], xy[i + 3]);
   }
 
   /**
@@ -67,10 +67,10 @@ export class SegmentGrid {
 
   /** mm². */
   private toSegment2(index: number, x: number, y: number): number {
-    const x0 = this.segments[index]!;
-    const y0 = this.segments[index + 1]!;
-    const dx = this.segments[index + 2]! - x0;
-    const dy = this.segments[index + 3]! - y0;
+    const x0 = this.segments[index];
+    const y0 = this.segments[index + 1];
+    const dx = this.segments[index + 2] - x0;
+    const dy = this.segments[index + 3] - y0;
     const length2 = dx * dx + dy * dy;
     const t = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
     const awayX = x - x0 - t * dx;

@@ -33,13 +33,13 @@ export function planSAfter(commands: MachineCommands, ticks: number): number {
   let left = ticks;
   for (let i = 0; i < stream.count; i++) {
     if (!isMove(commandLine(stream, i))) continue;
-    const taken = Math.round((stream.boardS[i + 1]! - stream.boardS[i]!) * TICKS_PER_S);
+    const taken = Math.round((stream.boardS[i + 1] - stream.boardS[i]) * TICKS_PER_S);
     if (left <= taken) {
-      return stream.planS[i]! + (left / taken) * (stream.planS[i + 1]! - stream.planS[i]!);
+      return stream.planS[i] + (left / taken) * (stream.planS[i + 1] - stream.planS[i]);
     }
     left -= taken;
   }
-  return stream.planS[stream.count]!;
+  return stream.planS[stream.count];
 }
 
 /** mm drawn, from the drawing's beginning, when the plan has come that far. */
@@ -48,8 +48,8 @@ export function drawnUntilMm(strokes: StrokeSet, { trajectory }: PlannedPlot, pl
   const { stroke, alongMm } = stateAt(trajectory, planS);
   if (stroke >= 0) return mmOf(strokes, { stroke, alongMm });
   for (let run = 0; run < runs.count; run++) {
-    if (runs.stroke[run]! >= 0 && runs.startS[run]! >= planS - 1e-7) {
-      return mmOf(strokes, { stroke: runs.stroke[run]!, alongMm: 0 });
+    if (runs.stroke[run] >= 0 && runs.startS[run] >= planS - 1e-7) {
+      return mmOf(strokes, { stroke: runs.stroke[run], alongMm: 0 });
     }
   }
   return mmOf(strokes, { stroke: strokes.offsets.length - 1, alongMm: 0 });

@@ -58,15 +58,15 @@ export function worstOf(
   let move = 0;
   let end: readonly [number, number] | null = null;
   for (let run = 0; run < runs.count; run++) {
-    for (; move < penMoves.length && penMoves[move]!.beforeRun <= run; move++) clock += penMoves[move]!.waitS;
-    worst.clock = Math.max(worst.clock, Math.abs(clock - runs.startS[run]!));
-    const stroke = runs.stroke[run]!;
+    for (; move < penMoves.length && penMoves[move].beforeRun <= run; move++) clock += penMoves[move].waitS;
+    worst.clock = Math.max(worst.clock, Math.abs(clock - runs.startS[run]));
+    const stroke = runs.stroke[run];
     const limits = stroke < 0 ? travel : draw;
     const near = stroke < 0 ? null : new NearStroke(strokes, stroke);
     let before = { vx: 0, vy: 0, ax: 0, ay: 0 };
-    for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) {
-      const duration = trajectory.durationS[k]!;
-      worst.clock = Math.max(worst.clock, Math.abs(clock - trajectory.startS[k]!));
+    for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
+      const duration = trajectory.durationS[k];
+      worst.clock = Math.max(worst.clock, Math.abs(clock - trajectory.startS[k]));
       const samples = Math.max(SAMPLES, Math.min(MOST_SAMPLES, Math.ceil(duration / EVERY_S)));
       for (let i = 0; i <= samples; i++) {
         const s = sample(trajectory, k, (duration * i) / samples);
@@ -77,7 +77,7 @@ export function worstOf(
         if (i === 0) {
           if (end) worst.gap = Math.max(worst.gap, Math.hypot(s.x - end[0], s.y - end[1]));
           const jump = Math.hypot(s.vx - before.vx, s.vy - before.vy);
-          if (k === runs.firstBlock[run]!) worst.restSpeed = Math.max(worst.restSpeed, jump);
+          if (k === runs.firstBlock[run]) worst.restSpeed = Math.max(worst.restSpeed, jump);
           else {
             worst.velocityJump = Math.max(worst.velocityJump, jump);
           }
@@ -89,7 +89,7 @@ export function worstOf(
       if (trajectory.jx && trajectory.jy) {
         worst.jerk = Math.max(
           worst.jerk,
-          Math.hypot(trajectory.jx[k]!, trajectory.jy[k]!) / limits.jerkMmPerS3,
+          Math.hypot(trajectory.jx[k], trajectory.jy[k]) / limits.jerkMmPerS3,
         );
       }
       clock += duration;
@@ -97,7 +97,7 @@ export function worstOf(
     worst.restSpeed = Math.max(worst.restSpeed, Math.hypot(before.vx, before.vy));
     worst.accelJump = Math.max(worst.accelJump, Math.hypot(before.ax, before.ay));
   }
-  for (; move < penMoves.length; move++) clock += penMoves[move]!.waitS;
+  for (; move < penMoves.length; move++) clock += penMoves[move].waitS;
   worst.clock = Math.max(worst.clock, Math.abs(clock - trajectory.totalS));
   if (end) worst.gap = Math.max(worst.gap, Math.hypot(trajectory.endX - end[0], trajectory.endY - end[1]));
   return worst;
@@ -105,14 +105,14 @@ export function worstOf(
 
 function sample(trajectory: Trajectory, k: number, t: number) {
   const { x, y, vx, vy, ax, ay, jx, jy } = trajectory;
-  const j = jx && jy ? [jx[k]!, jy[k]!] : [0, 0];
+  const j = jx && jy ? [jx[k], jy[k]] : [0, 0];
   return {
-    x: x[k]! + vx[k]! * t + (ax[k]! * t * t) / 2 + (j[0]! * t ** 3) / 6,
-    y: y[k]! + vy[k]! * t + (ay[k]! * t * t) / 2 + (j[1]! * t ** 3) / 6,
-    vx: vx[k]! + ax[k]! * t + (j[0]! * t * t) / 2,
-    vy: vy[k]! + ay[k]! * t + (j[1]! * t * t) / 2,
-    ax: ax[k]! + j[0]! * t,
-    ay: ay[k]! + j[1]! * t,
+    x: x[k] + vx[k] * t + (ax[k] * t * t) / 2 + (j[0] * t ** 3) / 6,
+    y: y[k] + vy[k] * t + (ay[k] * t * t) / 2 + (j[1] * t ** 3) / 6,
+    vx: vx[k] + ax[k] * t + (j[0] * t * t) / 2,
+    vy: vy[k] + ay[k] * t + (j[1] * t * t) / 2,
+    ax: ax[k] + j[0] * t,
+    ay: ay[k] + j[1] * t,
   };
 }
 
@@ -120,7 +120,7 @@ function allFinite(trajectory: Trajectory): boolean {
   const { durationS, x, y, vx, vy, ax, ay, jx, jy, startS, alongMm } = trajectory;
   for (const column of [durationS, x, y, vx, vy, ax, ay, startS, alongMm, jx, jy]) {
     if (!column) continue;
-    for (let k = 0; k < trajectory.blockCount; k++) if (!Number.isFinite(column[k]!)) return false;
+    for (let k = 0; k < trajectory.blockCount; k++) if (!Number.isFinite(column[k])) return false;
   }
   return (
     durationS.subarray(0, trajectory.blockCount).every((t) => t > 0) && Number.isFinite(trajectory.totalS)
@@ -134,10 +134,10 @@ export class NearStroke {
 
   constructor(strokes: StrokeSet, stroke: number) {
     const points: [number, number][] = [];
-    for (let i = strokes.offsets[stroke]!; i < strokes.offsets[stroke + 1]!; i++) {
-      points.push([strokes.xy[2 * i]!, strokes.xy[2 * i + 1]!]);
+    for (let i = strokes.offsets[stroke]; i < strokes.offsets[stroke + 1]; i++) {
+      points.push([strokes.xy[2 * i], strokes.xy[2 * i + 1]]);
     }
-    if (points.length === 1) points.push(points[0]!);
+    if (points.length === 1) points.push(points[0]);
     this.points = points;
   }
 
@@ -159,8 +159,8 @@ export class NearStroke {
   }
 
   private toSegment(i: number, x: number, y: number): number {
-    const [ax, ay] = this.points[i]!;
-    const [bx, by] = this.points[i + 1]!;
+    const [ax, ay] = this.points[i];
+    const [bx, by] = this.points[i + 1];
     const dx = bx - ax;
     const dy = by - ay;
     const l2 = dx * dx + dy * dy;

@@ -50,7 +50,7 @@ export class FastBoard {
     const before = this.board.state().boardS;
     let firstWrong: string | null = null;
     for (let i = 0; i < stream.count; i++) {
-      this.board.receive(stream.text.subarray(stream.textOffsets[i]!, stream.textOffsets[i + 1]!));
+      this.board.receive(stream.text.subarray(stream.textOffsets[i], stream.textOffsets[i + 1]));
       const { steps1, steps2 } = this.board.state();
       if (firstWrong === null && (steps1 !== stream.steps1[i] || steps2 !== stream.steps2[i])) {
         firstWrong = `${i}: ${commandLine(stream, i)} -> ${steps1},${steps2}`;
@@ -59,10 +59,10 @@ export class FastBoard {
     if (stream.count > 0) {
       const last = stream.count - 1;
       this.state = {
-        steps1: stream.steps1[last]!,
-        steps2: stream.steps2[last]!,
-        acc1: stream.acc1[last]!,
-        acc2: stream.acc2[last]!,
+        steps1: stream.steps1[last],
+        steps2: stream.steps2[last],
+        acc1: stream.acc1[last],
+        acc2: stream.acc2[last],
       };
     }
     return { boardS: this.board.state().boardS - before, firstWrong };

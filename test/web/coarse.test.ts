@@ -20,8 +20,8 @@ const { draw } = buildScene(plan(strokes, DEFAULT_MOTION, DEFAULT_PEN), strokes.
 
 const at = ({ bytes }: Pieces, i: number) => {
   const [x0, y0, x1, y1, t0, t1] = new Float32Array(bytes, i * PIECE_FLOATS * 4, 6);
-  const layer = new Uint16Array(bytes)[i * PIECE_SHORTS + LAYER_SHORT]!;
-  return { x0: x0!, y0: y0!, x1: x1!, y1: y1!, t0: t0!, t1: t1!, layer };
+  const layer = new Uint16Array(bytes)[i * PIECE_SHORTS + LAYER_SHORT];
+  return { x0: x0, y0: y0, x1: x1, y1: y1, t0: t0, t1: t1, layer };
 };
 const all = (pieces: Pieces) => Array.from({ length: pieces.count }, (_, i) => at(pieces, i));
 
@@ -38,11 +38,11 @@ describe("a drawing in few pieces", () => {
     // 5 mm lie between two strokes: a piece that joined them would be long.
     for (const { x0, y0, x1, y1 } of pieces) expect(Math.hypot(x1 - x0, y1 - y0)).toBeLessThan(4);
     for (let i = 1; i < pieces.length; i++) {
-      expect(pieces[i]!.t0).toBeGreaterThanOrEqual(pieces[i - 1]!.t1 - 1e-3);
-      if (pieces[i]!.layer !== pieces[i - 1]!.layer) continue;
-      expect(pieces[i]!.x0).toBeCloseTo(pieces[i - 1]!.x1, 2);
+      expect(pieces[i].t0).toBeGreaterThanOrEqual(pieces[i - 1].t1 - 1e-3);
+      if (pieces[i].layer !== pieces[i - 1].layer) continue;
+      expect(pieces[i].x0).toBeCloseTo(pieces[i - 1].x1, 2);
     }
-    expect(pieces[0]!.t0).toBe(at(draw, 0).t0);
+    expect(pieces[0].t0).toBe(at(draw, 0).t0);
     expect(pieces.at(-1)!.t1).toBe(at(draw, draw.count - 1).t1);
   });
 

@@ -23,7 +23,7 @@ describe("the colour ramp", () => {
 
   it("only gets lighter from slow to fast, so that it can be read in grey", () => {
     for (let i = 8; i < colors.length; i += 8) {
-      expect(luminance(colors[i]!)).toBeGreaterThan(luminance(colors[i - 8]!));
+      expect(luminance(colors[i])).toBeGreaterThan(luminance(colors[i - 8]));
     }
   });
 
@@ -34,15 +34,15 @@ describe("the colour ramp", () => {
   it("has neighbours that differ by little, and ends that differ by much", () => {
     const bytes = rampBytes();
     for (let i = 4; i < bytes.length; i += 4) {
-      for (let c = 0; c < 3; c++) expect(Math.abs(bytes[i + c]! - bytes[i + c - 4]!)).toBeLessThan(12);
+      for (let c = 0; c < 3; c++) expect(Math.abs(bytes[i + c] - bytes[i + c - 4])).toBeLessThan(12);
     }
-    expect(luminance(colors.at(-1)!) - luminance(colors[0]!)).toBeGreaterThan(0.35);
+    expect(luminance(colors.at(-1)!) - luminance(colors[0])).toBeGreaterThan(0.35);
   });
 
   it("is the same in the legend as on the paper", () => {
     const bytes = rampBytes();
     const last = bytes.length - 4;
-    expect(rampColor(1)).toBe(hexFromRgb([bytes[last]!, bytes[last + 1]!, bytes[last + 2]!]));
+    expect(rampColor(1)).toBe(hexFromRgb([bytes[last], bytes[last + 1], bytes[last + 2]]));
     expect(rampColor(-3)).toBe(rampColor(0));
     expect(rampColor(7)).toBe(rampColor(1));
   });
@@ -52,8 +52,8 @@ describe("the legend", () => {
   it("runs from rest to the top speed", () => {
     const stops = legendStops(48, 5);
     expect(stops.map(({ mmPerS }) => mmPerS)).toEqual([0, 12, 24, 36, 48]);
-    expect(stops[0]!.color).toBe(rampColor(0));
-    expect(stops[4]!.color).toBe(rampColor(1));
+    expect(stops[0].color).toBe(rampColor(0));
+    expect(stops[4].color).toBe(rampColor(1));
   });
 });
 

@@ -18,7 +18,7 @@ describe("the graph's data", () => {
     const { tS } = graphData(trajectory, 1, 3, 201);
     expect(tS[0]).toBe(1);
     expect(tS[200]).toBeCloseTo(3, 9);
-    expect(tS[101]! - tS[100]!).toBeCloseTo(0.01, 9);
+    expect(tS[101] - tS[100]).toBeCloseTo(0.01, 9);
   });
 
   it("shows the limits of the plan and never more", () => {

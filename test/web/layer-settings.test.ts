@@ -99,7 +99,7 @@ describe("pens", () => {
 
   it("have ids that no other pen has, also after one was removed", () => {
     const two = addPen(addPen(DEFAULTS, { name: "a" }), { name: "b" });
-    const again = addPen(removePen(two, two.pens[0]!.id), { name: "c" });
+    const again = addPen(removePen(two, two.pens[0].id), { name: "c" });
     expect(new Set(again.pens.map(({ id }) => id)).size).toBe(2);
   });
 
@@ -136,19 +136,19 @@ describe("a preset", () => {
     const kept = moveLayer(setLayerPen(addPen(DEFAULTS, { name: "Brush" }), "sky", "pen-1"), rows, "sun", 0);
     const [preset] = withPreset([], "Dawn", kept);
     const now = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, marginMm: 3 } };
-    const taken = fromPreset(now, preset!);
+    const taken = fromPreset(now, preset);
     expect(taken).toEqual({ ...kept, prepare: { ...kept.prepare, marginMm: 3 } });
   });
 
   it("from before there were pens leaves those as they are", () => {
     const now = addPen(DEFAULTS, { name: "Brush" });
-    const { name, motion, pen } = withPreset([], "Old", DEFAULTS)[0]!;
+    const { name, motion, pen } = withPreset([], "Old", DEFAULTS)[0];
     expect(fromPreset(now, { name, motion, pen })).toEqual(now);
   });
 });
 
 describe("the alignment mark", () => {
-  const pen = { ...addPen(DEFAULTS, { name: "Brush" }).pens[0]!, offsetXMm: 1.5, offsetYMm: -0.5 };
+  const pen = { ...addPen(DEFAULTS, { name: "Brush" }).pens[0], offsetXMm: 1.5, offsetYMm: -0.5 };
 
   it.each(CORNERS)("is a cross at the %s, drawn with the pen's own correction and no stop", (corner) => {
     const placed = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, rotateDeg: 33, marginMm: 40 } };

@@ -60,7 +60,7 @@ const setUp = () => {
       onFault: (fault: PlanFault) => heard.push(`fault ${fault.message}`),
     },
   );
-  const lastOf = <T>(list: readonly T[]): T => list[list.length - 1]!;
+  const lastOf = <T>(list: readonly T[]): T => list[list.length - 1];
   return {
     planner,
     workers,
@@ -93,8 +93,8 @@ describe("the planner", () => {
     planner.request(taskOf({ key: "a", text: "" }));
     planner.request(taskOf({ key: "b", text: "" }));
     const [first, second] = worker().asked;
-    worker().reply({ type: "planned", id: first!.id, planned: planned("a") });
-    worker().reply({ type: "planned", id: second!.id, planned: planned("b") });
+    worker().reply({ type: "planned", id: first.id, planned: planned("a") });
+    worker().reply({ type: "planned", id: second.id, planned: planned("b") });
     expect(heard).toEqual(["b"]);
   });
 
@@ -104,7 +104,7 @@ describe("the planner", () => {
     planner.request(taskOf({ key: "small", text: "small" }));
     runTimers();
     expect(workers).toHaveLength(2);
-    expect(workers[0]!.isEnded).toBe(true);
+    expect(workers[0].isEnded).toBe(true);
     expect(asked()).toMatchObject({ drawingKey: "small", text: "small" });
     worker().reply({ type: "planned", id: asked().id, planned: planned("small") });
     expect(heard).toEqual(["small"]);
@@ -131,17 +131,17 @@ describe("the planner", () => {
   it("ends a worker that reads a file for too long, and says so; not one that has read it", () => {
     const { planner, workers, timers, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
-    workers[0]!.reply({ type: "started", id: 1 });
-    workers[0]!.reply({ type: "imported", id: 1 });
+    workers[0].reply({ type: "started", id: 1 });
+    workers[0].reply({ type: "imported", id: 1 });
     expect(timers.map(({ isOn }) => isOn)).toEqual([false]);
-    workers[0]!.reply({ type: "planned", id: 1, planned: planned("a") });
+    workers[0].reply({ type: "planned", id: 1, planned: planned("a") });
     planner.request(taskOf({ key: "b", text: "<svg/>" }));
-    workers[0]!.reply({ type: "started", id: 2 });
-    timers[1]!.callback();
-    expect(workers[0]!.isEnded).toBe(true);
+    workers[0].reply({ type: "started", id: 2 });
+    timers[1].callback();
+    expect(workers[0].isEnded).toBe(true);
     expect(heard).toEqual(["a", expect.stringContaining("fault This file takes too long to read")]);
     planner.request(taskOf({ key: "c", text: "<svg/>" }));
-    expect(workers[1]!.asked.map(({ drawingKey }) => drawingKey)).toEqual(["c"]);
+    expect(workers[1].asked.map(({ drawingKey }) => drawingKey)).toEqual(["c"]);
   });
 
   it("says that the worker died, and starts another for the next request", () => {
@@ -151,6 +151,6 @@ describe("the planner", () => {
     expect(heard).toEqual(["fault out of memory"]);
     planner.request(taskOf({ key: "a", text: "a" }));
     expect(workers).toHaveLength(2);
-    expect(worker().asked[0]!.text).toBe("a");
+    expect(worker().asked[0].text).toBe("a");
   });
 });

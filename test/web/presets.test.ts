@@ -19,7 +19,7 @@ describe("presets", () => {
     const presets = withPreset([], " Fineliner ", DEFAULT_PLOT_SETTINGS);
     writePresets(store, presets);
     expect(readPresets(store)).toEqual(presets);
-    expect(presets[0]!.name).toBe("Fineliner");
+    expect(presets[0].name).toBe("Fineliner");
   });
 
   it("of the same name replace each other", () => {
@@ -27,7 +27,7 @@ describe("presets", () => {
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 77 };
     const twice = withPreset(once, "Brush", { ...DEFAULT_PLOT_SETTINGS, pen });
     expect(twice).toHaveLength(1);
-    expect(twice[0]!.pen.upPct).toBe(77);
+    expect(twice[0].pen.upPct).toBe(77);
   });
 
   it("that do not parse are left out, the others stay", () => {

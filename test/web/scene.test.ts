@@ -36,15 +36,15 @@ const pieceAt = (pieces: Pieces, i: number) => {
   const f = new Float32Array(pieces.bytes).subarray(i * PIECE_FLOATS);
   const s = new Uint16Array(pieces.bytes).subarray(i * PIECE_SHORTS);
   return {
-    x0: f[0]!,
-    y0: f[1]!,
-    x1: f[2]!,
-    y1: f[3]!,
-    t0: f[4]!,
-    t1: f[5]!,
-    speed0: s[SPEED_SHORT]! / 65_535,
-    speed1: s[SPEED_SHORT + 1]! / 65_535,
-    layer: s[LAYER_SHORT]!,
+    x0: f[0],
+    y0: f[1],
+    x1: f[2],
+    y1: f[3],
+    t0: f[4],
+    t1: f[5],
+    speed0: s[SPEED_SHORT] / 65_535,
+    speed1: s[SPEED_SHORT + 1] / 65_535,
+    layer: s[LAYER_SHORT],
   };
 };
 const allOf = (pieces: Pieces) => Array.from({ length: pieces.count }, (_, i) => pieceAt(pieces, i));
@@ -114,7 +114,7 @@ describe("the scene", () => {
     const drawMm = allOf(scene.draw).reduce((sum, p) => sum + Math.hypot(p.x1 - p.x0, p.y1 - p.y0), 0);
     let expectedMm = 40 + 30 + 20 + 28;
     for (let i = 2; i < wave.length; i += 2) {
-      expectedMm += Math.hypot(wave[i]! - wave[i - 2]!, wave[i + 1]! - wave[i - 1]!);
+      expectedMm += Math.hypot(wave[i] - wave[i - 2], wave[i + 1] - wave[i - 1]);
     }
     // Corners are drawn as small curves within the corner tolerance: the way is a hair shorter.
     expect(drawMm).toBeLessThan(expectedMm + 0.01);

@@ -26,9 +26,9 @@ export const boxOfDrawn = ({ runs, x, y, blockCount, endX, endY }: Trajectory): 
     maxY = Math.max(maxY, py);
   };
   for (let r = 0; r < runs.count; r++) {
-    if (runs.stroke[r]! < 0) continue;
-    for (let b = runs.firstBlock[r]!; b <= runs.firstBlock[r + 1]!; b++) {
-      if (b < blockCount) take(x[b]!, y[b]!);
+    if (runs.stroke[r] < 0) continue;
+    for (let b = runs.firstBlock[r]; b <= runs.firstBlock[r + 1]; b++) {
+      if (b < blockCount) take(x[b], y[b]);
       else take(endX, endY);
     }
   }

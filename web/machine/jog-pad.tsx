@@ -79,7 +79,7 @@ export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
 
 /** Runs what it is given in turn, and drops what comes while enough is waiting. */
 const useOneAfterTheOther = () => {
-  const state = useRef({ count: 0, last: Promise.resolve() as Promise<unknown> });
+  const state = useRef<{ count: number; last: Promise<unknown> }>({ count: 0, last: Promise.resolve() });
   return (task: () => Promise<unknown>): void => {
     const now = state.current;
     if (now.count > MAX_WAITING) return;

@@ -18,7 +18,7 @@ export const PlotterStep = ({ profile, onNext }: StepProps) => {
   const job = usePageState(activeJob);
   const { choosePlotter } = useActions();
   const [like, setLike] = useState<string>(
-    () => MACHINES.find(({ id }) => id === store.getState().settings.machine)?.id ?? MACHINES[0]!.id,
+    () => MACHINES.find(({ id }) => id === store.getState().settings.machine)?.id ?? MACHINES[0].id,
   );
   const base = MACHINES.find(({ id }) => id === like) ?? profile;
   const isReady = plotter?.connection === "idle";

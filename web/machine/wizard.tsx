@@ -66,4 +66,4 @@ export const Wizard = () => {
 };
 
 const startOf = ({ machine, customMachine }: PlotSettings): MachineProfile =>
-  (customMachine?.id === machine ? customMachine : MACHINES.find(({ id }) => id === machine)) ?? MACHINES[0]!;
+  (customMachine?.id === machine ? customMachine : MACHINES.find(({ id }) => id === machine)) ?? MACHINES[0];

@@ -21,7 +21,7 @@ export const ExportList = () => {
   const [chosen, setChosen] = useState<string | null>(null);
   const { exportAs } = useActions();
   const firmwares = connected && !FIRMWARES.includes(connected) ? [connected, ...FIRMWARES] : FIRMWARES;
-  const firmware = chosen ?? connected ?? FIRMWARES[0]!;
+  const firmware = chosen ?? connected ?? FIRMWARES[0];
   return (
     <ul className="export-list">
       {EXPORT_FORMATS.map((format) => (

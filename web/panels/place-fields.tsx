@@ -65,7 +65,7 @@ const Aligning = ({ place, set }: AligningProps) => {
     const sides = margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all };
     const { xs, ys } = snapLinesOf({ width, height }, sides);
     const { x0, y0, x1, y1 } = boxAround(frame);
-    const [left, right, top, bottom] = [xs[1]!, xs[3]!, ys[1]!, ys[3]!];
+    const [left, right, top, bottom] = [xs[1], xs[3], ys[1], ys[3]];
     if (where === "across") return set({ xMm: rounded(place.xMm + (width - x0 - x1) / 2) });
     if (where === "down") return set({ yMm: rounded(place.yMm + (height - y0 - y1) / 2) });
     const factor = Math.min((right - left) / (x1 - x0), (bottom - top) / (y1 - y0));

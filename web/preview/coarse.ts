@@ -44,15 +44,15 @@ const forEachChain = (
   let first = 0;
   while (first < count) {
     const a = first * PIECE_FLOATS;
-    const layer = shorts[first * PIECE_SHORTS + LAYER_SHORT]!;
+    const layer = shorts[first * PIECE_SHORTS + LAYER_SHORT];
     let last = first;
     let way = 0;
     for (; last < count && last - first < longest; last++) {
       const f = last * PIECE_FLOATS;
       if (last > first && !touches(floats, f)) break;
       if (shorts[last * PIECE_SHORTS + LAYER_SHORT] !== layer) break;
-      way += distance(floats[f + 2]! - floats[f]!, floats[f + 3]! - floats[f + 1]!);
-      const chord = distance(floats[f + 2]! - floats[a]!, floats[f + 3]! - floats[a + 1]!);
+      way += distance(floats[f + 2] - floats[f], floats[f + 3] - floats[f + 1]);
+      const chord = distance(floats[f + 2] - floats[a], floats[f + 3] - floats[a + 1]);
       if (chord < STRAIGHT * way) break;
     }
     visit(first, Math.max(first, last - 1));
@@ -62,8 +62,8 @@ const forEachChain = (
 
 /** The piece whose floats begin at `f` goes on where the one before it ends. */
 const touches = (floats: Float32Array, f: number): boolean =>
-  Math.abs(floats[f]! - floats[f - PIECE_FLOATS + 2]!) < TOUCH_MM &&
-  Math.abs(floats[f + 1]! - floats[f - PIECE_FLOATS + 3]!) < TOUCH_MM;
+  Math.abs(floats[f] - floats[f - PIECE_FLOATS + 2]) < TOUCH_MM &&
+  Math.abs(floats[f + 1] - floats[f - PIECE_FLOATS + 3]) < TOUCH_MM;
 
 /** From where and when `first` begins to where and when `last` ends. */
 const writeJoined = (source: Columns, first: number, last: number, target: Columns, at: number): void => {
@@ -71,7 +71,7 @@ const writeJoined = (source: Columns, first: number, last: number, target: Colum
   const a = first * PIECE_FLOATS;
   const b = last * PIECE_FLOATS;
   target.floats.set(
-    [floats[a]!, floats[a + 1]!, floats[b + 2]!, floats[b + 3]!, floats[a + 4]!, floats[b + 5]!],
+    [floats[a], floats[a + 1], floats[b + 2], floats[b + 3], floats[a + 4], floats[b + 5]],
     at * PIECE_FLOATS,
   );
   const s = at * PIECE_SHORTS;

@@ -42,9 +42,9 @@ const byteFromLinear = (linear: number): number => {
 
 const rampAt = (share: number): Rgb => {
   let k = 0;
-  while (k < KNOTS.length - 2 && share > KNOTS[k + 1]![0]) k++;
-  const [s0, l0, c0, h0] = KNOTS[k]!;
-  const [s1, l1, c1, h1] = KNOTS[k + 1]!;
+  while (k < KNOTS.length - 2 && share > KNOTS[k + 1][0]) k++;
+  const [s0, l0, c0, h0] = KNOTS[k];
+  const [s1, l1, c1, h1] = KNOTS[k + 1];
   const f = (share - s0) / (s1 - s0);
   return rgbFromOklch(l0 + (l1 - l0) * f, c0 + (c1 - c0) * f, h0 + (h1 - h0) * f);
 };
@@ -66,7 +66,7 @@ export function hexFromRgb([r, g, b]: Rgb): string {
 
 /** "#rrggbb" for a share of the scale, 0 … 1. */
 export const rampColor = (share: number): string =>
-  RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))]!;
+  RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))];
 
 export interface LegendStop {
   readonly mmPerS: number;

@@ -20,9 +20,9 @@ export const graphData = (trajectory: Trajectory, fromS: number, toS: number, co
   for (let i = 0; i < count; i++) {
     tS[i] = fromS + i * step;
     for (let k = 0; k < LOOKS_A_POINT; k++) {
-      stateAt(trajectory, Math.min(toS, tS[i]! + (k / LOOKS_A_POINT) * step), state);
-      speedMmPerS[i] = Math.max(speedMmPerS[i]!, Math.hypot(state.vx, state.vy));
-      accelMmPerS2[i] = Math.max(accelMmPerS2[i]!, Math.hypot(state.ax, state.ay));
+      stateAt(trajectory, Math.min(toS, tS[i] + (k / LOOKS_A_POINT) * step), state);
+      speedMmPerS[i] = Math.max(speedMmPerS[i], Math.hypot(state.vx, state.vy));
+      accelMmPerS2[i] = Math.max(accelMmPerS2[i], Math.hypot(state.ax, state.ay));
     }
   }
   return { tS, speedMmPerS, accelMmPerS2 };

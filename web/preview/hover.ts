@@ -63,9 +63,9 @@ const strokeAt = ({ trajectory: { runs } }: Planned, tS: number): number => {
   let high = runs.count;
   while (low < high) {
     const mid = (low + high) >> 1;
-    if (runs.startS[mid]! <= tS + 1e-4) low = mid + 1;
+    if (runs.startS[mid] <= tS + 1e-4) low = mid + 1;
     else high = mid;
   }
-  for (let r = low - 1; r >= 0; r--) if (runs.stroke[r]! >= 0) return runs.stroke[r]!;
+  for (let r = low - 1; r >= 0; r--) if (runs.stroke[r] >= 0) return runs.stroke[r];
   return 0;
 };

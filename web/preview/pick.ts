@@ -41,13 +41,13 @@ export const buildPickGrid = ({ count, bytes }: Pieces): PickGrid => {
 
   const starts = new Uint32Array(columns * rows + 1);
   walkCells(floats, count, shape, (cell) => {
-    starts[cell + 1]!++;
+    starts[cell + 1]++;
   });
-  for (let c = 0; c < columns * rows; c++) starts[c + 1]! += starts[c]!;
-  const items = new Uint32Array(starts[columns * rows]!);
+  for (let c = 0; c < columns * rows; c++) starts[c + 1] += starts[c];
+  const items = new Uint32Array(starts[columns * rows]);
   const fill = starts.slice(0, columns * rows);
   walkCells(floats, count, shape, (cell, piece) => {
-    items[fill[cell]!++] = piece;
+    items[fill[cell]++] = piece;
   });
   return { ...shape, starts, items };
 };
@@ -69,8 +69,8 @@ export const nearestPiece = (
   const r1 = Math.min(grid.rows - 1, row(y + reachMm) + 1);
   let best: Picked | null = null;
   for (let r = r0; r <= r1; r++) {
-    for (let k = grid.starts[r * grid.columns + c0]!; k < grid.starts[r * grid.columns + c1 + 1]!; k++) {
-      const piece = grid.items[k]!;
+    for (let k = grid.starts[r * grid.columns + c0]; k < grid.starts[r * grid.columns + c1 + 1]; k++) {
+      const piece = grid.items[k];
       const found = distanceTo(floats, piece, x, y);
       const isNearer = !best || found.distanceMm < best.distanceMm - 1e-6;
       const isLater = best && found.distanceMm <= best.distanceMm && piece > best.piece;
@@ -82,10 +82,10 @@ export const nearestPiece = (
 
 const distanceTo = (floats: Float32Array, piece: number, x: number, y: number): Picked => {
   const f = piece * PIECE_FLOATS;
-  const x0 = floats[f]!;
-  const y0 = floats[f + 1]!;
-  const dx = floats[f + 2]! - x0;
-  const dy = floats[f + 3]! - y0;
+  const x0 = floats[f];
+  const y0 = floats[f + 1];
+  const dx = floats[f + 2] - x0;
+  const dy = floats[f + 3] - y0;
   const length2 = dx * dx + dy * dy;
   const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
   return { piece, share, distanceMm: Math.hypot(x - x0 - share * dx, y - y0 - share * dy) };
@@ -98,10 +98,10 @@ const boundsOf = (floats: Float32Array, count: number) => {
   let y1 = -Infinity;
   for (let i = 0; i < count; i++) {
     const f = i * PIECE_FLOATS;
-    x0 = Math.min(x0, floats[f]!, floats[f + 2]!);
-    x1 = Math.max(x1, floats[f]!, floats[f + 2]!);
-    y0 = Math.min(y0, floats[f + 1]!, floats[f + 3]!);
-    y1 = Math.max(y1, floats[f + 1]!, floats[f + 3]!);
+    x0 = Math.min(x0, floats[f], floats[f + 2]);
+    x1 = Math.max(x1, floats[f], floats[f + 2]);
+    y0 = Math.min(y0, floats[f + 1], floats[f + 3]);
+    y1 = Math.max(y1, floats[f + 1], floats[f + 3]);
   }
   return count > 0 ? { x0, y0, x1, y1 } : { x0: 0, y0: 0, x1: 0, y1: 0 };
 };
@@ -116,10 +116,10 @@ const walkCells = (
 ): void => {
   for (let i = 0; i < count; i++) {
     const f = i * PIECE_FLOATS;
-    const ax = floats[f]!;
-    const ay = floats[f + 1]!;
-    const dx = floats[f + 2]! - ax;
-    const dy = floats[f + 3]! - ay;
+    const ax = floats[f];
+    const ay = floats[f + 1];
+    const dx = floats[f + 2] - ax;
+    const dy = floats[f + 3] - ay;
     const steps = Math.max(1, Math.ceil((2 * Math.max(Math.abs(dx), Math.abs(dy))) / cellMm));
     let last = -1;
     for (let k = 0; k <= steps; k++) {

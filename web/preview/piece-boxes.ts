@@ -30,10 +30,10 @@ export const boxPieces = ({ count, bytes }: Pieces): PieceBoxes => {
     let y1 = -Infinity;
     const end = Math.min(count, from + piecesABox) * PIECE_FLOATS;
     for (let f = from * PIECE_FLOATS; f < end; f += PIECE_FLOATS) {
-      x0 = Math.min(x0, floats[f]!, floats[f + 2]!);
-      x1 = Math.max(x1, floats[f]!, floats[f + 2]!);
-      y0 = Math.min(y0, floats[f + 1]!, floats[f + 3]!);
-      y1 = Math.max(y1, floats[f + 1]!, floats[f + 3]!);
+      x0 = Math.min(x0, floats[f], floats[f + 2]);
+      x1 = Math.max(x1, floats[f], floats[f + 2]);
+      y0 = Math.min(y0, floats[f + 1], floats[f + 3]);
+      y1 = Math.max(y1, floats[f + 1], floats[f + 3]);
     }
     mm[at] = x0;
     mm[at + 1] = y0;
@@ -58,7 +58,7 @@ export const rangesInSight = (
   if (from >= to) return ranges;
   for (let at = Math.floor(from / piecesABox); at * piecesABox < to; at++) {
     const k = at * 4;
-    if (mm[k]! > x1 || mm[k + 2]! < x0 || mm[k + 1]! > y1 || mm[k + 3]! < y0) continue;
+    if (mm[k] > x1 || mm[k + 2] < x0 || mm[k + 1] > y1 || mm[k + 3] < y0) continue;
     const begin = Math.max(from, at * piecesABox);
     const end = Math.min(to, (at + 1) * piecesABox);
     const last = ranges.at(-1);

@@ -163,7 +163,7 @@ export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
 const colorsOf = ({ view, settings }: PageState, layers: readonly StrokeLayer[]): string[] => {
   const own = layerColorsOf(layers);
   if (view.colorBy !== "pen") return own;
-  return layers.map((layer, index) => penOf(settings, layer)?.color ?? own[index]!);
+  return layers.map((layer, index) => penOf(settings, layer)?.color ?? own[index]);
 };
 
 const widthsOf = ({ settings }: PageState, layers: readonly StrokeLayer[]): number[] =>

@@ -59,10 +59,10 @@ export const buildScene = (
   const counts = { draw: 0, travel: 0 };
   const { runs } = trajectory;
   for (let r = 0; r < runs.count; r++) {
-    const isDraw = runs.stroke[r]! >= 0;
+    const isDraw = runs.stroke[r] >= 0;
     const top = isDraw ? tops.draw : tops.travel;
     let pieces = isDraw && isDot(trajectory, r) ? 1 : 0;
-    for (let b = runs.firstBlock[r]!; b < runs.firstBlock[r + 1]!; b++) {
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
       pieces += pieceCount(trajectory, b, top);
     }
     counts[isDraw ? "draw" : "travel"] += pieces;
@@ -70,12 +70,12 @@ export const buildScene = (
   const draw = new PieceWriter(counts.draw, tops.draw);
   const travel = new PieceWriter(counts.travel, tops.travel);
   for (let r = 0; r < runs.count; r++) {
-    const stroke = runs.stroke[r]!;
+    const stroke = runs.stroke[r];
     const writer = stroke >= 0 ? draw : travel;
-    const layer = stroke >= 0 ? strokeLayer[stroke]! : 0;
+    const layer = stroke >= 0 ? strokeLayer[stroke] : 0;
     writer.shift = (stroke >= 0 && shifts?.[layer]) || STRAIGHT;
     if (stroke >= 0 && isDot(trajectory, r)) writer.addDot(trajectory, r, layer);
-    for (let b = runs.firstBlock[r]!; b < runs.firstBlock[r + 1]!; b++) {
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
       writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
     }
   }
@@ -100,7 +100,7 @@ export const piecesBefore = (pieces: Pieces, tS: number): number => {
   let high = pieces.count;
   while (low < high) {
     const mid = (low + high) >> 1;
-    if (floats[mid * PIECE_FLOATS + 4]! < tS) low = mid + 1;
+    if (floats[mid * PIECE_FLOATS + 4] < tS) low = mid + 1;
     else high = mid;
   }
   return low;
@@ -110,26 +110,26 @@ const topSpeeds = (trajectory: Trajectory): { draw: number; travel: number } => 
   const { runs, vx, vy } = trajectory;
   const tops = [1e-9, 1e-9];
   for (let r = 0; r < runs.count; r++) {
-    const kind = runs.stroke[r]! >= 0 ? 0 : 1;
-    let top2 = tops[kind]! ** 2;
-    for (let b = runs.firstBlock[r]!; b < runs.firstBlock[r + 1]!; b++) {
-      top2 = Math.max(top2, vx[b]! * vx[b]! + vy[b]! * vy[b]!);
+    const kind = runs.stroke[r] >= 0 ? 0 : 1;
+    let top2 = tops[kind] ** 2;
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
+      top2 = Math.max(top2, vx[b] * vx[b] + vy[b] * vy[b]);
     }
     tops[kind] = Math.sqrt(top2);
   }
-  return { draw: tops[0]!, travel: tops[1]! };
+  return { draw: tops[0], travel: tops[1] };
 };
 
 /** Pieces that block `b` needs; 0 for one that does not move. */
 const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): number => {
-  const t = trajectory.durationS[b]!;
+  const t = trajectory.durationS[b];
   if (!(t > 0)) return 0;
-  const vx = trajectory.vx[b]!;
-  const vy = trajectory.vy[b]!;
+  const vx = trajectory.vx[b];
+  const vy = trajectory.vy[b];
   const jx = trajectory.jx?.[b] ?? 0;
   const jy = trajectory.jy?.[b] ?? 0;
-  const ax = trajectory.ax[b]!;
-  const ay = trajectory.ay[b]!;
+  const ax = trajectory.ax[b];
+  const ay = trajectory.ay[b];
   const dvx = (ax + jx * t * 0.5) * t;
   const dvy = (ay + jy * t * 0.5) * t;
   const dx = (vx + dvx * 0.5) * t;
@@ -161,27 +161,27 @@ class PieceWriter {
   }
 
   addDot(trajectory: Trajectory, run: number, layer: number): void {
-    const next = trajectory.runs.firstBlock[run]!;
+    const next = trajectory.runs.firstBlock[run];
     const isLast = next >= trajectory.blockCount;
-    const x = (isLast ? trajectory.endX : trajectory.x[next]!) - this.shift.x;
-    const y = (isLast ? trajectory.endY : trajectory.y[next]!) - this.shift.y;
-    const startS = trajectory.runs.startS[run]!;
+    const x = (isLast ? trajectory.endX : trajectory.x[next]) - this.shift.x;
+    const y = (isLast ? trajectory.endY : trajectory.y[next]) - this.shift.y;
+    const startS = trajectory.runs.startS[run];
     this.#floats.set([x, y, x, y, startS, startS], this.#at * PIECE_FLOATS);
     this.#shorts[this.#at * PIECE_SHORTS + LAYER_SHORT] = layer;
     this.#at++;
   }
 
   addBlock(trajectory: Trajectory, b: number, pieces: number, layer: number): void {
-    const x = trajectory.x[b]! - this.shift.x;
-    const y = trajectory.y[b]! - this.shift.y;
-    const vx = trajectory.vx[b]!;
-    const vy = trajectory.vy[b]!;
-    const ax = trajectory.ax[b]!;
-    const ay = trajectory.ay[b]!;
+    const x = trajectory.x[b] - this.shift.x;
+    const y = trajectory.y[b] - this.shift.y;
+    const vx = trajectory.vx[b];
+    const vy = trajectory.vy[b];
+    const ax = trajectory.ax[b];
+    const ay = trajectory.ay[b];
     const jx = trajectory.jx?.[b] ?? 0;
     const jy = trajectory.jy?.[b] ?? 0;
-    const duration = trajectory.durationS[b]!;
-    const startS = trajectory.startS[b]!;
+    const duration = trajectory.durationS[b];
+    const startS = trajectory.startS[b];
     const toShort = 65_535 / this.topMmPerS;
     let px = x;
     let py = y;

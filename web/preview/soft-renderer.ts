@@ -128,21 +128,21 @@ class SoftRenderer implements SceneRenderer {
     for (let i = from; i < to; i++) {
       const f = i * PIECE_FLOATS;
       const s = i * PIECE_SHORTS;
-      const layer = shorts[s + LAYER_SHORT]!;
-      brush.reach = look.reaches[layer] ?? look.reaches[0]!;
+      const layer = shorts[s + LAYER_SHORT];
+      brush.reach = look.reaches[layer] ?? look.reaches[0];
       brush.alpha = look.alpha;
       if (look.by === "speed") {
-        brush.setRamp(this.#ramp, shorts[s + SPEED_SHORT]! / 65_535, shorts[s + SPEED_SHORT + 1]! / 65_535);
+        brush.setRamp(this.#ramp, shorts[s + SPEED_SHORT] / 65_535, shorts[s + SPEED_SHORT + 1] / 65_535);
       } else if (look.by === "time") {
-        brush.setRamp(this.#ramp, floats[f + 4]! / this.#totalS, floats[f + 5]! / this.#totalS);
+        brush.setRamp(this.#ramp, floats[f + 4] / this.#totalS, floats[f + 5] / this.#totalS);
       } else {
-        brush.setPlain(look.colors[layer] ?? look.colors[0]!);
+        brush.setPlain(look.colors[layer] ?? look.colors[0]);
       }
       brush.draw(
-        floats[f]! * scale + offsetX,
-        floats[f + 1]! * scale + offsetY,
-        floats[f + 2]! * scale + offsetX,
-        floats[f + 3]! * scale + offsetY,
+        floats[f] * scale + offsetX,
+        floats[f + 1] * scale + offsetY,
+        floats[f + 2] * scale + offsetX,
+        floats[f + 3] * scale + offsetY,
       );
     }
   }
@@ -264,21 +264,21 @@ class Brush {
     const data = this.#data;
     const a = cover * this.alpha;
     const rest = 1 - a;
-    data[at] = this.#r * a + data[at]! * rest;
-    data[at + 1] = this.#g * a + data[at + 1]! * rest;
-    data[at + 2] = this.#b * a + data[at + 2]! * rest;
-    data[at + 3] = 255 * a + data[at + 3]! * rest;
+    data[at] = this.#r * a + data[at] * rest;
+    data[at + 1] = this.#g * a + data[at + 1] * rest;
+    data[at + 2] = this.#b * a + data[at + 2] * rest;
+    data[at + 3] = 255 * a + data[at + 3] * rest;
   }
 }
 
 /** Premultiplied to plain, which is what a canvas takes. */
 const unmultiply = (data: Uint8ClampedArray): void => {
   for (let at = 0; at < data.length; at += 4) {
-    const a = data[at + 3]!;
+    const a = data[at + 3];
     if (a === 0 || a === 255) continue;
     const f = 255 / a;
-    data[at] = data[at]! * f;
-    data[at + 1] = data[at + 1]! * f;
-    data[at + 2] = data[at + 2]! * f;
+    data[at] = data[at] * f;
+    data[at + 1] = data[at + 1] * f;
+    data[at + 2] = data[at + 2] * f;
   }
 };

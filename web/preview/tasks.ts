@@ -65,7 +65,7 @@ export const drawSome = <B extends Boxed>(
 ): number => {
   let drawn = 0;
   while (drawn < pieceCount && tasks.length > 0) {
-    const task = tasks[0]!;
+    const task = tasks[0];
     const to = Math.min(task.to, task.from + pieceCount - drawn);
     if (!draw(task, to)) break;
     drawn += to - task.from;

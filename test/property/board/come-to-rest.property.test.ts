@@ -28,10 +28,10 @@ function worstOf(rest: Trajectory): { accel: number; jump: number } {
   let jump = 0;
   const { blockCount, durationS, vx, vy, ax, ay } = rest;
   for (let k = 0; k < blockCount; k++) {
-    accel = Math.max(accel, Math.hypot(ax[k]!, ay[k]!));
-    const next = k + 1 < blockCount ? [vx[k + 1]!, vy[k + 1]!] : [0, 0];
-    const dx = next[0]! - vx[k]! - ax[k]! * durationS[k]!;
-    const dy = next[1]! - vy[k]! - ay[k]! * durationS[k]!;
+    accel = Math.max(accel, Math.hypot(ax[k], ay[k]));
+    const next = k + 1 < blockCount ? [vx[k + 1], vy[k + 1]] : [0, 0];
+    const dx = next[0] - vx[k] - ax[k] * durationS[k];
+    const dy = next[1] - vy[k] - ay[k] * durationS[k];
     jump = Math.max(jump, Math.hypot(dx, dy));
   }
   return { accel, jump };
@@ -47,8 +47,8 @@ describe("a stop in the middle of a plan", () => {
   it.each([0.5, 2, 10, 30])("stays within the acceleration on a circle of %f mm taken at full speed", (r) => {
     const trajectory = plan(strokeSetOf([circle(r)]), MOTION, DEFAULT_PEN);
     const run = [...trajectory.runs.stroke].findIndex((stroke) => stroke === 0);
-    const fromS = trajectory.runs.startS[run]!;
-    const untilS = trajectory.runs.startS[run + 1]!;
+    const fromS = trajectory.runs.startS[run];
+    const untilS = trajectory.runs.startS[run + 1];
     for (let i = 1; i < 40; i++) {
       const tS = fromS + ((untilS - fromS) * i) / 40;
       const { trajectory: rest } = comeToRest(trajectory, tS, LIMITS, DEFAULT_PEN);
@@ -77,7 +77,7 @@ describe("a stop in the middle of a plan", () => {
             if (before.stroke < 0) continue;
             const near = new NearStroke(set, before.stroke);
             for (let k = 0; k < rest.blockCount; k++) {
-              expect(near.distance(rest.x[k]!, rest.y[k]!)).toBeLessThan(MOTION.draw.cornerMm + 0.021);
+              expect(near.distance(rest.x[k], rest.y[k])).toBeLessThan(MOTION.draw.cornerMm + 0.021);
             }
           }
         },

@@ -38,7 +38,7 @@ describe("a compiled plan on the virtual board", () => {
             const { boardS, firstWrong } = fast.play(stream);
             expect(firstWrong).toBeNull();
             expect(fast.errors).toEqual([]);
-            expect(boardS).toBeCloseTo(stream.boardS[stream.count]!, 6);
+            expect(boardS).toBeCloseTo(stream.boardS[stream.count], 6);
             expect(fast.board.state()).toMatchObject({ steps1: 0, steps2: 0 });
           },
         ),

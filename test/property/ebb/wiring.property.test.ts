@@ -30,15 +30,15 @@ describe("commands for a machine that is wired otherwise", () => {
         const wired = compile(trajectory, { ...options, machine });
         const places = (of: MachineProfile, { count, steps1, steps2 }: typeof plain): number[][] =>
           Array.from({ length: count }, (_, i) => [
-            xFromMotors(of, steps1[i]!, steps2[i]!),
-            yFromMotors(of, steps1[i]!, steps2[i]!),
+            xFromMotors(of, steps1[i], steps2[i]),
+            yFromMotors(of, steps1[i], steps2[i]),
           ]);
         expect(wired.count).toBe(plain.count);
         const stepMm = 1.5 / model.stepsPerMm;
         const [here, there] = [places(machine, wired), places(model, plain)];
         here.forEach(([x, y], i) => {
-          expect(Math.abs(x! - there[i]![0]!)).toBeLessThanOrEqual(stepMm);
-          expect(Math.abs(y! - there[i]![1]!)).toBeLessThanOrEqual(stepMm);
+          expect(Math.abs(x - there[i][0])).toBeLessThanOrEqual(stepMm);
+          expect(Math.abs(y - there[i][1])).toBeLessThanOrEqual(stepMm);
         });
       }),
       { numRuns: cases() },

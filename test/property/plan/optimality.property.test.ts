@@ -21,7 +21,7 @@ const smallPath: fc.Arbitrary<Point[]> = fc
     let heading = 0;
     for (const [length, turn] of steps) {
       heading += turn;
-      const [x, y] = points[points.length - 1]!;
+      const [x, y] = points[points.length - 1];
       points.push([x + size * length * Math.cos(heading), y + size * length * Math.sin(heading)]);
     }
     return points;
@@ -67,20 +67,20 @@ function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits)
 function fastestProfile(points: readonly Point[], limits: Limits): number {
   const { speed, accel } = limits;
   const places = [0];
-  points.slice(1).forEach((p, i) => places.push(places[i]! + distance(points[i]!, p)));
+  points.slice(1).forEach((p, i) => places.push(places[i] + distance(points[i], p)));
   const corners = cornersOf(points).map((corner) => {
     const circle = (accel * Math.min(corner.before, corner.after)) / 2 / Math.tan(corner.turn / 2);
     return Math.min(junctionDeviation(corner, limits) ** 2, circle);
   });
   const limit2 = [0, ...corners, 0];
   const v = (s: number): number =>
-    Math.sqrt(Math.min(speed ** 2, ...limit2.map((l, i) => l + 2 * accel * Math.abs(s - places[i]!))));
+    Math.sqrt(Math.min(speed ** 2, ...limit2.map((l, i) => l + 2 * accel * Math.abs(s - places[i]))));
   let time = 0;
   const cells = 400;
   for (let i = 0; i + 1 < places.length; i++) {
-    const length = places[i + 1]! - places[i]!;
+    const length = places[i + 1] - places[i];
     // Cells crowd at both ends, where speed changes most.
-    const at = (k: number): number => places[i]! + (length * (1 - Math.cos((Math.PI * k) / cells))) / 2;
+    const at = (k: number): number => places[i] + (length * (1 - Math.cos((Math.PI * k) / cells))) / 2;
     for (let k = 0; k < cells; k++) time += (2 * (at(k + 1) - at(k))) / (v(at(k)) + v(at(k + 1)));
   }
   return time;

@@ -66,8 +66,8 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
         let up = true;
         let move = 0;
         for (let run = 0; run <= runs.count; run++) {
-          for (; move < penMoves.length && penMoves[move]!.beforeRun === run; move++) up = penMoves[move]!.up;
-          if (run < runs.count) expect(up).toBe(runs.stroke[run]! < 0);
+          for (; move < penMoves.length && penMoves[move].beforeRun === run; move++) up = penMoves[move].up;
+          if (run < runs.count) expect(up).toBe(runs.stroke[run] < 0);
         }
         expect(up).toBe(true);
         expect(move).toBe(penMoves.length);
@@ -174,7 +174,7 @@ describe("an scurve plan", () => {
         const points: Point[] = [[0, 0]];
         let heading = start;
         for (const [length, exponent] of bends) {
-          const [x, y] = points[points.length - 1]!;
+          const [x, y] = points[points.length - 1];
           points.push([x + length * Math.cos(heading), y + length * Math.sin(heading)]);
           heading += 10 ** exponent;
         }
@@ -218,6 +218,6 @@ describe("a junction plan", () => {
 });
 
 function drawTime(stroke: readonly Point[], motion: MotionSettings): number {
-  const [x, y] = stroke[0]!;
+  const [x, y] = stroke[0];
   return plan(strokeSetOf([stroke]), motion, DEFAULT_PEN, { startX: x, startY: y, returnHome: false }).totalS;
 }

@@ -76,8 +76,8 @@ const total = (durations: readonly number[]): number => durations.reduce((sum, s
 function drawnDurations({ runs, durationS }: Trajectory): number[] {
   const durations: number[] = [];
   for (let run = 0; run < runs.count; run++) {
-    if (runs.stroke[run]! < 0) continue;
-    for (let k = runs.firstBlock[run]!; k < runs.firstBlock[run + 1]!; k++) durations.push(durationS[k]!);
+    if (runs.stroke[run] < 0) continue;
+    for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) durations.push(durationS[k]);
   }
   return durations;
 }

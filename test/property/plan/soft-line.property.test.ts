@@ -30,7 +30,7 @@ const wavy: fc.Arbitrary<Point[]> = fc
     let heading = 0;
     for (const [length, turn] of steps) {
       heading += turn;
-      const [x, y] = points[points.length - 1]!;
+      const [x, y] = points[points.length - 1];
       points.push([x + length * Math.cos(heading), y + length * Math.sin(heading)]);
     }
     return points;
@@ -53,8 +53,8 @@ describe("the soft line of a wavy one", () => {
         const near = new NearStroke(strokesOf(points), 0);
         for (let i = 0; i < n; i++) {
           for (const share of [0, 0.25, 0.5, 0.75]) {
-            const x = soft.x[i]! + share * soft.length[i]! * soft.ux[i]!;
-            const y = soft.y[i]! + share * soft.length[i]! * soft.uy[i]!;
+            const x = soft.x[i] + share * soft.length[i] * soft.ux[i];
+            const y = soft.y[i] + share * soft.length[i] * soft.uy[i];
             expect(near.distance(x, y)).toBeLessThanOrEqual(DELTA + 1e-9);
           }
         }
@@ -95,7 +95,7 @@ describe("the least bending between bounds", () => {
       solver.high.set(high);
       solver.solve(n, length);
       const y = Array.from(solver.y.subarray(0, n + 1));
-      expect(y.every((v, i) => v >= low[i]! && v <= high[i]!)).toBe(true);
+      expect(y.every((v, i) => v >= low[i] && v <= high[i])).toBe(true);
       found += energyOf(y, turn, length);
       least += energyOf(searched(turn, low, high, length), turn, length);
     }
@@ -116,12 +116,12 @@ describe("a plan in blend mode", () => {
         const worst = worstOf(t, strokes, draw, draw, draw.cornerMm);
         expect(worst.distance).toBeLessThanOrEqual(draw.cornerMm * 1.0001 + 1e-6 * size);
         let before = 0;
-        for (let k = t.runs.firstBlock[run]!; k < t.runs.firstBlock[run + 1]!; k++) {
-          expect(t.alongMm[k]!).toBeGreaterThanOrEqual(before - 1e-12 * size);
+        for (let k = t.runs.firstBlock[run]; k < t.runs.firstBlock[run + 1]; k++) {
+          expect(t.alongMm[k]).toBeGreaterThanOrEqual(before - 1e-12 * size);
           before = t.alongMm[k]!;
         }
         let whole = 0;
-        points.slice(1).forEach(([x, y], i) => (whole += Math.hypot(x - points[i]![0], y - points[i]![1])));
+        points.slice(1).forEach(([x, y], i) => (whole += Math.hypot(x - points[i][0], y - points[i][1])));
         expect(before).toBeLessThanOrEqual(whole * (1 + 1e-9) + 1e-6);
       }),
       { numRuns: cases(500) },
@@ -134,7 +134,7 @@ describe("a plan that goes on from a pen beside its line", () => {
     fc.assert(
       fc.property(wavy, arbitraryLimits, real(0.05, 0.95), real(0, 6.3), (points, draw, share, way) => {
         const strokes = strokesOf(points);
-        const steps = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i]![0], y - points[i]![1]));
+        const steps = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]));
         const whole = steps.reduce((sum, step) => sum + step, 0);
         const from = { stroke: 0, alongMm: share * whole };
         const [x, y] = placeOn(points, steps, from.alongMm);
@@ -144,7 +144,7 @@ describe("a plan that goes on from a pen beside its line", () => {
           const t = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, options);
           expect(Array.from(t.runs.stroke)).toEqual([0]);
           expect(penMovesOf(t).map(({ up }) => up)).toEqual([false, true]);
-          expect(Math.hypot(t.x[0]! - startX, t.y[0]! - startY)).toBeLessThan(1e-9);
+          expect(Math.hypot(t.x[0] - startX, t.y[0] - startY)).toBeLessThan(1e-9);
           const worst = worstOf(t, strokes, draw, draw, draw.cornerMm + DELTA);
           expect(worst.accel).toBeLessThanOrEqual(1.001);
           expect(worst.gap).toBeLessThanOrEqual(1e-9);
@@ -164,9 +164,9 @@ describe("a plan that goes on from a pen beside its line", () => {
 function placeOn(points: readonly Point[], steps: readonly number[], along: number): Point {
   let left = along;
   let i = 0;
-  while (i + 1 < steps.length && left > steps[i]!) left -= steps[i++]!;
-  const share = left / steps[i]!;
-  const [[x0, y0], [x1, y1]] = [points[i]!, points[i + 1]!];
+  while (i + 1 < steps.length && left > steps[i]) left -= steps[i++];
+  const share = left / steps[i];
+  const [[x0, y0], [x1, y1]] = [points[i], points[i + 1]];
   return [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
 }
 
@@ -182,12 +182,9 @@ const strokesOf = (points: readonly Point[]): StrokeSet => strokeSetOf([points])
 function bending({ segmentCount: n, ux, uy, length }: RunPath): number {
   let sum = 0;
   for (let i = 1; i < n; i++) {
-    const shorter = Math.min(length[i - 1]!, length[i]!);
-    const turn = Math.atan2(
-      ux[i - 1]! * uy[i]! - uy[i - 1]! * ux[i]!,
-      ux[i - 1]! * ux[i]! + uy[i - 1]! * uy[i]!,
-    );
-    sum += ((length[i - 1]! + length[i]!) / 2 / shorter ** 2) * turn ** 2;
+    const shorter = Math.min(length[i - 1], length[i]);
+    const turn = Math.atan2(ux[i - 1] * uy[i] - uy[i - 1] * ux[i], ux[i - 1] * ux[i] + uy[i - 1] * uy[i]);
+    sum += ((length[i - 1] + length[i]) / 2 / shorter ** 2) * turn ** 2;
   }
   return sum;
 }
@@ -195,8 +192,8 @@ function bending({ segmentCount: n, ux, uy, length }: RunPath): number {
 function energyOf(y: readonly number[], turn: readonly number[], length: Float64Array): number {
   let sum = 0;
   for (let i = 1; i + 1 < y.length; i++) {
-    const [before, after] = [length[i - 1]!, length[i]!];
-    const t = turn[i]! + (y[i + 1]! - y[i]!) / after - (y[i]! - y[i - 1]!) / before;
+    const [before, after] = [length[i - 1], length[i]];
+    const t = turn[i] + (y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before;
     sum += ((before + after) / 2 / Math.min(before, after) ** 2) * t * t;
   }
   return sum;
@@ -216,8 +213,8 @@ function searched(
       const at = (v: number): number => energyOf(Object.assign([...y], { [i]: v }), turn, length);
       const [e0, e1, e2] = [at(-1), at(0), at(1)];
       const bottom = (e0 - e2) / (2 * (e0 - 2 * e1 + e2));
-      const v = Math.min(high[i]!, Math.max(low[i]!, bottom));
-      moved = Math.max(moved, Math.abs(v - y[i]!));
+      const v = Math.min(high[i], Math.max(low[i], bottom));
+      moved = Math.max(moved, Math.abs(v - y[i]));
       y[i] = v;
     }
     if (moved < 1e-7) break;

@@ -45,10 +45,10 @@ const drawn = (given: [[number, number][], number][], more: Partial<PrepareSetti
 const lengths = ({ xy, offsets, layer, layers }: StrokeSet): Map<string, number> => {
   const found = new Map<string, number>();
   for (let i = 0; i < offsets.length - 1; i++) {
-    const { id, partOf = id } = layers[layer[i]!]!;
+    const { id, partOf = id } = layers[layer[i]];
     let length = found.get(partOf) ?? 0;
-    for (let p = offsets[i]! + 1; p < offsets[i + 1]!; p++) {
-      length += Math.hypot(xy[2 * p]! - xy[2 * p - 2]!, xy[2 * p + 1]! - xy[2 * p - 1]!);
+    for (let p = offsets[i] + 1; p < offsets[i + 1]; p++) {
+      length += Math.hypot(xy[2 * p] - xy[2 * p - 2], xy[2 * p + 1] - xy[2 * p - 1]);
     }
     found.set(partOf, length);
   }

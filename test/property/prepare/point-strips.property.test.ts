@@ -24,8 +24,8 @@ describe("PointStrips", () => {
           const left = new Set(given.keys());
           for (const [someX, someY, some, isOwn, remove] of queries) {
             const id = isOwn && given.length > 0 ? some % given.length : -1;
-            const [x, y] = id < 0 ? [someX, someY] : given[id]!;
-            const d2 = (i: number): number => (given[i]![0] - x) ** 2 + (given[i]![1] - y) ** 2;
+            const [x, y] = id < 0 ? [someX, someY] : given[id];
+            const d2 = (i: number): number => (given[i][0] - x) ** 2 + (given[i][1] - y) ** 2;
             const found = id < 0 ? strips.nearest(x, y) : strips.nearestTo(id);
             if (left.size === 0) expect(found).toBe(-1);
             else {

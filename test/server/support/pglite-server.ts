@@ -104,7 +104,7 @@ async function* batchesOf(socket: Socket): AsyncIterable<Uint8Array[]> {
       bytes = bytes.subarray(length);
       if (typeBytes === 1 && message[0] === TERMINATE) return;
       batch.push(message);
-      if (typeBytes === 0 || ENDS_BATCH.has(message[0]!)) {
+      if (typeBytes === 0 || ENDS_BATCH.has(message[0])) {
         yield batch;
         batch = [];
       }

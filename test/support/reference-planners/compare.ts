@@ -46,8 +46,8 @@ export function linesOf(strokes: StrokeSet): Point[][] {
   const lines: Point[][] = [];
   for (let s = 0; s + 1 < strokes.offsets.length; s++) {
     const line: Point[] = [];
-    for (let i = strokes.offsets[s]!; i < strokes.offsets[s + 1]!; i++) {
-      line.push([strokes.xy[2 * i]!, strokes.xy[2 * i + 1]!]);
+    for (let i = strokes.offsets[s]; i < strokes.offsets[s + 1]; i++) {
+      line.push([strokes.xy[2 * i], strokes.xy[2 * i + 1]]);
     }
     const points = distinct(line);
     if (points.length > 1) lines.push(points);
@@ -58,9 +58,9 @@ export function linesOf(strokes: StrokeSet): Point[][] {
 function jumpOf(line: readonly Point[], speeds: readonly number[]): number {
   let worst = 0;
   for (let i = 1; i + 1 < line.length; i++) {
-    const into = Math.atan2(line[i]![1] - line[i - 1]![1], line[i]![0] - line[i - 1]![0]);
-    const out = Math.atan2(line[i + 1]![1] - line[i]![1], line[i + 1]![0] - line[i]![0]);
-    worst = Math.max(worst, 2 * speeds[i]! * Math.abs(Math.sin((out - into) / 2)));
+    const into = Math.atan2(line[i][1] - line[i - 1][1], line[i][0] - line[i - 1][0]);
+    const out = Math.atan2(line[i + 1][1] - line[i][1], line[i + 1][0] - line[i][0]);
+    worst = Math.max(worst, 2 * speeds[i] * Math.abs(Math.sin((out - into) / 2)));
   }
   return worst;
 }
@@ -80,22 +80,22 @@ function ourRow(
   const t = plan(strokes, { ...how, draw, travel: draw }, DEFAULT_PEN);
   let [drawS, worst2, pieces, worstJump] = [0, 0, 0, 0];
   for (let run = 0; run < t.runs.count; run++) {
-    if (t.runs.stroke[run]! < 0) continue;
-    for (let k = t.runs.firstBlock[run]!; k < t.runs.firstBlock[run + 1]!; k++) {
-      const d = t.durationS[k]!;
+    if (t.runs.stroke[run] < 0) continue;
+    for (let k = t.runs.firstBlock[run]; k < t.runs.firstBlock[run + 1]; k++) {
+      const d = t.durationS[k];
       drawS += d;
       pieces++;
-      const jx = t.jx ? t.jx[k]! : 0;
-      const jy = t.jy ? t.jy[k]! : 0;
+      const jx = t.jx ? t.jx[k] : 0;
+      const jy = t.jy ? t.jy[k] : 0;
       worst2 = Math.max(
         worst2,
-        t.ax[k]! ** 2 + t.ay[k]! ** 2,
-        (t.ax[k]! + d * jx) ** 2 + (t.ay[k]! + d * jy) ** 2,
+        t.ax[k] ** 2 + t.ay[k] ** 2,
+        (t.ax[k] + d * jx) ** 2 + (t.ay[k] + d * jy) ** 2,
       );
-      if (k + 1 === t.runs.firstBlock[run + 1]!) continue;
-      const vx = t.vx[k]! + d * (t.ax[k]! + (d * jx) / 2);
-      const vy = t.vy[k]! + d * (t.ay[k]! + (d * jy) / 2);
-      worstJump = Math.max(worstJump, Math.hypot(t.vx[k + 1]! - vx, t.vy[k + 1]! - vy));
+      if (k + 1 === t.runs.firstBlock[run + 1]) continue;
+      const vx = t.vx[k] + d * (t.ax[k] + (d * jx) / 2);
+      const vy = t.vy[k] + d * (t.ay[k] + (d * jy) / 2);
+      worstJump = Math.max(worstJump, Math.hypot(t.vx[k + 1] - vx, t.vy[k + 1] - vy));
     }
   }
   return { planner, drawS, worstAccel: Math.sqrt(worst2) / limits.accel, pieces, worstJump };

@@ -38,7 +38,7 @@ export interface ReferencePlan {
 
 /** Without repeated points. */
 export function distinct(points: readonly Point[]): Point[] {
-  return points.filter((p, i) => i === 0 || distance(points[i - 1]!, p) > 1e-6);
+  return points.filter((p, i) => i === 0 || distance(points[i - 1], p) > 1e-6);
 }
 
 export const distance = (a: Point, b: Point): number => Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -46,7 +46,7 @@ export const distance = (a: Point, b: Point): number => Math.hypot(b[0] - a[0], 
 export function cornersOf(points: readonly Point[]): Corner[] {
   const corners: Corner[] = [];
   for (let i = 1; i + 1 < points.length; i++) {
-    const [a, b, c] = [points[i - 1]!, points[i]!, points[i + 1]!];
+    const [a, b, c] = [points[i - 1], points[i], points[i + 1]];
     const into = Math.atan2(b[1] - a[1], b[0] - a[0]);
     const out = Math.atan2(c[1] - b[1], c[0] - b[0]);
     const difference = Math.abs(out - into) % (2 * Math.PI);
@@ -63,17 +63,17 @@ export function planTrapezoids(
   cornerSpeed: (corner: Corner) => number,
 ): ReferencePlan {
   const { speed, accel } = limits;
-  const lengths = points.slice(1).map((p, i) => distance(points[i]!, p));
+  const lengths = points.slice(1).map((p, i) => distance(points[i], p));
   const speeds = [0, ...cornersOf(points).map((corner) => Math.min(speed, cornerSpeed(corner))), 0];
   for (let i = lengths.length - 1; i >= 0; i--) {
-    speeds[i] = Math.min(speeds[i]!, Math.sqrt(speeds[i + 1]! ** 2 + 2 * accel * lengths[i]!));
+    speeds[i] = Math.min(speeds[i], Math.sqrt(speeds[i + 1] ** 2 + 2 * accel * lengths[i]));
   }
   let timeS = 0;
   let pieces = 0;
   lengths.forEach((length, i) => {
-    const v0 = speeds[i]!;
-    speeds[i + 1] = Math.min(speeds[i + 1]!, Math.sqrt(v0 ** 2 + 2 * accel * length));
-    const v1 = speeds[i + 1]!;
+    const v0 = speeds[i];
+    speeds[i + 1] = Math.min(speeds[i + 1], Math.sqrt(v0 ** 2 + 2 * accel * length));
+    const v1 = speeds[i + 1];
     const peak = Math.min(speed, Math.sqrt((v0 ** 2 + v1 ** 2) / 2 + accel * length));
     const cruise = length - (2 * peak ** 2 - v0 ** 2 - v1 ** 2) / (2 * accel);
     timeS += (2 * peak - v0 - v1) / accel + Math.max(0, cruise) / peak;
@@ -91,7 +91,7 @@ export function worstCurveAccel(points: readonly Point[], plan: ReferencePlan, a
   cornersOf(points).forEach(({ turn, before, after }, i) => {
     if (turn > 1) return;
     const curvature = Math.tan(turn / 2) / (Math.min(before, after) / 2);
-    worst = Math.max(worst, (plan.speeds[i + 1]! ** 2 * curvature) / accel);
+    worst = Math.max(worst, (plan.speeds[i + 1] ** 2 * curvature) / accel);
   });
   return worst;
 }

@@ -79,18 +79,18 @@ export const OQUAM: ReferencePlanner = {
     });
     // Slower corners, found by look-ahead over what is left of the segments, are shorter too.
     const speeds2 = [0, ...corners.map((c) => c.v2), 0];
-    const reach = (i: number, v2: number): number => (corners[i - 1] ? (v2 * corners[i - 1]!.s) / accel : 0);
-    const lengths = points.slice(1).map((p, i) => distance(points[i]!, p));
+    const reach = (i: number, v2: number): number => (corners[i - 1] ? (v2 * corners[i - 1].s) / accel : 0);
+    const lengths = points.slice(1).map((p, i) => distance(points[i], p));
     const straight = (i: number): number =>
-      Math.max(0, lengths[i]! - reach(i, speeds2[i]!) - reach(i + 1, speeds2[i + 1]!));
+      Math.max(0, lengths[i] - reach(i, speeds2[i]) - reach(i + 1, speeds2[i + 1]));
     for (let i = lengths.length - 1; i >= 0; i--) {
-      speeds2[i] = Math.min(speeds2[i]!, speeds2[i + 1]! + 2 * accel * straight(i));
+      speeds2[i] = Math.min(speeds2[i], speeds2[i + 1] + 2 * accel * straight(i));
     }
     let timeS = 0;
     let pieces = corners.length;
     lengths.forEach((_, i) => {
-      speeds2[i + 1] = Math.min(speeds2[i + 1]!, speeds2[i]! + 2 * accel * straight(i));
-      const [v0, v1] = [Math.sqrt(speeds2[i]!), Math.sqrt(speeds2[i + 1]!)];
+      speeds2[i + 1] = Math.min(speeds2[i + 1], speeds2[i] + 2 * accel * straight(i));
+      const [v0, v1] = [Math.sqrt(speeds2[i]), Math.sqrt(speeds2[i + 1])];
       const l = straight(i);
       const peak = Math.min(speed, Math.sqrt((v0 ** 2 + v1 ** 2) / 2 + accel * l));
       const cruise = l - (2 * peak ** 2 - v0 ** 2 - v1 ** 2) / (2 * accel);

@@ -21,7 +21,7 @@ describe("the place of an emergency stop", () => {
       const stream = compile(trajectory, { machine, firmware, pen: DEFAULT_PEN });
       const all = Array.from({ length: stream.count }, (_, index) => ({
         ...{ number: index, stream, index, writtenS: 0 },
-        ...{ startS: stream.boardS[index]!, endS: stream.boardS[index + 1]! },
+        ...{ startS: stream.boardS[index], endS: stream.boardS[index + 1] },
       }));
       const random = seeded(5);
       for (let i = 1; i < stream.count; i++) {
@@ -33,11 +33,11 @@ describe("the place of an emergency stop", () => {
             commands: all.slice(Math.max(0, i - 20), i + 1 + waiting),
             waitingCount: waiting,
             stepsLeft: features.stopReplyValues === 1 ? null : [0, 0],
-            boardS: stream.boardS[i + 1]! + OFF_S * (2 * random() - 1),
+            boardS: stream.boardS[i + 1] + OFF_S * (2 * random() - 1),
           },
           features,
-          stream.steps1[i]!,
-          stream.steps2[i]!,
+          stream.steps1[i],
+          stream.steps2[i],
         );
         expect(found!.commandIndex).toBeGreaterThanOrEqual(i);
         expect(found!.commandIndex).toBeLessThanOrEqual(i + 1);

@@ -14,7 +14,7 @@ async function given(durationsS: readonly number[], ackedCount: number, queueDep
   }
   for (let i = 0; i < ackedCount; i++) {
     // Each is acknowledged when the one before it has begun.
-    if (i > queueDepth) await clock.advance(durationsS[i - queueDepth - 1]!);
+    if (i > queueDepth) await clock.advance(durationsS[i - queueDepth - 1]);
     timeline.acknowledged();
   }
   return { clock, timeline };

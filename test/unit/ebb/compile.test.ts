@@ -91,8 +91,8 @@ describe("compile", () => {
     const stream = compiled([LINE, [[100, 100]]], "3.0.3");
     expect(stream.textOffsets[stream.count]).toBe(stream.text.length);
     for (let i = 0; i < stream.count; i++) {
-      expect(stream.boardS[i + 1]).toBeGreaterThanOrEqual(stream.boardS[i]!);
-      expect(stream.planS[i + 1]).toBeGreaterThanOrEqual(stream.planS[i]! - 1e-9);
+      expect(stream.boardS[i + 1]).toBeGreaterThanOrEqual(stream.boardS[i]);
+      expect(stream.planS[i + 1]).toBeGreaterThanOrEqual(stream.planS[i] - 1e-9);
       expect(commandLine(stream, i)).toMatch(/^[A-Z][A-Z0-9](,-?\d+)+$/);
       if (/^S[CP]/.test(commandLine(stream, i))) expect(stream.run[i]).toBe(-1);
       else expect(stream.run[i]).toBeGreaterThanOrEqual(0);
@@ -120,8 +120,8 @@ describe("compile", () => {
       let movingS = 0;
       let count = 0;
       for (let i = 0; i < stream.count; i++) {
-        if (stream.run[i]! < 0) continue;
-        const s = stream.boardS[i + 1]! - stream.boardS[i]!;
+        if (stream.run[i] < 0) continue;
+        const s = stream.boardS[i + 1] - stream.boardS[i];
         expect(s).toBeLessThan(0.2);
         movingS += s;
         count++;

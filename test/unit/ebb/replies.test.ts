@@ -21,7 +21,7 @@ describe("lines from the board", () => {
 
   it("lose bytes that are no text, and do not grow without end", () => {
     expect(linesOf("O\x00\x07\xffK\r")).toEqual(["OK"]);
-    expect(linesOf(`${"x".repeat(10_000)}\r`)[0]!.length).toBeLessThan(1_000);
+    expect(linesOf(`${"x".repeat(10_000)}\r`)[0].length).toBeLessThan(1_000);
   });
 });
 

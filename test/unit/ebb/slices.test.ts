@@ -41,7 +41,7 @@ describe("slices of constant speed", () => {
 
   it("are about 10 ms long, but for a run shorter than that", () => {
     const { stream } = compiled([circle(50, 50, 10, 100), circle(90, 50, 0.02, 9)]);
-    const lengths = slicesOf(stream).map(([ms]) => ms!);
+    const lengths = slicesOf(stream).map(([ms]) => ms);
     expect(Math.max(...lengths)).toBeLessThanOrEqual(15);
     expect(lengths.filter((ms) => ms < 8).length / lengths.length).toBeLessThan(0.01);
   });
@@ -52,6 +52,6 @@ describe("slices of constant speed", () => {
       [[50, 50], [50.004, 50]],
       ...Array.from({ length: 40 }, (_, i) => circle(60 + i, 60, 0.1, 9)),
     ]); // prettier-ignore
-    expect(Math.abs(stream.boardS[stream.count]! - trajectory.totalS)).toBeLessThan(0.01);
+    expect(Math.abs(stream.boardS[stream.count] - trajectory.totalS)).toBeLessThan(0.01);
   });
 });

@@ -20,8 +20,8 @@ describe("a line builder", () => {
     expect(lineCount(lines)).toBe(COUNT);
     for (let i = 0; i < COUNT; i++) {
       expect(lines.tag[i]).toBe(3 * i);
-      expect(lines.offsets[i + 1]! - lines.offsets[i]!).toBe(2 + (i % 3));
-      expect(lines.xy[2 * lines.offsets[i]!]).toBe(i);
+      expect(lines.offsets[i + 1] - lines.offsets[i]).toBe(2 + (i % 3));
+      expect(lines.xy[2 * lines.offsets[i]]).toBe(i);
     }
   });
 
@@ -33,7 +33,7 @@ describe("a line builder", () => {
       builder.point(-1, -1);
       builder.end(7);
     }
-    for (let i = 2; i < COUNT; i++) byPoint.copy(lines, i, i < 1000 ? lines.tag[i]! : i);
+    for (let i = 2; i < COUNT; i++) byPoint.copy(lines, i, i < 1000 ? lines.tag[i] : i);
     atOnce.copyRange(lines, 2, 1000);
     const numbers = lines.offsets.map((point) => 2 * point);
     expect(atOnce.addMapped(lines.xy, numbers, 1000, COUNT, IDENTITY)).toBe(COUNT);

@@ -24,7 +24,7 @@ const circle = "92 1\n93 1\n72 2\n10 50\n20 50\n40 30\n50 0\n51 360\n73 1\n97 0"
 
 /** The lines of the hatch as "x y x y". */
 const linesOf = (paths: string, lines: readonly Line[], style = 0): string[] =>
-  shapesOf(drawDxf(hatch(paths, lines, style)))[1]!
+  shapesOf(drawDxf(hatch(paths, lines, style)))[1]
     .split("M")
     .slice(1)
     .map((line) => line.replace("L", " "));
@@ -36,7 +36,7 @@ describe("the pattern of a HATCH", () => {
   it("is drawn as lines in the hatch's colour, without a fill, and needs no warning", () => {
     const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, [LEVEL]));
     expect(shapesOf(drawing)[1]).toBe("M10 85L50 85M10 75L50 75M10 65L50 65M10 55L50 55");
-    expect(drawing.colors[drawing.paths.stroke[1]!]).toBe("#00ff00");
+    expect(drawing.colors[drawing.paths.stroke[1]]).toBe("#00ff00");
     expect(drawing.paths.fill[1]).toBe(-1);
     expect(codes(drawing)).toEqual([]);
   });
@@ -79,9 +79,9 @@ describe("the pattern of a HATCH", () => {
     lines.forEach(([x0, y0, x1, y1], i) => {
       const away = 4 * (i - 7);
       // x + y of the page is x − y of the file, and 100 more.
-      expect((100 - y0! - x0!) / Math.SQRT2, `line ${i}`).toBeCloseTo(away, 3);
-      expect(y1! - y0!, `line ${i}`).toBeCloseTo(x0! - x1!, 3);
-      expect(Math.hypot(x1! - x0!, y1! - y0!), `line ${i}`).toBeCloseTo(2 * Math.sqrt(900 - away * away), 2);
+      expect((100 - y0 - x0) / Math.SQRT2, `line ${i}`).toBeCloseTo(away, 3);
+      expect(y1 - y0, `line ${i}`).toBeCloseTo(x0 - x1, 3);
+      expect(Math.hypot(x1 - x0, y1 - y0), `line ${i}`).toBeCloseTo(2 * Math.sqrt(900 - away * away), 2);
     });
   });
 
@@ -144,7 +144,7 @@ describe("an elliptical edge of a HATCH", () => {
         const points = pointsOf(drawDxf(solid), 1);
         const gapTo = ([x, y]: [number, number]): number =>
           Math.min(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
-        expect(Math.hypot(points[0]![0] - start[0], points[0]![1] - start[1])).toBeLessThan(1e-3);
+        expect(Math.hypot(points[0][0] - start[0], points[0][1] - start[1])).toBeLessThan(1e-3);
         expect(gapTo(end)).toBeLessThan(1e-3);
         // On the arc that is meant, not on the rest of the ellipse: its middle is there, that of the other is not.
         expect(gapTo(middle)).toBeLessThan(0.2);

@@ -15,7 +15,7 @@ const drawn = (written: string, more = ""): string[] =>
     .flatMap((shape) => shape.split(/(?=M)/));
 /** Lower left corners. */
 const feet = (written: string, more = ""): string[] =>
-  drawn(written, more).map((shape) => /^M([^L]*)/.exec(shape)![1]!);
+  drawn(written, more).map((shape) => /^M([^L]*)/.exec(shape)![1]);
 
 describe("formats inside an MTEXT", () => {
   it("set the height, or multiply it, until their brace ends", () => {
@@ -31,7 +31,7 @@ describe("formats inside an MTEXT", () => {
   });
 
   it("stand smaller letters on the base line, in the middle, or under the top of their line", () => {
-    const small = (align: number): string => feet(`\\A${align};a{\\H3.5;b}`)[1]!;
+    const small = (align: number): string => feet(`\\A${align};a{\\H3.5;b}`)[1];
     expect([0, 1, 2].map(small)).toEqual(["17 17", "17 15.25", "17 13.5"]);
   });
 
@@ -65,11 +65,11 @@ describe("formats inside an MTEXT", () => {
   it("keep lines apart that stacks would reach over", () => {
     // 4.9 below the first base line, then 0.4 heights, then 7.
     const [a, , , , b] = feet("\\A1;a\\S1/2;\\Pb").map((foot) => Number(foot.split(" ")[1]));
-    expect(b! - a!).toBeCloseTo(4.9 + 2.8 + 7, 3);
+    expect(b - a).toBeCloseTo(4.9 + 2.8 + 7, 3);
   });
 
   it("align paragraphs within the text's width, or within its longest line", () => {
-    const at = (align: string, more: string): string => feet(`\\pxq${align};a\\Pabc`, more)[0]!;
+    const at = (align: string, more: string): string => feet(`\\pxq${align};a\\Pabc`, more)[0];
     expect(["l", "c", "r"].map((align) => at(align, "\n41 50"))).toEqual(["10 17", "31.5 17", "53 17"]);
     expect(["l", "c", "r"].map((align) => at(align, ""))).toEqual(["10 17", "17 17", "24 17"]);
     expect(at("r", "\n41 50\n71 2")).toBe("28 17");
@@ -93,9 +93,9 @@ describe("formats inside an MTEXT", () => {
 
   it("set colours by index and as RGB, each a shape of its own, and the text's own again", () => {
     const { paths, colors } = draw("a{\\C1;b\\c65280;c}\\C7;d\\C256;e", "\n62 5");
-    const fills = Array.from({ length: paths.count - 1 }, (_, i) => colors[paths.fill[i + 1]!]);
+    const fills = Array.from({ length: paths.count - 1 }, (_, i) => colors[paths.fill[i + 1]]);
     expect(fills).toEqual(["#0000ff", "#ff0000", "#00ff00", "#000000"]);
-    expect(shapesOf(draw("a{\\C1;b}c"))[1]!.match(/M/g)).toHaveLength(2);
+    expect(shapesOf(draw("a{\\C1;b}c"))[1].match(/M/g)).toHaveLength(2);
   });
 
   it("are left out without their letters where they are not known or broken off", () => {

@@ -17,9 +17,9 @@ function filtered(kernel: Kernel): BlockColumns {
 /** x, vx, ax at the end of the last block. */
 function endOf(out: BlockColumns): readonly number[] {
   const k = out.count - 1;
-  const s = out.durationS[k]!;
-  const [v, a, j] = [out.vx[k]!, out.ax[k]!, out.jx![k]!];
-  return [out.x[k]! + s * (v + s * (a / 2 + (s * j) / 6)), v + s * (a + (s * j) / 2), a + s * j];
+  const s = out.durationS[k];
+  const [v, a, j] = [out.vx[k], out.ax[k], out.jx![k]];
+  return [out.x[k] + s * (v + s * (a / 2 + (s * j) / 6)), v + s * (a + (s * j) / 2), a + s * j];
 }
 
 describe("a box of 0.1 s", () => {
@@ -41,7 +41,7 @@ describe("a box of 0.1 s", () => {
   it("never exceeds the input's speed and acceleration", () => {
     for (let k = 0; k < out.count; k++) {
       expect(out.vx[k]).toBeLessThanOrEqual(50 + 1e-9);
-      expect(Math.abs(out.ax[k]!)).toBeLessThanOrEqual(200 + 1e-9);
+      expect(Math.abs(out.ax[k])).toBeLessThanOrEqual(200 + 1e-9);
     }
   });
 });

@@ -58,9 +58,9 @@ describe("merging one run", () => {
     expect(blocks.count).toBeLessThanOrEqual(6);
     expect(blocks.clockS).toBeCloseTo(0.2, 9);
     const k = blocks.count - 1;
-    const s = blocks.durationS[k]!;
-    expect(blocks.x[k]! + s * (blocks.vx[k]! + (s * blocks.ax[k]!) / 2)).toBeCloseTo(at.x, 9);
-    expect(blocks.vx[k]! + s * blocks.ax[k]!).toBeCloseTo(0, 9);
+    const s = blocks.durationS[k];
+    expect(blocks.x[k] + s * (blocks.vx[k] + (s * blocks.ax[k]) / 2)).toBeCloseTo(at.x, 9);
+    expect(blocks.vx[k] + s * blocks.ax[k]).toBeCloseTo(0, 9);
   });
 
   it("joins a block below the floor with its neighbour, where the pair is above it", () => {
@@ -88,7 +88,7 @@ describe("merging one run", () => {
     const before = new BlockColumns(0, false);
     before.push(1, 7, 8, 0, 0, 0, 0, 0);
     for (let k = 0; k < blocks.count; k++) {
-      before.push(0.01, blocks.x[k]!, 0, blocks.vx[k]!, 0, blocks.ax[k]!, 0, blocks.alongMm[k]!);
+      before.push(0.01, blocks.x[k], 0, blocks.vx[k], 0, blocks.ax[k], 0, blocks.alongMm[k]);
     }
     mergeBlocks(before, 1, at, LIMITS, RULES);
     expect([before.durationS[0], before.x[0], before.y[0]]).toEqual([1, 7, 8]);
@@ -123,8 +123,8 @@ describe("a merged plan", () => {
       expect(worst.velocityJump).toBeLessThan(1e-6);
       return trajectory.blockCount;
     });
-    expect(counts[0]).toBeGreaterThan(counts[1]!);
-    expect(counts[1]).toBeGreaterThan(counts[2]!);
+    expect(counts[0]).toBeGreaterThan(counts[1]);
+    expect(counts[1]).toBeGreaterThan(counts[2]);
   });
 
   it("draws a dense line of 100 000 points with at most 15 000 commands", { timeout: 60_000 }, () => {

@@ -50,8 +50,8 @@ describe("fitting", () => {
   it("draws a circle of 20 mm radius at 50 mm/s in pieces of 50 ms and more (25 ms where they are filtered), within ε", () => {
     for (const mode of MOTION_MODES) {
       const t = plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN);
-      const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
-      const drawS = t.penMoves.startS[1]! - t.runs.startS[1]!;
+      const [first, end] = [t.runs.firstBlock[1], t.runs.firstBlock[2]];
+      const drawS = t.penMoves.startS[1] - t.runs.startS[1];
       expect(drawS / (end - first)).toBeGreaterThan(mode === "scurve" ? 0.025 : 0.05);
       expect(worstOf(t, strokes, draw, draw, 0).distance).toBeLessThan(
         0.02 + sagitta(20, 0.05) + draw.cornerMm,
@@ -94,17 +94,17 @@ describe("corners", () => {
 
   it("in blend mode are one block: a right angle moved outwards by δ, at v² = 8 A δ, at δ inside the corner", () => {
     const t = plan(strokeSetOf([corner]), { mode: "blend", draw, travel: draw }, DEFAULT_PEN);
-    const k = Array.from({ length: t.blockCount }, (_, i) => i).find((i) => t.ax[i]! < -1 && t.ay[i]! > 1)!;
+    const k = Array.from({ length: t.blockCount }, (_, i) => i).find((i) => t.ax[i] < -1 && t.ay[i] > 1)!;
     // The sides lead to the moved corner, which makes the turn a little wider.
     const tilt = Math.atan2(0.05 / Math.SQRT2, 50 + 0.05 / Math.SQRT2);
-    expect(Math.hypot(t.vx[k]!, t.vy[k]!) ** 2).toBeCloseTo(
+    expect(Math.hypot(t.vx[k], t.vy[k]) ** 2).toBeCloseTo(
       (4 * 1000 * 0.05) / Math.sin(Math.PI / 4 + tilt) ** 2,
       6,
     );
-    expect(Math.hypot(t.ax[k]!, t.ay[k]!)).toBeCloseTo(1000, 6);
-    const half = t.durationS[k]! / 2;
-    const x = t.x[k]! + t.vx[k]! * half + (t.ax[k]! * half * half) / 2;
-    const y = t.y[k]! + t.vy[k]! * half + (t.ay[k]! * half * half) / 2;
+    expect(Math.hypot(t.ax[k], t.ay[k])).toBeCloseTo(1000, 6);
+    const half = t.durationS[k] / 2;
+    const x = t.x[k] + t.vx[k] * half + (t.ax[k] * half * half) / 2;
+    const y = t.y[k] + t.vy[k] * half + (t.ay[k] * half * half) / 2;
     expect(x - 50).toBeCloseTo(-0.05 / Math.SQRT2, 9);
     expect(y).toBeCloseTo(0.05 / Math.SQRT2, 9);
   });
@@ -124,8 +124,8 @@ describe("corners", () => {
         });
         const drawS = (mode: MotionMode) =>
           plan(strokeSetOf([points]), { mode, draw: slow, travel: slow, fit: null }, DEFAULT_PEN, {
-            startX: points[0]![0],
-            startY: points[0]![1],
+            startX: points[0][0],
+            startY: points[0][1],
             returnHome: false,
           }).totalS;
         expect(drawS("junction") - drawS("blend")).toBeGreaterThan(0.0005);
@@ -154,12 +154,12 @@ describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, m
     expect(worst.velocityJump).toBeLessThan(1e-6);
     expect(worst.distance).toBeLessThan(0.0251);
     expect(worst.clock).toBeLessThan(1e-9);
-    const [first, end] = [t.runs.firstBlock[1]!, t.runs.firstBlock[2]!];
+    const [first, end] = [t.runs.firstBlock[1], t.runs.firstBlock[2]];
     // A block stands for about as much of the drawing as it is long.
     let most = 0;
     for (let k = first; k + 1 < end; k++) {
-      const stands = t.alongMm[k + 1]! - t.alongMm[k]!;
-      most = Math.max(most, Math.abs(stands - blockLength(t, k, t.durationS[k]!)));
+      const stands = t.alongMm[k + 1] - t.alongMm[k];
+      most = Math.max(most, Math.abs(stands - blockLength(t, k, t.durationS[k])));
     }
     expect(most).toBeLessThan(0.1);
   });
@@ -172,8 +172,8 @@ describe("settings beyond speed and acceleration", () => {
     for (const mode of MOTION_MODES) {
       const motion = { ...base, mode, ease: { lengthMm: 5, speedMmPerS: 10 } };
       const t = plan(strokeSetOf([[[0, 0], [40, 0]]]), motion, DEFAULT_PEN); // prettier-ignore
-      for (let k = t.runs.firstBlock[0]!; k < t.runs.firstBlock[1]!; k++) {
-        if (t.x[k]! < 4.9 || t.x[k]! > 35.1) expect(Math.abs(t.vx[k]!)).toBeLessThanOrEqual(10.0001);
+      for (let k = t.runs.firstBlock[0]; k < t.runs.firstBlock[1]; k++) {
+        if (t.x[k] < 4.9 || t.x[k] > 35.1) expect(Math.abs(t.vx[k])).toBeLessThanOrEqual(10.0001);
       }
       expect(topSpeed(t, 0)).toBeGreaterThan(40);
     }
@@ -199,15 +199,15 @@ describe("settings beyond speed and acceleration", () => {
     const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
     const lifts = penMovesOf(plan(strokes, base, pen)).filter((m) => m.up);
     expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
-    expect(lifts[0]!.waitS).toBeCloseTo(0.25 / 3 / 2, 9);
-    expect(lifts[1]!.waitS).toBeCloseTo(0.125, 9);
+    expect(lifts[0].waitS).toBeCloseTo(0.25 / 3 / 2, 9);
+    expect(lifts[1].waitS).toBeCloseTo(0.125, 9);
   });
 
   it("time the pen by its rate and delay", () => {
     const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
     const t = plan(strokeSetOf([square]), base, pen);
-    expect(t.penMoves.waitS[0]!).toBeCloseTo(0.05 + 1, 9);
-    expect(t.penMoves.waitS[1]!).toBeCloseTo(0.02 + 0.1, 9);
+    expect(t.penMoves.waitS[0]).toBeCloseTo(0.05 + 1, 9);
+    expect(t.penMoves.waitS[1]).toBeCloseTo(0.02 + 0.1, 9);
   });
 
   it("keep every motor below the board's step rate, diagonals too", () => {
@@ -255,13 +255,13 @@ function eachSample(
 ) {
   for (let k = first; k < end; k++) {
     for (let i = 0; i <= 8; i++) {
-      const u = (t.durationS[k]! * i) / 8;
-      const [jx, jy] = [t.jx ? t.jx[k]! : 0, t.jy ? t.jy[k]! : 0];
+      const u = (t.durationS[k] * i) / 8;
+      const [jx, jy] = [t.jx ? t.jx[k] : 0, t.jy ? t.jy[k] : 0];
       see(
-        t.x[k]! + u * (t.vx[k]! + (u * t.ax[k]!) / 2 + (u * u * jx) / 6),
-        t.y[k]! + u * (t.vy[k]! + (u * t.ay[k]!) / 2 + (u * u * jy) / 6),
-        t.vx[k]! + u * (t.ax[k]! + (u * jx) / 2),
-        t.vy[k]! + u * (t.ay[k]! + (u * jy) / 2),
+        t.x[k] + u * (t.vx[k] + (u * t.ax[k]) / 2 + (u * u * jx) / 6),
+        t.y[k] + u * (t.vy[k] + (u * t.ay[k]) / 2 + (u * u * jy) / 6),
+        t.vx[k] + u * (t.ax[k] + (u * jx) / 2),
+        t.vy[k] + u * (t.ay[k] + (u * jy) / 2),
       );
     }
   }
@@ -269,7 +269,7 @@ function eachSample(
 
 function topSpeed(t: Trajectory, run: number): number {
   let top = 0;
-  const [first, end] = [t.runs.firstBlock[run]!, t.runs.firstBlock[run + 1]!];
+  const [first, end] = [t.runs.firstBlock[run], t.runs.firstBlock[run + 1]];
   eachSample(t, first, end, (_x, _y, vx, vy) => (top = Math.max(top, Math.hypot(vx, vy))));
   return top;
 }

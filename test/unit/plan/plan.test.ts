@@ -80,7 +80,7 @@ describe("the sequence of runs", () => {
 
   it("begins in mid-stroke where told to", () => {
     const t = plan(strokeSetOf([square]), motion, DEFAULT_PEN, { from: { stroke: 0, alongMm: 15 } });
-    const first = t.runs.firstBlock[1]!;
+    const first = t.runs.firstBlock[1];
     expect([t.x[first], t.y[first], t.alongMm[first]]).toEqual([20, 15, 15]);
     expect(trajectoryStats(t).drawMm).toBeCloseTo(25, 9);
   });
@@ -96,7 +96,7 @@ describe("the state at a time", () => {
 
   it("stands still while the pen drops and lifts", () => {
     const [drop, lift] = penMovesOf(t);
-    for (const move of [drop!, lift!]) {
+    for (const move of [drop, lift]) {
       const s = stateAt(t, move.startS + move.waitS / 2);
       expect(s).toMatchObject({ vx: 0, vy: 0, ax: 0, ay: 0, stroke: -1, penUp: move.up });
       expect(Math.hypot(s.x - 10, s.y - 10)).toBeLessThan(1e-9);
@@ -104,8 +104,8 @@ describe("the state at a time", () => {
   });
 
   it("tells stroke and way along it while drawing", () => {
-    const start = t.runs.startS[1]!;
-    const end = t.penMoves.startS[1]!;
+    const start = t.runs.startS[1];
+    const end = t.penMoves.startS[1];
     const s = stateAt(t, (start + end) / 2);
     expect(s).toMatchObject({ stroke: 0, penUp: false });
     expect(s.alongMm).toBeCloseTo(20, 6);
@@ -147,7 +147,7 @@ describe("corner speed in junction mode", () => {
     const corner = Array.from({ length: t.blockCount }, (_, k) => k).find(
       (k) => t.x[k] === 50 && t.y[k] === 0,
     )!;
-    expect(Math.hypot(t.vx[corner]!, t.vy[corner]!)).toBeCloseTo(Math.sqrt((1 + Math.SQRT2) * 50), 9);
+    expect(Math.hypot(t.vx[corner], t.vy[corner])).toBeCloseTo(Math.sqrt((1 + Math.SQRT2) * 50), 9);
   });
 
   it("stops at a reversal", () => {
@@ -164,7 +164,7 @@ describe("corner speed in junction mode", () => {
       { returnHome: false },
     );
     const turn = Array.from({ length: t.blockCount }, (_, k) => k).find((k) => t.x[k] === 10)!;
-    expect(Math.hypot(t.vx[turn]!, t.vy[turn]!)).toBe(0);
+    expect(Math.hypot(t.vx[turn], t.vy[turn])).toBe(0);
   });
 });
 
@@ -234,7 +234,7 @@ function circle(radius: number, step: number, turns: number): Point[] {
 }
 
 function speedAt(t: ReturnType<typeof plan>, share: number): number {
-  const start = t.runs.startS[1]!;
-  const s = stateAt(t, start + share * (t.penMoves.startS[1]! - start));
+  const start = t.runs.startS[1];
+  const s = stateAt(t, start + share * (t.penMoves.startS[1] - start));
   return Math.hypot(s.vx, s.vy);
 }

@@ -20,8 +20,8 @@ const preparedWith = (settings: Partial<PrepareSettings>, of = drawing) =>
 const strokesOf = (settings: Partial<PrepareSettings>, of = drawing): string[] => {
   const { strokes } = preparedWith(settings, of);
   return Array.from({ length: strokeCount(strokes) }, (_, i) => {
-    const p = 2 * strokes.offsets[i]!;
-    return `${strokes.xy[p + 1]! / 10}${strokes.xy[p]! > strokes.xy[p + 2]! ? "<" : ">"}`;
+    const p = 2 * strokes.offsets[i];
+    return `${strokes.xy[p + 1] / 10}${strokes.xy[p] > strokes.xy[p + 2] ? "<" : ">"}`;
   });
 };
 
@@ -109,7 +109,7 @@ describe("the colour of a layer", () => {
     expect(looksOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
     expect(looksOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
     expect(looksOf(blue)).toEqual([[BLUE, 1]]);
-    expect(preparedWith({}, drawingOf([line(PURPLE, 50), ...blue])).strokes.layers[0]!.color).toBe(BLUE);
+    expect(preparedWith({}, drawingOf([line(PURPLE, 50), ...blue])).strokes.layers[0].color).toBe(BLUE);
   });
 
   it("goes by length, not by how many shapes the file has, and not by the way with the pen up", () => {

@@ -57,7 +57,7 @@ export function commandLine(stream: CommandStream, index: number): string {
   if (!(index >= 0 && index < stream.count)) {
     throw new RangeError(`command ${index} does not exist: the stream has ${stream.count} commands`);
   }
-  const bytes = stream.text.subarray(stream.textOffsets[index]!, stream.textOffsets[index + 1]! - 1);
+  const bytes = stream.text.subarray(stream.textOffsets[index], stream.textOffsets[index + 1] - 1);
   return String.fromCharCode(...bytes);
 }
 
@@ -91,7 +91,7 @@ class Compiler {
     if (penMoves.count > 0) this.setUpPen();
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {
-      while (next < penMoves.count && penMoves.beforeRun[next]! <= r)
+      while (next < penMoves.count && penMoves.beforeRun[next] <= r)
         this.penMove(penMoveAt(penMoves, next++));
       if (r < runs.count) this.runs.write(r);
     }

@@ -26,7 +26,7 @@ export class RunWalk {
     const { runs } = this.trajectory;
     this.first = runs.firstBlock[run]!;
     this.end = runs.firstBlock[run + 1]!;
-    this.origin = boardTicks - runs.startS[run]! * TICKS_PER_S;
+    this.origin = boardTicks - runs.startS[run] * TICKS_PER_S;
   }
 
   planS(tick: number): number {
@@ -36,7 +36,7 @@ export class RunWalk {
   /** The tick nearest to a block's end. */
   endTick(block: number): number {
     const { startS, durationS } = this.trajectory;
-    return Math.round(this.origin + (startS[block]! + durationS[block]!) * TICKS_PER_S);
+    return Math.round(this.origin + (startS[block] + durationS[block]) * TICKS_PER_S);
   }
 
   /** The block that contains `tick`, searched from `block` on. */
@@ -48,7 +48,7 @@ export class RunWalk {
 
   /** Writes the position and speed at `tick`, evaluated in `block`, as the start of both motors' legs. */
   startLegs(tick: number, block: number, m1: MotorLeg, m2: MotorLeg): void {
-    this.evaluate(this.planS(tick) - this.trajectory.startS[block]!, block);
+    this.evaluate(this.planS(tick) - this.trajectory.startS[block], block);
     m1.p0 = this.p1;
     m2.p0 = this.p2;
     m1.v0 = this.v1;
@@ -58,7 +58,7 @@ export class RunWalk {
   /** Writes them as the end of both legs. At the run's end, the exact end of the block. */
   endLegs(tick: number, block: number, isRunEnd: boolean, m1: MotorLeg, m2: MotorLeg): void {
     const { startS, durationS } = this.trajectory;
-    this.evaluate(isRunEnd ? durationS[block]! : this.planS(tick) - startS[block]!, block);
+    this.evaluate(isRunEnd ? durationS[block] : this.planS(tick) - startS[block], block);
     m1.p1 = this.p1;
     m2.p1 = this.p2;
     m1.v1 = this.v1;
@@ -84,11 +84,11 @@ export class RunWalk {
   turnTick(block: number, from: number, to: number): number {
     const { startS, vx, vy, ax, ay, jx, jy } = this.trajectory;
     const { machine } = this;
-    const startTick = this.origin + startS[block]! * TICKS_PER_S;
+    const startTick = this.origin + startS[block] * TICKS_PER_S;
     let earliest = Infinity;
     for (const motor of [motor1FromXy, motor2FromXy]) {
-      const v = motor(machine, vx[block]!, vy[block]!);
-      const a = motor(machine, ax[block]!, ay[block]!);
+      const v = motor(machine, vx[block], vy[block]);
+      const a = motor(machine, ax[block], ay[block]);
       const j = motor(machine, jx?.[block] ?? 0, jy?.[block] ?? 0);
       for (const root of rootsOfSpeed(v, a, j)) {
         const tick = Math.round(startTick + root * TICKS_PER_S);
@@ -105,12 +105,12 @@ export class RunWalk {
 
   private evaluate(t: number, k: number): void {
     const { trajectory: b, machine } = this;
-    const jx = b.jx === null ? 0 : b.jx[k]!;
-    const jy = b.jy === null ? 0 : b.jy[k]!;
-    const x = b.x[k]! + t * (b.vx[k]! + t * (b.ax[k]! / 2 + (t * jx) / 6));
-    const y = b.y[k]! + t * (b.vy[k]! + t * (b.ay[k]! / 2 + (t * jy) / 6));
-    const vx = b.vx[k]! + t * (b.ax[k]! + (t * jx) / 2);
-    const vy = b.vy[k]! + t * (b.ay[k]! + (t * jy) / 2);
+    const jx = b.jx === null ? 0 : b.jx[k];
+    const jy = b.jy === null ? 0 : b.jy[k];
+    const x = b.x[k] + t * (b.vx[k] + t * (b.ax[k] / 2 + (t * jx) / 6));
+    const y = b.y[k] + t * (b.vy[k] + t * (b.ay[k] / 2 + (t * jy) / 6));
+    const vx = b.vx[k] + t * (b.ax[k] + (t * jx) / 2);
+    const vy = b.vy[k] + t * (b.ay[k] + (t * jy) / 2);
     this.p1 = motor1FromXy(machine, x, y);
     this.p2 = motor2FromXy(machine, x, y);
     this.v1 = rateFromStepsPerS(motor1FromXy(machine, vx, vy));

@@ -43,9 +43,9 @@ export class AdvanceWatch {
 /** Steps at an instant of a stream, as if each command ran evenly. */
 function plannedSteps({ stream, commandIndex, planS }: StreamPlace): readonly [number, number] {
   const before = Math.max(0, commandIndex - 1);
-  const [fromS, toS] = [stream.planS[commandIndex]!, stream.planS[commandIndex + 1]!];
+  const [fromS, toS] = [stream.planS[commandIndex], stream.planS[commandIndex + 1]];
   const share = toS > fromS ? Math.min(1, Math.max(0, (planS - fromS) / (toS - fromS))) : 1;
   const between = (steps: Int32Array): number =>
-    steps[before]! + share * (steps[commandIndex]! - steps[before]!);
+    steps[before] + share * (steps[commandIndex] - steps[before]);
   return [between(stream.steps1), between(stream.steps2)];
 }

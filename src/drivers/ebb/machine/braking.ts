@@ -17,7 +17,7 @@ export function brakingAt(
 ): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
   const { motion: coded, pen } = withLayerCodes(settings, layers);
   const motion = motionForFirmware(coded, firmware);
-  const own = place ? layers[layer[place.stroke]!] : undefined;
+  const own = place ? layers[layer[place.stroke]] : undefined;
   const travelAccel = motion.travel.accelMmPerS2;
   if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };
   const id = settingsIdOf(own);

@@ -209,7 +209,7 @@ export class Carriage {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const lines = this.pollLines();
-    const places = new CertainPlace(features, this.origin, lines[lines.length - 1]!);
+    const places = new CertainPlace(features, this.origin, lines[lines.length - 1]);
     const streamer = new Streamer(session, {
       clock: boardClock,
       windowS: (sendAheadMs / 1_000) * speed,

@@ -92,7 +92,7 @@ export class EbbRun implements MachineRun {
     const { streamer } = this;
     if (!streamer?.playing) return undefined;
     const { trajectory, commands, next } = this.progress.partOf(streamer.nextStream);
-    return placeAt(trajectory, commands.planS[streamer.nextIndex]!) ?? next ?? undefined;
+    return placeAt(trajectory, commands.planS[streamer.nextIndex]) ?? next ?? undefined;
   }
 
   /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
@@ -106,7 +106,7 @@ export class EbbRun implements MachineRun {
     const { trajectory: whole } = plot;
     const commands = streamOf(plot.commands);
     this.progress.add({ trajectory: whole, commands, start: carriage.state!, afterS });
-    this.certain = placeAt(whole, commands.planS[0]!);
+    this.certain = placeAt(whole, commands.planS[0]);
     const streamer = carriage.streamer(this.settings, (at) => this.reached(at));
     const played = carriage.play(streamer, plot, this.settings);
     this.streamer = streamer;
@@ -115,7 +115,7 @@ export class EbbRun implements MachineRun {
     try {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
-      const planS = report.end.stream.planS[report.end.commandIndex + 1]!;
+      const planS = report.end.stream.planS[report.end.commandIndex + 1];
       // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
       const isWhole = report.complete && !this.stopped;
       const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
@@ -178,7 +178,7 @@ export class EbbRun implements MachineRun {
     for (; index < part.commands.count; index++) {
       const rest = this.restAt(part, index, false);
       if (!rest.place) return null;
-      const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]!);
+      const isDown = !isPenUpBefore(part.trajectory, part.commands.planS[index]);
       if (isDown && !isWithinStroke(this.strokes, rest.place)) continue;
       const { endX: x, endY: y } = rest.part.trajectory;
       const from = rest.place;
@@ -216,7 +216,7 @@ export class EbbRun implements MachineRun {
   /** The way to rest from before a command that is still to be written. */
   private restAt(part: EbbPart, index: number, lifts: boolean): Rest {
     const { commands, trajectory } = part;
-    const fromS = commands.planS[index]!;
+    const fromS = commands.planS[index];
     const { limits, pen } = this.brakingAt(placeAt(trajectory, fromS));
     const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
     const { trajectory: restTrajectory, planS } = rest;

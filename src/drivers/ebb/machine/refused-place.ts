@@ -52,13 +52,12 @@ export function placeAfterRefusal(
   const stand = placeFromMotors(machine, steps1, steps2);
   const isAfter = at !== null && refused.command !== null && at.number > refused.command.number;
   const dropsPen =
-    isPenUpBefore(trajectory, commands.planS[index]!) &&
-    !isPenUpBefore(trajectory, commands.planS[index + 1]!);
+    isPenUpBefore(trajectory, commands.planS[index]) && !isPenUpBefore(trajectory, commands.planS[index + 1]);
   const isMove = from.x !== to.x || from.y !== to.y;
   if (at && (!isAfter || (!isMove && !dropsPen))) return placeOf(at, stand.x, stand.y);
 
   const place = placeOf(refused.at, from.x, from.y);
-  const run = commands.run[index]!;
+  const run = commands.run[index];
   if (!at || !place || run < 0 || !isMove) return place;
   // The rest of the stroke, as far as it has run.
   const isSame = at.stream === commands;

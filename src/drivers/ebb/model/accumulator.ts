@@ -194,7 +194,7 @@ export class AxisMotion {
     let high = this.pieces.length - 1;
     while (low < high) {
       const middle = (low + high + 1) >> 1;
-      if (this.pieces[middle]!.fromTick <= tick) low = middle;
+      if (this.pieces[middle].fromTick <= tick) low = middle;
       else high = middle - 1;
     }
     return this.pieces[low];

@@ -116,7 +116,7 @@ export function compareFirmware(a: string, b: string): number {
   const x = parseVersion(a);
   const y = parseVersion(b);
   for (let i = 0; i < 3; i++) {
-    const difference = x[i]! - y[i]!;
+    const difference = x[i] - y[i];
     if (difference !== 0) return Math.sign(difference);
   }
   return 0;

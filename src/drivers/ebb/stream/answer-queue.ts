@@ -102,7 +102,7 @@ export class AnswerQueue {
   take(line: string): void {
     if (line === "") return;
     const error = ERROR_LINE.exec(line);
-    if (error) this.takeError(Number(error[1]), error[2]!, line);
+    if (error) this.takeError(Number(error[1]), error[2], line);
     else if (line === "OK" || line === "CUOK") this.takeOk();
     else if (!this.takeValue(line)) this.stray(line);
   }
@@ -161,7 +161,7 @@ export class AnswerQueue {
   /** False if the line fits no waiting command. */
   private takeValue(line: string): boolean {
     for (let i = this.head; i < this.waiting.length; i++) {
-      const candidate = this.waiting[i]!;
+      const candidate = this.waiting[i];
       const named = line === candidate.name || line.startsWith(`${candidate.name},`);
       const value = named ? line.slice(candidate.name.length + 1) : line;
       if (!candidate.pattern.test(value)) continue;
@@ -199,7 +199,7 @@ export class AnswerQueue {
   }
 
   private shift(): Waiting {
-    const first = this.waiting[this.head]!;
+    const first = this.waiting[this.head];
     this.head++;
     if (this.head > 64 || this.head === this.waiting.length) {
       this.waiting = this.waiting.slice(this.head);

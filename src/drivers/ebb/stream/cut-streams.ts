@@ -5,25 +5,25 @@ import type { BoardState, CommandStream } from "../compile/command-stream.js";
 export function boardStateBefore(stream: CommandStream, index: number, start: BoardState): BoardState {
   if (index === 0) return start;
   return {
-    steps1: stream.steps1[index - 1]!,
-    steps2: stream.steps2[index - 1]!,
-    acc1: stream.acc1[index - 1]!,
-    acc2: stream.acc2[index - 1]!,
+    steps1: stream.steps1[index - 1],
+    steps2: stream.steps2[index - 1],
+    acc1: stream.acc1[index - 1],
+    acc2: stream.acc2[index - 1],
   };
 }
 
 /** The first command that begins `leadS` after command `index` or later. */
 export function commandAfter(commands: CommandStream, index: number, leadS: number): number {
-  const fromS = commands.boardS[index]! + leadS;
+  const fromS = commands.boardS[index] + leadS;
   let i = index;
-  while (i < commands.count && commands.boardS[i]! < fromS) i++;
+  while (i < commands.count && commands.boardS[i] < fromS) i++;
   return i;
 }
 
 /** A plan begins with the pen coming down; here it is down already. */
 export function withoutDrop(commands: CommandStream): CommandStream {
   let first = 0;
-  while (first < commands.count && commands.run[first]! < 0) first++;
+  while (first < commands.count && commands.run[first] < 0) first++;
   return streamFrom(commands, first);
 }
 
@@ -54,8 +54,8 @@ export function restingStream(
   const textOffsets = new Uint32Array(count + 1);
   const boardS = new Float64Array(count + 1);
   lines.forEach(([line, durationS], i) => {
-    textOffsets[i + 1] = textOffsets[i]! + line.length + 1;
-    boardS[i + 1] = boardS[i]! + durationS;
+    textOffsets[i + 1] = textOffsets[i] + line.length + 1;
+    boardS[i + 1] = boardS[i] + durationS;
   });
   return {
     count,

@@ -42,7 +42,7 @@ export class SessionLog {
     const out: string[] = [];
     for (let i = Math.max(0, this.total - Math.min(count, this.sizeLines)); i < this.total; i++) {
       const slot = i % this.sizeLines;
-      out.push(`${this.times[slot]!.toFixed(4)} ${MARKS[this.directions[slot]!]} ${this.lines[slot]}`);
+      out.push(`${this.times[slot].toFixed(4)} ${MARKS[this.directions[slot]]} ${this.lines[slot]}`);
     }
     return out;
   }

@@ -328,7 +328,7 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
   );
 
 function wrongBoard(lastLines: readonly string[]): PlotwrightError {
-  const heard = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]!);
+  const heard = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
   const said = heard.map((line) => JSON.stringify(line)).join(", ");
   return new PlotwrightError(
     "no-board",

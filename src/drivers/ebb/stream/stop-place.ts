@@ -72,11 +72,11 @@ export function placeOfStop(
   if (!features.stopEndsTimed) return placeIn(last, last.endS);
   const first = waitingCount === null ? 0 : Math.max(0, commands.length - 1 - waitingCount);
   const running = waitingCount === null ? commands : commands.slice(first, first + 2);
-  const boardS = Math.max(evidence.boardS, running[0]!.startS);
+  const boardS = Math.max(evidence.boardS, running[0].startS);
   const fits = running.filter((command) => {
     const { stream, index } = command;
     const [missing1, missing2] = missingBefore(command);
-    const [end1, end2] = [stream.steps1[index]! - missing1, stream.steps2[index]! - missing2];
+    const [end1, end2] = [stream.steps1[index] - missing1, stream.steps2[index] - missing2];
     return !left || (left[0] === Math.abs(end1 - steps1) && left[1] === Math.abs(end2 - steps2));
   });
   const nearest = new NearestTick(features, steps1, steps2, boardS);
@@ -106,7 +106,7 @@ export function placeOfCounters(
 function passes({ stream, index }: InFlight, before: BoardState, steps1: number, steps2: number): boolean {
   const isBetween = (from: number, to: number, steps: number): boolean =>
     steps >= Math.min(from, to) - SAME_STEPS && steps <= Math.max(from, to) + SAME_STEPS;
-  const [end1, end2] = [stream.steps1[index]!, stream.steps2[index]!];
+  const [end1, end2] = [stream.steps1[index], stream.steps2[index]];
   return isBetween(before.steps1, end1, steps1) && isBetween(before.steps2, end2, steps2);
 }
 
@@ -114,7 +114,7 @@ function passes({ stream, index }: InFlight, before: BoardState, steps1: number,
 function stepsOf(command: InFlight, commands: readonly InFlight[]): Steps {
   const before = stateBefore(command, commands);
   const { stream, index } = command;
-  return before ? [stream.steps1[index]! - before.steps1, stream.steps2[index]! - before.steps2] : NO_STEPS;
+  return before ? [stream.steps1[index] - before.steps1, stream.steps2[index] - before.steps2] : NO_STEPS;
 }
 
 /** The board's state before a command; null for the very first one. */
@@ -123,13 +123,13 @@ function stateBefore({ number, stream, index }: InFlight, commands: readonly InF
   if (!before) return null;
   const { steps1, steps2, acc1, acc2 } = before.stream;
   const i = before.index;
-  return { steps1: steps1[i]!, steps2: steps2[i]!, acc1: acc1[i]!, acc2: acc2[i]! };
+  return { steps1: steps1[i], steps2: steps2[i], acc1: acc1[i], acc2: acc2[i] };
 }
 
 function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: number): NumberedPlace {
   const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
-  const fromS = stream.planS[index]!;
-  return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1]! - fromS) };
+  const fromS = stream.planS[index];
+  return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1] - fromS) };
 }
 
 /**
@@ -153,7 +153,7 @@ class NearestTick {
     const { stream, index, startS, endS } = command;
     const move = before && moveOf(commandLine(stream, index), this.features, before);
     if (!move) {
-      const off = this.off(stream.steps1[index]! - missing1, stream.steps2[index]! - missing2);
+      const off = this.off(stream.steps1[index] - missing1, stream.steps2[index] - missing2);
       this.offer(command, off, Math.min(endS, Math.max(startS, this.stopS)));
       return;
     }

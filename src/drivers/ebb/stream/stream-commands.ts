@@ -43,8 +43,8 @@ export async function streamCommands(
 
 function progressOf(place: StreamPlace): StreamProgress {
   const { planS, count } = place.stream;
-  const fromS = planS[0]!;
-  const toS = planS[count]!;
+  const fromS = planS[0];
+  const toS = planS[count];
   const fraction = toS > fromS ? Math.min(1, Math.max(0, (place.planS - fromS) / (toS - fromS))) : 1;
   return { ...place, fraction, leftS: Math.max(0, toS - place.planS) };
 }

@@ -112,7 +112,7 @@ export class Streamer {
     this.limit = { atIndex: this.next, then: [] };
     // Later, so that the caller can replace the stream first.
     this.sleep(0);
-    return { stream, commandIndex: this.next, planS: stream.planS[this.next]! };
+    return { stream, commandIndex: this.next, planS: stream.planS[this.next] };
   }
 
   /**
@@ -147,16 +147,16 @@ export class Streamer {
     const entry = this.timeline.at(boardS);
     if (entry) {
       const share = Math.max(0, (boardS - entry.startS) / (entry.endS - entry.startS));
-      const fromS = entry.stream.planS[entry.index]!;
-      const toS = entry.stream.planS[entry.index + 1]!;
+      const fromS = entry.stream.planS[entry.index];
+      const toS = entry.stream.planS[entry.index + 1];
       return { stream: entry.stream, commandIndex: entry.index, planS: fromS + share * (toS - fromS) };
     }
     if (this.lastWritten) {
       const { stream, commandIndex } = this.lastWritten;
-      return { stream, commandIndex, planS: stream.planS[commandIndex + 1]! };
+      return { stream, commandIndex, planS: stream.planS[commandIndex + 1] };
     }
     if (!this.stream) throw new TypeError("nothing has been played");
-    return { stream: this.stream, commandIndex: 0, planS: this.stream.planS[0]! };
+    return { stream: this.stream, commandIndex: 0, planS: this.stream.planS[0] };
   }
 
   /**
@@ -207,13 +207,13 @@ export class Streamer {
   private take(stream: CommandStream, followers: readonly CommandStream[]): void {
     this.stream = stream;
     this.next = 0;
-    this.offsetS = this.timeline.endS - stream.boardS[0]!;
+    this.offsetS = this.timeline.endS - stream.boardS[0];
     this.limit = followers.length > 0 ? { atIndex: stream.count, then: followers } : null;
     this.pump();
   }
 
   private takeNext(then: readonly CommandStream[]): void {
-    this.take(then[0]!, then.slice(1));
+    this.take(then[0], then.slice(1));
   }
 
   /** Writes the commands that are due, and sleeps until the next one is. */
@@ -252,8 +252,8 @@ export class Streamer {
    */
   private dueS(stream: CommandStream): number {
     const { windowS } = this.options;
-    const startS = this.offsetS + stream.boardS[this.next]!;
-    const endS = this.offsetS + stream.boardS[this.next + 1]!;
+    const startS = this.offsetS + stream.boardS[this.next];
+    const endS = this.offsetS + stream.boardS[this.next + 1];
     return Math.min(endS - windowS, startS - RESERVE_SHARE * windowS);
   }
 
@@ -268,10 +268,10 @@ export class Streamer {
 
   private outgoing(stream: CommandStream, index: number): Outgoing {
     const line = commandLine(stream, index);
-    const startS = this.offsetS + stream.boardS[index]!;
-    const endS = this.offsetS + stream.boardS[index + 1]!;
+    const startS = this.offsetS + stream.boardS[index];
+    const endS = this.offsetS + stream.boardS[index + 1];
     this.unanswered++;
-    const place = { stream, commandIndex: index, planS: stream.planS[index]! };
+    const place = { stream, commandIndex: index, planS: stream.planS[index] };
     if (endS === startS) {
       this.lastWritten = place;
       return {
@@ -292,11 +292,11 @@ export class Streamer {
 
   private isSameRun(stream: CommandStream, index: number): boolean {
     const last = this.lastWritten;
-    const run = stream.run[index]!;
+    const run = stream.run[index];
     if (!last || run < 0) return false;
     if (last.stream === stream) return stream.run[last.commandIndex] === run;
     // A stream that replaced another in motion continues the run that was cut.
-    return last.stream.run[last.commandIndex]! >= 0 && index === 0;
+    return last.stream.run[last.commandIndex] >= 0 && index === 0;
   }
 
   private answered(error: PlotwrightError | null, at: StreamPlace, takesTime: boolean): void {
@@ -399,7 +399,7 @@ export class Streamer {
 
   private async report(): Promise<StreamReport> {
     const stream = this.stream!;
-    const end = this.lastWritten ?? { stream, commandIndex: -1, planS: stream.planS[0]! };
+    const end = this.lastWritten ?? { stream, commandIndex: -1, planS: stream.planS[0] };
     const complete = this.next >= stream.count;
     const steps = await this.readSteps();
     const exact =

@@ -136,7 +136,7 @@ export class BoardTimeline {
   forgetExecuted(boardS: number): void {
     const isOver = ({ endS, number }: InFlight): boolean => endS <= boardS && number < this.ackedCount;
     let over = 0;
-    while (over < this.flight.length && isOver(this.flight[over]!)) over++;
+    while (over < this.flight.length && isOver(this.flight[over])) over++;
     if (over > 0) this.over.push(...this.flight.splice(0, over));
     if (this.over.length > 2 * KEPT_COUNT) this.over.splice(0, this.over.length - KEPT_COUNT);
   }

@@ -36,8 +36,8 @@ export class DrawnLine {
 
   /** Starts a new polyline: the pen was lifted or lowered, or the counters were reset. */
   begin(penDown: boolean, steps1: number, steps2: number): void {
-    const isEmpty = this.pointCount - this.firsts[this.firsts.length - 1]! < 2;
-    if (isEmpty && !this.downs[this.downs.length - 1]!) {
+    const isEmpty = this.pointCount - this.firsts[this.firsts.length - 1] < 2;
+    if (isEmpty && !this.downs[this.downs.length - 1]) {
       this.pointCount = this.firsts[this.firsts.length - 1]!;
       this.downs[this.downs.length - 1] = penDown;
     } else {
@@ -58,9 +58,9 @@ export class DrawnLine {
   polylines(): DrawnPolyline[] {
     const lines: DrawnPolyline[] = [];
     for (let i = 0; i < this.firsts.length; i++) {
-      const from = this.firsts[i]!;
+      const from = this.firsts[i];
       const to = this.firsts[i + 1] ?? this.pointCount;
-      const penDown = this.downs[i]!;
+      const penDown = this.downs[i];
       if (to - from < 2 && !penDown) continue;
       lines.push({ penDown, xy: this.toMm(from, to) });
     }
@@ -70,8 +70,8 @@ export class DrawnLine {
   private toMm(from: number, to: number): Float64Array {
     const xy = new Float64Array(2 * (to - from));
     for (let i = from; i < to; i++) {
-      const steps1 = this.points[2 * i]!;
-      const steps2 = this.points[2 * i + 1]!;
+      const steps1 = this.points[2 * i];
+      const steps2 = this.points[2 * i + 1];
       xy[2 * (i - from)] = xFromMotors(this.machine, steps1, steps2);
       xy[2 * (i - from) + 1] = yFromMotors(this.machine, steps1, steps2);
     }
@@ -86,16 +86,16 @@ export class DrawnLine {
 
   /** Adds a point. Drops points that do not change the line (no motion, or straight on). */
   private add(m1: number, m2: number): void {
-    const first = this.firsts[this.firsts.length - 1]!;
+    const first = this.firsts[this.firsts.length - 1];
     const n = this.pointCount;
     const p = this.points;
     if (n > first) {
-      const dx = m1 - p[2 * n - 2]!;
-      const dy = m2 - p[2 * n - 1]!;
+      const dx = m1 - p[2 * n - 2];
+      const dy = m2 - p[2 * n - 1];
       if (dx === 0 && dy === 0) return;
       if (n > first + 1) {
-        const ex = p[2 * n - 2]! - p[2 * n - 4]!;
-        const ey = p[2 * n - 1]! - p[2 * n - 3]!;
+        const ex = p[2 * n - 2] - p[2 * n - 4];
+        const ey = p[2 * n - 1] - p[2 * n - 3];
         if (dx * ey === dy * ex && dx * ex + dy * ey > 0) {
           p[2 * n - 2] = m1;
           p[2 * n - 1] = m2;

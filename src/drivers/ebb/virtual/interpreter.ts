@@ -374,7 +374,7 @@ export class Interpreter {
 
   private queryLayer(p: Parameters): Action {
     const index = p.optionalUint(0, 31);
-    return { values: () => this.queries.padded(this.inputs.layer[index]!, 3) };
+    return { values: () => this.queries.padded(this.inputs.layer[index], 3) };
   }
 
   private setNode(value: number): Action {

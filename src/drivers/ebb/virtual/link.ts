@@ -81,7 +81,7 @@ export class VirtualLink implements Transport {
     if (this.isPumping) return;
     this.isPumping = true;
     while (!this.closed && this.outbox.length > 0 && this.target.accepting()) {
-      const entry = this.outbox[0]!;
+      const entry = this.outbox[0];
       const packet = entry.bytes.subarray(entry.taken, entry.taken + PACKET_BYTES);
       entry.taken += packet.length;
       if (entry.taken >= entry.bytes.length) this.outbox.shift()!.resolve();
