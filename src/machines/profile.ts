@@ -1,3 +1,5 @@
+import type { Springs } from "../settings/springs.js";
+
 /** A plotter as data: what the compiler and the page need to know about it. */
 export interface MachineProfile {
   readonly id: string;
@@ -14,6 +16,8 @@ export interface MachineProfile {
   readonly flipY?: boolean | undefined;
   /** x and y are exchanged, because of how the motors are plugged in or how the machine is placed. */
   readonly swapAxes?: boolean | undefined;
+  /** How the machine swings. Null or left out: not measured. */
+  readonly springs?: Springs | null | undefined;
   readonly controller: Controller;
 }
 

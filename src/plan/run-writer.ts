@@ -1,39 +1,68 @@
 /**
  * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged if the settings
- * ask for it (merge.ts), and in `scurve` mode filtered over time (filter.ts).
+ * ask for it (merge.ts). In `scurve` mode they are filtered over time (filter.ts); so they are with a shaper,
+ * and then merged once more, because the filter makes several blocks of each.
  */
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
-import { writeFiltered } from "./filter.js";
+import { writeFiltered, type Kernel } from "./filter.js";
 import { writeJunctionRun } from "./junction.js";
-import type { RunLimits } from "./limits.js";
+import { shapedLimits, type RunLimits } from "./limits.js";
 import { mergeBlocks, type MergeRules } from "./merge.js";
 import type { RunPath } from "./run-path.js";
 import { filteredPlan } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
+
+/** Merged blocks of a shaped motion deviate from it by at most this, mm: a jolt of that size swings too. */
+const SHAPED_TOLERANCE_MM = 0.005;
 
 export class RunWriter {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly rules: MergeRules | null;
+  private readonly shapedRules: MergeRules;
 
+  /** @param shaper null: none */
   constructor(
     private readonly mode: MotionMode,
     fit: FitSettings | null,
+    private readonly shaper: Kernel | null,
   ) {
+    const floorS = fit ? fit.floorMs / 1_000 : 0;
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
-      floorS: fit.floorMs / 1_000,
+      floorS,
       isSmooth: mode !== "junction",
+      isShaped: false,
     };
+    this.shapedRules = { toleranceMm: SHAPED_TOLERANCE_MM, floorS, isSmooth: false, isShaped: true };
   }
 
-  write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+  /** @param planned gets the motion before the shaper, if there is one */
+  write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void {
     if (path.segmentCount === 0) return;
-    if (this.mode === "scurve") this.writeFiltered(path, limits, out);
+    if (this.shaper !== null) this.writeShaped(path, limits, this.shaper, out, planned);
+    else if (this.mode === "scurve") this.writeFiltered(path, limits, out);
     else this.writeBlocks(path, limits, out);
     out.addSegments(path.segmentCount);
+  }
+
+  private writeShaped(
+    path: RunPath,
+    limits: RunLimits,
+    shaper: Kernel,
+    out: BlockColumns,
+    planned: BlockColumns,
+  ): void {
+    const { unfiltered } = this;
+    const first = out.count;
+    unfiltered.clear();
+    this.writeBlocks(path, shapedLimits(path, limits), unfiltered);
+    planned.clockS = out.clockS;
+    for (let k = 0; k < unfiltered.count; k++) planned.pushFrom(unfiltered, k);
+    writeFiltered(unfiltered, path.end(), shaper, out);
+    if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, this.shapedRules);
   }
 
   private writeFiltered(path: RunPath, runLimits: RunLimits, out: BlockColumns): void {

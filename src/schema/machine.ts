@@ -2,6 +2,8 @@
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 import { INPUT_PORTS, type MachineProfile } from "../machines/profile.js";
+import { SPRINGS_TABLE } from "../settings/springs.js";
+import { shapeOf } from "./setting.js";
 
 const switchInputSchema = z.object({
   port: z.enum(INPUT_PORTS),
@@ -37,6 +39,7 @@ const profileShape = {
   flipX: z.boolean().optional(),
   flipY: z.boolean().optional(),
   swapAxes: z.boolean().optional(),
+  springs: z.object(shapeOf(SPRINGS_TABLE)).nullable().optional(),
   controller: ebbControllerSchema,
 };
 

@@ -4,6 +4,10 @@ import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } fro
 export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
 export type MotionMode = (typeof MOTION_MODES)[number];
 
+/** How the swinging of the machine is kept out of the line (src/plan/shapers.ts). */
+export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
+export type Shaper = (typeof SHAPERS)[number];
+
 const speed = {
   kind: "number",
   label: "Speed",
@@ -113,6 +117,14 @@ export const MOTION_TABLE = {
     default: "blend",
     choices: MOTION_MODES,
   },
+  shaper: {
+    kind: "choice",
+    label: "Against swinging",
+    about: "how the machine's swinging is kept out of the line; needs its measured frequencies",
+    flag: "--shaper",
+    default: "none",
+    choices: SHAPERS,
+  },
 } as const satisfies SettingsTable;
 
 export const FIT_TABLE = {
@@ -176,7 +188,10 @@ export const MOTOR_ACCEL = {
 /** Overrides for one layer; what is left out is as for all layers. */
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
 
-export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
+export interface MotionSettings {
+  readonly mode: MotionMode;
+  /** Default none. Another one needs the machine's springs. */
+  readonly shaper?: Shaper | undefined;
   readonly draw: MotionLimits;
   readonly travel: MotionLimits;
   readonly fit?: FitSettings | null | undefined;
