@@ -7,7 +7,20 @@ export {
   type Setting,
   type SwitchSetting,
 } from "./settings/setting.js";
-export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./settings/tables.js";
+export {
+  QUALITY_PATH,
+  SETTING_FLAGS,
+  SPRINGS_PATH,
+  flagInWords,
+  valuesInWords,
+  type SettingFlag,
+} from "./settings/tables.js";
+export { QUALITIES, type Quality } from "./settings/quality.js";
+export { motionOfQuality, qualityOf } from "./plan/quality.js";
+export { SPRINGS_TABLE } from "./settings/springs.js";
+export type { Springs } from "./machines/profile.js";
+export { penError, type PenError } from "./plan/pen-error.js";
+export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";

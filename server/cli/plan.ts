@@ -14,7 +14,7 @@ import {
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
-import { prepareJob, type PreparedJob } from "../../src/internal.js";
+import { penError, prepareJob, type PenError, type PreparedJob } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readDrawing } from "../planning/read-drawing.js";
@@ -22,6 +22,7 @@ import { writeOut } from "./files.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
+  readonly penError?: boolean;
   readonly ebb?: string;
   readonly firmware: string;
   readonly preview?: string;
@@ -50,6 +51,8 @@ export interface PlanReport {
   readonly planMs: number;
   readonly compileMs: number;
   readonly warnings: readonly string[];
+  /** With `--pen-error`. */
+  readonly penError?: PenError;
 }
 
 interface Planned {
@@ -141,8 +144,20 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
     planMs: rounded(planMs),
     compileMs: rounded(compileMs),
     warnings: [...job.warnings, ...commands.warnings],
+    ...(options.penError ? { penError: penErrorOf(job, trajectory, machine) } : {}),
   };
   return { report, settings, job, trajectory, lines };
+}
+
+function penErrorOf({ prepared }: PreparedJob, trajectory: Trajectory, machine: MachineProfile): PenError {
+  if (!machine.springs) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `--pen-error: ${machine.name} was not measured; give --spring-x and --spring-y.`,
+    );
+  }
+  const { maxMm, p99Mm, rmsMm } = penError(prepared.strokes, trajectory, machine.springs);
+  return { maxMm: rounded(maxMm), p99Mm: rounded(p99Mm), rmsMm: rounded(rmsMm) };
 }
 
 function words(report: PlanReport): string {
@@ -152,10 +167,14 @@ function words(report: PlanReport): string {
     ),
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
     `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
+    ...(report.penError ? [penErrorInWords(report.penError)] : []),
     ...report.warnings.map((warning) => `note: ${warning}`),
   ];
   return `${lines.join("\n")}\n`;
 }
+
+const penErrorInWords = ({ maxMm, p99Mm, rmsMm }: PenError): string =>
+  `pen beside the drawing by up to ${maxMm} mm, 99 % of the time less than ${p99Mm} mm, rms ${rmsMm} mm`;
 
 export function minutes(seconds: number): string {
   const whole = Math.round(seconds);

@@ -1,5 +1,3 @@
-import type { Springs } from "../settings/springs.js";
-
 /** A plotter as data: what the compiler and the page need to know about it. */
 export interface MachineProfile {
   readonly id: string;
@@ -19,6 +17,13 @@ export interface MachineProfile {
   /** How the machine swings. Null or left out: not measured. */
   readonly springs?: Springs | null | undefined;
   readonly controller: Controller;
+}
+
+/** A gantry is a spring on each axis of the drawing: natural frequencies, Hz, and the damping ratio of both. */
+export interface Springs {
+  readonly xHz: number;
+  readonly yHz: number;
+  readonly damping: number;
 }
 
 /** What drives the motors and the pen. `kind` selects the driver in src/drivers. */

@@ -1,6 +1,6 @@
 /** How far beside the drawing the pen of a swinging machine would be (spring-pen.ts), while it draws. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
-import type { Springs } from "../settings/springs.js";
+import type { Springs } from "../machines/profile.js";
 import { swingPen } from "./spring-pen.js";
 import type { Trajectory } from "./trajectory.js";
 

@@ -14,7 +14,7 @@
  * weights 1 : √2 : 1. Sources: Singer and Seering (1990) for zv and zvd; Singhose, Seering and Singer (1994) for ei.
  */
 import type { Shaper } from "../settings/motion.js";
-import type { Springs } from "../settings/springs.js";
+import type { Springs } from "../machines/profile.js";
 import { impulseKernel, type Impulse, type Kernel } from "./filter.js";
 
 /** Share of the swing that ei leaves at f. */

@@ -7,7 +7,7 @@
  * While u has constant acceleration a, the difference d = x − u obeys d″ + 2ζω d′ + ω² d = −a, whose solution is
  * exact: a decaying swing around −a/ω². A jump of the carriage's velocity is one of d′.
  */
-import type { Springs } from "../settings/springs.js";
+import type { Springs } from "../machines/profile.js";
 import { blockState, newMotionState, type Trajectory } from "./trajectory.js";
 
 /** The swing of one axis. */

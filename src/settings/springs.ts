@@ -1,5 +1,5 @@
-/** How a machine swings: a gantry is a spring on each axis of the drawing. Measured with the ringing sheet. */
-import type { SettingsTable, ValuesOf } from "./setting.js";
+/** The fields of a machine's springs (src/machines/profile.ts), which are measured with the ringing sheet. */
+import type { SettingsTable } from "./setting.js";
 
 const frequency = {
   kind: "number",
@@ -37,6 +37,3 @@ export const SPRINGS_TABLE = {
     step: 0.01,
   },
 } as const satisfies SettingsTable;
-
-/** Natural frequencies of x and y of the drawing, Hz, and the damping ratio of both. */
-export type Springs = ValuesOf<typeof SPRINGS_TABLE>;
