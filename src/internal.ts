@@ -16,6 +16,7 @@ export {
   type SettingFlag,
 } from "./settings/tables.js";
 export { QUALITIES, type Quality } from "./settings/quality.js";
+export { leavesLineMm } from "./plan/shapers.js";
 export { motionOfQuality, qualityOf } from "./plan/quality.js";
 export { SPRINGS_TABLE } from "./settings/springs.js";
 export type { Springs } from "./machines/profile.js";

@@ -13,7 +13,7 @@
  * The weights are divided by their sum. mzv: three impulses 3/8 T apart have phases 0°, 135°, 270°; they cancel for
  * weights 1 : √2 : 1. Sources: Singer and Seering (1990) for zv and zvd; Singhose, Seering and Singer (1994) for ei.
  */
-import type { Shaper } from "../settings/motion.js";
+import type { MotionSettings, Shaper } from "../settings/motion.js";
 import type { Springs } from "../machines/profile.js";
 import { impulseKernel, type Impulse, type Kernel } from "./filter.js";
 
@@ -43,4 +43,22 @@ export function shaperKernel(shaper: Shaper, springs: Springs | null): Kernel | 
   if (shaper === "none" || springs === null) return null;
   const { xHz, yHz, damping } = springs;
   return impulseKernel(shaperImpulses(shaper, xHz, damping), shaperImpulses(shaper, yHz, damping));
+}
+
+/**
+ * How far the carriage may leave the planned line, mm: |u(t) − q(t − D)| ≤ A σ²/2, where D is the mean delay and σ² the
+ * variance of the impulses. The limit is that of the planned motion, pen down.
+ */
+export function leavesLineMm({ shaper, draw, layers }: MotionSettings, springs: Springs | null): number {
+  if (shaper === undefined || shaper === "none" || springs === null) return 0;
+  const variances = [springs.xHz, springs.yHz].map((hz) =>
+    varianceOf(shaperImpulses(shaper, hz, springs.damping)),
+  );
+  const accels = Object.values(layers ?? {}).map((layer) => layer.accelMmPerS2 ?? 0);
+  return (Math.max(draw.accelMmPerS2, ...accels) * Math.max(...variances)) / 2;
+}
+
+function varianceOf(impulses: readonly Impulse[]): number {
+  const mean = impulses.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
+  return impulses.reduce((sum, { delayS, weight }) => sum + weight * (delayS - mean) ** 2, 0);
 }
