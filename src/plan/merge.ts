@@ -31,6 +31,9 @@ const STRETCH = 0.012;
 /** Longest pair, s: the position along the drawing is only interpolated inside a block. */
 const LONGEST_S = 0.6;
 
+/** A deviation that lasts for less than this is too quick to make a gantry of 10 to 40 Hz swing, s. */
+const SHORT_S = 0.024;
+
 /** Factor from one trial length to the next. */
 const GROWTH = 1.25;
 
@@ -40,6 +43,8 @@ const FIRST_GROUP = 8;
 export interface MergeRules {
   /** ε, mm. */
   readonly toleranceMm: number;
+  /** ε of pairs shorter than SHORT_S, mm. */
+  readonly shortToleranceMm: number;
   /** s. */
   readonly floorS: number;
   /** False if a pair must match the plan at equal times: velocity jumps at vertices, or the motion is shaped. */
@@ -196,7 +201,7 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
   const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
   const { end: m, halfS, wx, wy } = pair;
   const { accel } = limits;
-  const tolerance = rules.toleranceMm;
+  const tolerance = 2 * pair.halfS < SHORT_S ? rules.shortToleranceMm : rules.toleranceMm;
   const x0 = x[i];
   const y0 = y[i];
   const vx0 = vx[i];

@@ -15,6 +15,10 @@ import type { FitSettings, MotionMode } from "../settings/motion.js";
 
 /** Merged blocks of a shaped motion deviate from it by at most this, mm: a jolt of that size swings too. */
 const SHAPED_TOLERANCE_MM = 0.005;
+/** By this if they are too short for the gantry to follow. */
+const SHAPED_SHORT_MM = 0.02;
+/** Shorter blocks are merged, s: a command takes the board up to 5 ms. */
+const SHAPED_FLOOR_S = 0.006;
 
 export class RunWriter {
   private readonly blend = new BlendPlanner();
@@ -29,14 +33,20 @@ export class RunWriter {
     fit: FitSettings | null,
     private readonly shaper: Kernel | null,
   ) {
-    const floorS = fit ? fit.floorMs / 1_000 : 0;
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
-      floorS,
+      shortToleranceMm: fit.toleranceMm,
+      floorS: fit.floorMs / 1_000,
       isSmooth: mode !== "junction",
       isShaped: false,
     };
-    this.shapedRules = { toleranceMm: SHAPED_TOLERANCE_MM, floorS, isSmooth: false, isShaped: true };
+    this.shapedRules = {
+      toleranceMm: SHAPED_TOLERANCE_MM,
+      shortToleranceMm: SHAPED_SHORT_MM,
+      floorS: SHAPED_FLOOR_S,
+      isSmooth: false,
+      isShaped: true,
+    };
   }
 
   /** @param planned gets the motion before the shaper, if there is one */

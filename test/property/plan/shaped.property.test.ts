@@ -15,6 +15,8 @@ const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 
 /** Merged blocks may leave the shaped motion by this, mm (run-writer.ts). */
 const MERGED_MM = 0.0055;
+/** Short ones by this. */
+const SHORT_MM = 0.02;
 
 const arbitrarySprings = fc.record({ xHz: real(8, 50), yHz: real(8, 50), damping: real(0.03, 0.15) });
 const arbitraryStrokes = fc.array(arbitraryGridStroke, { minLength: 1, maxLength: 3 });
@@ -118,7 +120,7 @@ describe("a shaped motion", () => {
           const t = plan(strokeSetOf(strokes), motion, DEFAULT_PEN, { machine: swinging(springs) });
           const { trajectory: planned, kernel } = t.planned!;
           // Each axis keeps its own, so both together may leave it by √2 as much.
-          const allowed = Math.SQRT2 * leavesLineMm(motion, springs) + MERGED_MM;
+          const allowed = Math.SQRT2 * leavesLineMm(motion, springs) + SHORT_MM;
           let last = { run: -1, alongMm: 0 };
           walk(t, [new SpringAxis(20, 0), new SpringAxis(20, 0)], (run, tS, x, y) => {
             if (t.runs.stroke[run] < 0) return;
