@@ -77,6 +77,6 @@ describe("a step of quality", () => {
 
   it("asks less of a weak machine", () => {
     const weak = motionOfQuality("fast", { xHz: 5, yHz: 30, damping: 0.05 });
-    expect(weak.draw.accelMmPerS2).toBe(500);
+    expect(weak.draw.accelMmPerS2).toBe(438);
   });
 });
