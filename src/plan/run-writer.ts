@@ -24,6 +24,7 @@ export class RunWriter {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
+  private readonly filtered = new BlockColumns(0, false);
   private readonly rules: MergeRules | null;
   private readonly shapedRules: MergeRules;
 
@@ -65,13 +66,21 @@ export class RunWriter {
     out: BlockColumns,
     planned: BlockColumns,
   ): void {
-    const { unfiltered } = this;
+    const { unfiltered, filtered } = this;
     const first = out.count;
     unfiltered.clear();
     this.writeBlocks(path, shapedLimits(path, limits), unfiltered);
-    planned.clockS = out.clockS;
-    for (let k = 0; k < unfiltered.count; k++) planned.pushFrom(unfiltered, k);
-    writeFiltered(unfiltered, path.end(), shaper, out);
+    const plannedCount = unfiltered.count;
+    filtered.clear();
+    writeFiltered(unfiltered, path.end(), shaper, filtered);
+    // Along an axis whose impulses come later and end sooner, the carriage rests at both ends of the run.
+    let from = 0;
+    let end = filtered.count;
+    while (from < end && isRest(filtered, from)) from++;
+    while (end > from && isRest(filtered, end - 1)) end--;
+    planned.clockS = out.clockS - filtered.startS[from];
+    for (let k = 0; k < plannedCount; k++) planned.pushFrom(unfiltered, k);
+    for (let k = from; k < end; k++) out.pushFrom(filtered, k);
     if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, this.shapedRules);
   }
 
@@ -93,3 +102,6 @@ export class RunWriter {
     }
   }
 }
+
+const isRest = ({ vx, vy, ax, ay }: BlockColumns, k: number): boolean =>
+  vx[k] === 0 && vy[k] === 0 && ax[k] === 0 && ay[k] === 0;

@@ -39,8 +39,8 @@ export interface Trajectory {
   readonly endX: number;
   readonly endY: number;
   /**
-   * The motion before shaping, if it is shaped: the same runs, which start at the same times. The pen is
-   * where this motion was `delayS` ago, as far as its swinging is kept out.
+   * The motion before shaping, if it is shaped: the same runs, whose blocks begin at the same time or a little earlier.
+   * The pen is where this motion was one mean delay ago, as far as its swinging is kept out.
    */
   readonly planned?: PlannedMotion | null | undefined;
 }
