@@ -95,7 +95,7 @@ function shapedRest(
   let stopS = Math.min(tS, plannedEndS);
   if (speed2 > REST_SPEED * REST_SPEED) stopS = slowDown(planned, tS, speed2, accel, pieces);
   const end = stateAt(planned, stopS);
-  const rest = shapeRest(planned, run, kernel, tS, pieces, end);
+  const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
   // At the very start of a run nothing moves yet.
   if (rest.shaped.count === 0) return finish(trajectory, pieces, end, tS, -1, pen);
   const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;

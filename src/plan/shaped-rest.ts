@@ -7,10 +7,12 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import { lastDelayS, writeFiltered, type Kernel } from "./filter.js";
-import { blockState, newMotionState, type Trajectory } from "./trajectory.js";
+import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
 const NO_PIECE_S = 1e-9;
+/** Too quick for the gantry to follow, s. */
+const JOIN_S = 0.02;
 
 export interface ShapedRest {
   /** Both count time from the stop's beginning; the planned motion begins before it. */
@@ -21,6 +23,7 @@ export interface ShapedRest {
 /**
  * @param planned the motion before the shaper
  * @param tS when the braking begins
+ * @param carriage where it is then
  * @param braking blocks of the planned motion from `tS` on; none if it is at rest then
  * @param end where it comes to rest
  */
@@ -29,6 +32,7 @@ export function shapeRest(
   run: number,
   kernel: Kernel,
   tS: number,
+  carriage: MotionState,
   braking: BlockColumns,
   end: { readonly x: number; readonly y: number; readonly alongMm: number },
 ): ShapedRest {
@@ -43,8 +47,37 @@ export function shapeRest(
   writeFiltered(window, { ...end, segmentCount: 0 }, kernel, whole);
   // Without the rests that the filter adds.
   window.count = blocks;
-  addAfter(whole, shaped);
+  const exact = new BlockColumns(0, false);
+  addAfter(whole, exact);
+  joinFrom(carriage, exact, end, shaped);
   return { planned: window, shaped };
+}
+
+/**
+ * The carriage follows merged blocks (merge.ts), so it is a few µm beside the exact motion. Two blocks of constant
+ * acceleration lead from where it is to the exact motion JOIN_S later.
+ */
+function joinFrom(
+  carriage: MotionState,
+  exact: BlockColumns,
+  end: { readonly x: number; readonly y: number },
+  out: BlockColumns,
+): void {
+  if (exact.count === 0) return;
+  let k = 0;
+  while (k < exact.count && exact.startS[k] < JOIN_S) k++;
+  const isEnd = k === exact.count;
+  const [x1, y1] = isEnd ? [end.x, end.y] : [exact.x[k], exact.y[k]];
+  const [vx1, vy1] = isEnd ? [0, 0] : [exact.vx[k], exact.vy[k]];
+  const wholeS = isEnd ? Math.max(exact.clockS, JOIN_S / 2) : exact.startS[k];
+  const { x, y, vx, vy } = carriage;
+  const wx = (2 * (x1 - x)) / wholeS - (vx + vx1) / 2;
+  const wy = (2 * (y1 - y)) / wholeS - (vy + vy1) / 2;
+  const half = wholeS / 2;
+  out.push(half, x, y, vx, vy, (wx - vx) / half, (wy - vy) / half, 0);
+  const [mx, my] = [x + (half * (vx + wx)) / 2, y + (half * (vy + wy)) / 2];
+  out.push(half, mx, my, wx, wy, (vx1 - wx) / half, (vy1 - wy) / half, 0);
+  for (; k < exact.count; k++) out.pushFrom(exact, k);
 }
 
 /** Appends what run `run` does from `fromS` to `toS`. Time 0 is `toS`. */
