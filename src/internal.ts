@@ -15,6 +15,7 @@ export {
   valuesInWords,
   type SettingFlag,
 } from "./settings/tables.js";
+export { SHAPERS } from "./settings/motion.js";
 export { QUALITIES, type Quality } from "./settings/quality.js";
 export { leavesLineMm } from "./plan/shapers.js";
 export { motionOfQuality, qualityOf } from "./plan/quality.js";
