@@ -15,7 +15,7 @@ export {
   valuesInWords,
   type SettingFlag,
 } from "./settings/tables.js";
-export { SHAPERS } from "./settings/motion.js";
+export { SHAPERS, type Shaper } from "./settings/motion.js";
 export { QUALITIES, type Quality } from "./settings/quality.js";
 export { leavesLineMm } from "./plan/shapers.js";
 export { motionOfQuality, qualityOf } from "./plan/quality.js";
@@ -44,3 +44,11 @@ export type {
 export { powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
+export {
+  frequencyOfRipples,
+  ringingChecks,
+  RINGING_MOTION,
+  RINGING_SPEEDS,
+  ringingSheet,
+  type RingingCheck,
+} from "./job/ringing-sheet.js";
