@@ -1,5 +1,6 @@
 /** A plotter as the queue and the routes use it: a driver with an id, a name and a machine. */
-import { findMachine, PlotwrightError } from "../src/index.js";
+import { PlotwrightError } from "../src/index.js";
+import { findMachine } from "../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,

@@ -6,8 +6,15 @@
  *      ^                    │            │         │
  *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
  */
-import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
-import { driverOf, powerLost, powerLow, type Machine, type VirtualMachine } from "../../src/internal.js";
+import { PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
+import {
+  driverOf,
+  powerLost,
+  powerLow,
+  type Machine,
+  type VirtualMachine,
+  machineOf,
+} from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,

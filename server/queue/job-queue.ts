@@ -1,5 +1,6 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
-import { firmwareLimitsMotion, PlotwrightError } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { firmwareLimitsMotion } from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,

@@ -4,7 +4,8 @@
  */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
-import { MOTION_MODES, stateAt, type Trajectory } from "../../src/index.js";
+import { stateAt, type Trajectory } from "../../src/index.js";
+import { MOTION_MODES } from "../../src/internal.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { seeded, settingsOf } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";

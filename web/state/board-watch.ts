@@ -1,5 +1,5 @@
 /** A plan is one for a board's firmware: another board that moves otherwise has it planned anew. */
-import { firmwareLimitsMotion } from "../../src/index.js";
+import { firmwareLimitsMotion } from "../../src/internal.js";
 import { boardFirmware, type PageStore } from "./store.js";
 
 /** Watches the current plotter; returns a function that stops. */
