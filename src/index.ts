@@ -109,16 +109,12 @@ export { penOfLayer } from "./plan/pen-times.js";
 export { codeOfSpeed, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 
 // machines
-export {
-  INPUT_PORTS,
-  type HomingSwitches,
-  type MachineProfile,
-  type SwitchInput,
-} from "./machines/profile.js";
+export type { MachineProfile } from "./machines/profile.js";
+export { INPUT_PORTS, type HomingSwitches, type SwitchInput } from "./machines/controllers.js";
 export { findMachine, MACHINES, machineById, machineOf, type MachineChoice } from "./machines/profiles.js";
 export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
-export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
+export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-height.js";
 
 // job
 export { planSvg, type PlannedSvg, type SvgSettings } from "./job/plan-svg.js";

@@ -11,7 +11,7 @@ export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./s
 export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
 export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
-export type { EbbController } from "./machines/profile.js";
+export type { Controller, EbbController, GrblController } from "./machines/controllers.js";
 export { STREAM_TABLE } from "./settings/stream.js";
 export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";

@@ -3,7 +3,8 @@
  * load what talks to a machine.
  */
 import { PlotwrightError } from "../errors.js";
-import type { Controller, MachineProfile } from "../machines/profile.js";
+import type { Controller } from "../machines/controllers.js";
+import type { MachineProfile } from "../machines/profile.js";
 import type { Driver } from "./driver.js";
 import type { CommandStream } from "./ebb/compile/command-stream.js";
 import { planEbbJob } from "./ebb/compile/ebb-job.js";
@@ -13,7 +14,7 @@ import type { PlanForMachine } from "./machine-job.js";
 /** What a job's commands can be, one type for each driver. */
 export type AnyCommands = CommandStream;
 
-type ByController<T> = Readonly<Record<Controller["kind"], T>>;
+type ByController<T> = Readonly<Partial<Record<Controller["kind"], T>>>;
 
 const PLANNERS: ByController<PlanForMachine<AnyCommands>> = { ebb: planEbbJob };
 const DRIVERS: ByController<Driver> = { ebb: ebbDriver };
@@ -26,7 +27,8 @@ export const plannerOf = (machine: MachineProfile): PlanForMachine<AnyCommands> 
 export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
 
 function ofController<T>(table: ByController<T>, { name, controller }: MachineProfile): T {
-  if (Object.hasOwn(table, controller.kind)) return table[controller.kind];
+  const found = Object.hasOwn(table, controller.kind) ? table[controller.kind] : undefined;
+  if (found) return found;
   const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",
