@@ -17,7 +17,7 @@ export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
 export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
-export { driverOf } from "./drivers/registry.js";
+export { driverOf, firmwareFor, isPlannedAlike } from "./drivers/registry.js";
 export type {
   Driver,
   Machine,
