@@ -158,7 +158,7 @@ export {
   type Outgoing,
   type SessionOptions,
 } from "./drivers/ebb/stream/session.js";
-export { SessionLog } from "./drivers/ebb/stream/session-log.js";
+export { SessionLog } from "./drivers/session-log.js";
 export { comeToRest, type RestPlan } from "./plan/come-to-rest.js";
 export { streamCommands, type StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { parseSteps } from "./drivers/ebb/protocol/replies.js";

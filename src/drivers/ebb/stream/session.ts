@@ -10,7 +10,7 @@ import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
 import { commandName, LineSplitter, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
-import { SessionLog } from "./session-log.js";
+import { SessionLog } from "../../session-log.js";
 import type { Clock, Transport } from "../../transport.js";
 
 export interface SessionOptions {
