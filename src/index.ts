@@ -140,7 +140,8 @@ export {
   firmwareFromReply,
   type FirmwareFeatures,
 } from "./drivers/ebb/protocol/firmware.js";
-export { commandName, LineSplitter, replyShape, type ReplyShape } from "./drivers/ebb/protocol/replies.js";
+export { commandName, replyShape, type ReplyShape } from "./drivers/ebb/protocol/replies.js";
+export { LineSplitter } from "./drivers/line-splitter.js";
 
 // board
 export type { Cancellation, Clock, Transport } from "./drivers/transport.js";

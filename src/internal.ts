@@ -17,13 +17,14 @@ export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
 export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
-export { driverOf, firmwareFor, isPlannedAlike } from "./drivers/registry.js";
+export { driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
 export type {
   Driver,
   Machine,
   MachineEvents,
   MachineRun,
   PlaceAhead,
+  UsbId,
   VirtualMachine,
 } from "./drivers/driver.js";
 export { powerLost, powerLow } from "./drivers/faults.js";

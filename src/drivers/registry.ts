@@ -5,7 +5,7 @@
 import { PlotwrightError } from "../errors.js";
 import type { Controller } from "../machines/controllers.js";
 import type { MachineProfile } from "../machines/profile.js";
-import type { Driver } from "./driver.js";
+import type { Driver, UsbId } from "./driver.js";
 import { planEbbJob } from "./ebb/compile/ebb-job.js";
 import { ebbDriver } from "./ebb/ebb-driver.js";
 import { ebbFirmware } from "./ebb/protocol/firmware-motion.js";
@@ -22,6 +22,9 @@ export const plannerOf = (machine: MachineProfile): PlanForMachine => ofControll
 
 /** Connects machines. Throws `bad-setting` for a profile whose controller is not known. */
 export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
+
+/** The USB devices of all drivers. */
+export const usbIds = (): readonly UsbId[] => Object.values(DRIVERS).flatMap((driver) => driver.usbIds);
 
 /** The version to plan for: null where it is that of another controller than the machine's. */
 export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
