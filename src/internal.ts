@@ -114,14 +114,16 @@ export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
 // machines
 export {
   INPUT_PORTS,
+  type Controller,
+  type EbbController,
+  type GrblController,
   type HomingSwitches,
   type SwitchInput,
-  type EbbController,
-} from "./machines/profile.js";
+} from "./machines/controllers.js";
 export { findMachine, machineOf, type MachineChoice } from "./machines/profiles.js";
 export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
-export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
+export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-height.js";
 
 // job
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
@@ -144,13 +146,8 @@ export {
   firmwareFromReply,
   type FirmwareFeatures,
 } from "./drivers/ebb/protocol/firmware.js";
-export {
-  commandName,
-  LineSplitter,
-  replyShape,
-  type ReplyShape,
-  parseSteps,
-} from "./drivers/ebb/protocol/replies.js";
+export { commandName, replyShape, type ReplyShape, parseSteps } from "./drivers/ebb/protocol/replies.js";
+export { LineSplitter } from "./drivers/line-splitter.js";
 export type { Cancellation } from "./drivers/transport.js";
 export { AnswerQueue, type AwaitedAnswer } from "./drivers/ebb/stream/answer-queue.js";
 export type {
@@ -159,18 +156,19 @@ export type {
   VirtualBoardState,
 } from "./drivers/ebb/virtual/virtual-board.js";
 export type { BoardIdentity, Outgoing, SessionOptions } from "./drivers/ebb/stream/session.js";
-export { SessionLog } from "./drivers/ebb/stream/session-log.js";
+export { SessionLog } from "./drivers/session-log.js";
 export type { StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions, StreamReport } from "./drivers/ebb/stream/stream-types.js";
 export type { StreamPlace } from "./drivers/ebb/stream/timeline.js";
-export { driverOf } from "./drivers/registry.js";
+export { driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
 export type {
   Driver,
   Machine,
   MachineEvents,
   MachineRun,
   PlaceAhead,
+  UsbId,
   VirtualMachine,
 } from "./drivers/driver.js";
 export { powerLost, powerLow } from "./drivers/faults.js";
