@@ -100,14 +100,24 @@ export interface DrawingWarning {
   readonly boxes: readonly (readonly [number, number, number, number])[];
 }
 
+/**
+ * What a file draws, in mm on its own page: origin top left, x right, y down. Curves are still curves; `prepare`
+ * flattens them on the paper.
+ */
 export interface Drawing {
+  /** Size of the file's page. */
   readonly widthMm: number;
   readonly heightMm: number;
+  /** The file's layers. */
   readonly groups: readonly DrawingGroup[];
   /** "#rrggbb", lower case, distinct, in order of first use. */
   readonly colors: readonly string[];
+  /** Referred to by `paths.dash`. */
   readonly dashes: readonly DashPattern[];
+  /** Referred to by `paths.clip`. */
   readonly clips: readonly ClipRegion[];
+  /** The shapes, in paint order. */
   readonly paths: DrawingPaths;
+  /** One for each feature that is not drawn as it appears on screen. */
   readonly warnings: readonly DrawingWarning[];
 }

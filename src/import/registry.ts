@@ -89,8 +89,9 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
 }
 
 /**
- * The drawing in the text of a file. Throws PlotwrightError("bad-file").
+ * Reads the text of an SVG, DXF, HPGL or JSON file. The format is detected from the text and the file's name.
  *
+ * @throws PlotwrightError "bad-file" for an unknown format or a damaged file
  * @example
  * const drawing = importDrawing("box.dxf", text);
  */

@@ -38,8 +38,9 @@ export type Pause = () => Promise<void>;
 const ARC_TOLERANCE = 8e-7;
 
 /**
- * The drawing in an SVG text, in mm on its own page. Throws PlotwrightError("bad-file").
+ * Reads SVG text into a drawing, in mm on its own page.
  *
+ * @throws PlotwrightError "bad-file" for text that is not SVG
  * @example
  * const drawing = importSvg('<svg width="10mm" height="10mm" viewBox="0 0 1 1"><path d="M0 0L1 1" stroke="red"/></svg>');
  * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
