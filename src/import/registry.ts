@@ -10,7 +10,7 @@ import { importDxf } from "./dxf/import-dxf.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import type { ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
-import { importSvgSteps, type Pause } from "./svg/import-svg.js";
+import { importSvgSteps } from "./svg/import-svg.js";
 
 export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
@@ -100,24 +100,6 @@ export function importDrawing(name: string, text: string, options: ImportOptions
   for (;;) {
     const step = steps.next();
     if (step.done) return step.value;
-  }
-}
-
-/**
- * Like `importDrawing`, but pauses after every few milliseconds of an SVG's work; other formats take one
- * step.
- */
-export async function importDrawingWithPauses(
-  name: string,
-  text: string,
-  pause: Pause,
-  options: ImportOptions = {},
-): Promise<Drawing> {
-  const steps = readerOf(name, text)(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-    await pause();
   }
 }
 

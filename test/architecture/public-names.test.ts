@@ -45,6 +45,10 @@ describe("docs/library.md", () => {
     },
   );
 
+  it("stays short enough: at most 50 public names", () => {
+    expect(exportedNames("src/index.ts").length).toBeLessThanOrEqual(50);
+  });
+
   it("has no barrel that exports what nobody listed", () => {
     expect(read("src/index.ts")).not.toMatch(/^export \*/m);
   });

@@ -31,9 +31,6 @@ import { aroundOrigin, parseTransform } from "./transform.js";
 import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "../warnings.js";
 
-/** Yields to other tasks between steps; resolves when the import may continue. */
-export type Pause = () => Promise<void>;
-
 /** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
 const ARC_TOLERANCE = 8e-7;
 
@@ -50,20 +47,6 @@ export function importSvg(text: string, options: ImportOptions = {}): Drawing {
   for (;;) {
     const step = steps.next();
     if (step.done) return step.value;
-  }
-}
-
-/** Like `importSvg`, but pauses after every few milliseconds of work, so that a page stays responsive. */
-export async function importSvgWithPauses(
-  text: string,
-  pause: Pause,
-  options: ImportOptions = {},
-): Promise<Drawing> {
-  const steps = importSvgSteps(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-    await pause();
   }
 }
 
