@@ -236,7 +236,9 @@ const isPublicMember = (node: ts.Node): boolean =>
   !ts.canHaveModifiers(node) ||
   ts.getModifiers(node)?.some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword) !== true;
 
+/** Not private, and not marked @internal. */
 const isPublic = (member: ts.Symbol): boolean => {
+  if (member.getJsDocTags().some(({ name }) => name === "internal")) return false;
   const declaration = declarationOf(member);
   const isHidden = ts.isPropertyDeclaration(declaration) && ts.isPrivateIdentifier(declaration.name);
   return !isHidden && isPublicMember(declaration);

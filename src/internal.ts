@@ -70,26 +70,26 @@ export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
 export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
 
 // machines
-export type { EbbController } from "./machines/profile.js";
+export type { EbbController, GrblController } from "./machines/controllers.js";
 export { findMachine, machineOf } from "./machines/profiles.js";
 export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
-export { pctFromServoPos, servoPosFromPct } from "./machines/pen.js";
+export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-height.js";
 
 // job
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
 
 // drivers
 export type { BoardState } from "./drivers/ebb/compile/command-stream.js";
-export { firmwareLimitsMotion, motionForFirmware } from "./drivers/ebb/protocol/firmware-motion.js";
+export { motionForFirmware } from "./drivers/ebb/protocol/firmware-motion.js";
 export { closingCommands, penCommand, penMoveOf } from "./drivers/ebb/protocol/commands.js";
 export { compareFirmware } from "./drivers/ebb/protocol/firmware.js";
 export type { BoardStatistics, VirtualBoardState } from "./drivers/ebb/virtual/virtual-board.js";
 export type { StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
-export { driverOf } from "./drivers/registry.js";
-export type { Driver, Machine, MachineEvents, MachineRun, VirtualMachine } from "./drivers/driver.js";
+export { driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
+export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine } from "./drivers/driver.js";
 export { powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";

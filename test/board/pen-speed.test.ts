@@ -8,6 +8,7 @@ import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { FastBoard } from "../support/virtual-plots.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** One on the standard servo output (SP), one with a brushless lift (S2). */
 const MACHINES = ["axidraw-v3", "nextdraw-8511"];
@@ -21,7 +22,7 @@ async function driverOf(machine: string, pen: PenSettings) {
   const settings = { ...DEFAULT_PLOT_SETTINGS, machine, pen };
   const driver = new PlotterDriver({ device: "virtual", clock: world, settings });
   await world.run(driver.start());
-  return { world, driver, settings, board: driver.virtualBoard! };
+  return { world, driver, settings, board: virtualBoardOf(driver) };
 }
 
 /** A board just switched on may hold its pen anywhere. */
