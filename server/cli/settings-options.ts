@@ -5,8 +5,8 @@
 import { Option, type Command } from "commander";
 import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles, machineOfText } from "../machines/machine-files.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { MachineFiles, machineOfText } from "../storage/machine-files.js";
 import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";

@@ -30,16 +30,8 @@ import {
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { PenStops } from "./pen-stops.js";
 import { RunSettings } from "./run-settings.js";
-import type {
-  JournalEntry,
-  LivePlotRun,
-  PlannedPlot,
-  PlotChange,
-  PlotOutcome,
-  PlotPlanner,
-  PlotProgress,
-  PlotStart,
-} from "./types.js";
+import type { PlannedPlot, PlotPlanner } from "../planning/plot-planner.js";
+import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress, PlotStart } from "./types.js";
 import { Waiters } from "./waiters.js";
 
 /** Time between two progress reports, and between two journal entries, in real seconds. */

@@ -2,7 +2,7 @@
 import { EventEmitter } from "node:events";
 import { Bonjour, type Service } from "bonjour-service";
 import { describe, expect, it } from "vitest";
-import { LocalName, type LocalNameOptions } from "../../server/security/local-name.js";
+import { LocalName, type LocalNameOptions } from "../../server/plugins/local-name/local-name.js";
 
 type Sent = (error: Error | null) => void;
 
