@@ -43,6 +43,7 @@ export class ApiFault extends Error {
 }
 
 const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
+const uploadSchema = z.object({ id: z.string() });
 const operatorAnswerSchema = z.object({ operator: operatorSchema.nullable() });
 /** What the server answers where there is nothing to say. */
 export const okSchema = z.object({ ok: z.literal(true) });
@@ -56,8 +57,9 @@ export type ApiClient = ReturnType<typeof createApiClient>;
 export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, init)) => {
   const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
     const init: RequestInit = { method };
-    if (body !== undefined) {
-      init.body = body instanceof Blob ? body : JSON.stringify(body);
+    if (body instanceof Blob) init.body = body;
+    else if (body !== undefined) {
+      init.body = JSON.stringify(body);
       init.headers = { "content-type": "application/json" };
     }
     let response: Response;
@@ -77,8 +79,10 @@ export const createApiClient = (fetchPath: Fetch = (path, init) => fetch(path, i
   return {
     /** For the parts that are loaded later, which bring their own list of routes. */
     ask,
-    /** `newJob`: a blob is its JSON. */
-    addJob: (newJob: NewJob | Blob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
+    /** Sends a drawing as it is; a new job names it by the id. */
+    uploadDrawing: async (drawing: DrawingText): Promise<string> =>
+      (await ask(uploadSchema, "POST", "/drawings", new Blob([drawing]))).id,
+    addJob: (newJob: NewJob): Promise<Job> => ask(jobSchema, "POST", "/jobs", newJob),
     patchJob: (id: string, patch: JobPatch): Promise<Job> => ask(jobSchema, "PATCH", job(id), patch),
     actOnJob: (id: string, action: JobAction): Promise<Job> => ask(jobSchema, "POST", `${job(id)}/${action}`),
     changeJob: (id: string, change: JobChange): Promise<Job> =>

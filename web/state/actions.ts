@@ -34,15 +34,6 @@ const headOf = (content: DrawingText): string => {
   return typeof head === "string" ? head : new TextDecoder().decode(head);
 };
 
-/** What is sent of a job with the drawing on the paper. */
-export const bodyOf = async <T extends { readonly name: string }>(
-  job: T,
-  drawing: DrawingText,
-): Promise<(T & { readonly drawing: string }) | Blob> =>
-  typeof drawing === "string"
-    ? { ...job, drawing }
-    : (await import("./job-body.js")).jobBody({ ...job, drawing });
-
 interface ActionDeps {
   readonly store: PageStore;
   readonly api: ApiClient;
@@ -186,7 +177,9 @@ export const createActions = (deps: ActionDeps) => {
       ...(plotterId ? { plotterId } : {}),
       ...(copies > 1 ? { copies } : {}),
     };
-    const job = await attempt("add", async () => api.addJob(await bodyOf(newJob, drawing.text)));
+    const job = await attempt("add", async () =>
+      api.addJob({ ...newJob, drawingId: await api.uploadDrawing(drawing.text) }),
+    );
     if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
       store.setState({ drawing: { ...drawing, jobId: job.id } });
     }
@@ -198,6 +191,7 @@ export const createActions = (deps: ActionDeps) => {
     dismiss,
     attempt,
     ask: api.ask,
+    uploadDrawing: api.uploadDrawing,
     replan,
     changeSettings,
     undo: () => step("undoStack", "redoStack"),

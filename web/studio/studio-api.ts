@@ -15,7 +15,7 @@ import {
   type SharedJob,
 } from "../../src/schema/index.js";
 import { ApiFault, okSchema } from "../api/client.js";
-import { bodyOf, type Actions } from "../state/actions.js";
+import type { Actions } from "../state/actions.js";
 import type { DrawingText } from "../worker/protocol.js";
 
 const devicesSchema = z.object({ devices: z.array(deviceSchema) });
@@ -29,7 +29,7 @@ const newWebhookAnswerSchema = z.object({ webhook: webhookSchema, secret: z.stri
 export type StudioApi = ReturnType<typeof studioApi>;
 
 /** Each answers null where it failed; the user has been told then. */
-export const studioApi = ({ ask, attempt }: Actions) => {
+export const studioApi = ({ ask, attempt, uploadDrawing }: Actions) => {
   const one = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
   return {
     devices: () => attempt("devices", () => ask(devicesSchema, "GET", "/devices")),
@@ -51,7 +51,9 @@ export const studioApi = ({ ask, attempt }: Actions) => {
         error instanceof ApiFault && error.code === "not-found" ? { jobs: null } : null,
       ),
     shareJob: (job: Omit<NewSharedJob, "drawing">, drawing: DrawingText) =>
-      attempt("share", async () => ask(sentSchema, "POST", "/shared-jobs", await bodyOf(job, drawing))),
+      attempt("share", async () =>
+        ask(sentSchema, "POST", "/shared-jobs", { ...job, drawingId: await uploadDrawing(drawing) }),
+      ),
     giveBackShared: (id: string) =>
       attempt("shared-job", () => ask(okSchema, "POST", `${one("shared-jobs", id)}/give-back`)),
     withdrawShared: (id: string) =>
