@@ -1,6 +1,5 @@
 /**
- * The server's name on the network: http://plotwright.local, or plotwright-2.local if another server has
- * that.
+ * The server's name on the network: http://plotwright.local, or plotwright-2.local if that is taken.
  *
  * mDNS has no authority that assigns names. A host that wants a name probes for it three times and takes it
  * if nobody answers (RFC 6762, 8.1). If two probe at the same time, the one whose records are
@@ -11,13 +10,15 @@
  *   probing ──nobody answers──> announced ──another host uses it, or the network changes──> probing
  *     └──another host has it──> probing for the next name
  */
+// eslint-disable-next-line @typescript-eslint/triple-slash-reference -- the package has no types
+/// <reference path="./multicast-dns.d.ts" />
 import type { EventEmitter } from "node:events";
 import { networkInterfaces } from "node:os";
-import { Bonjour, type Service } from "bonjour-service";
+import multicastDns, { type DnsPacket, type DnsRecord, type MulticastDns } from "multicast-dns";
+import { LOCAL_NAME } from "../../security/network.js";
+import { answerTo, recordsOf, sameName } from "./service-records.js";
 
-export const MDNS_NAME = "plotwright";
-
-const LAST_NAME = new RegExp(`^(${MDNS_NAME}(?:-[1-9]\\d{0,3})?)\\.local$`);
+const LAST_NAME = new RegExp(`^(${LOCAL_NAME}(?:-[1-9]\\d{0,3})?)\\.local$`);
 
 const PROBES = 3;
 /** Time between two probes (RFC 6762, 8.1). */
@@ -26,6 +27,8 @@ const PROBE_INTERVAL_MS = 250;
 const YIELD_MS = 1_000;
 /** Time until the next try when nothing can be sent: the network may come up later than the server. */
 const NO_NETWORK_MS = 5_000;
+/** Pauses between announcements (8.3): devices that were asleep or missed one hear the next. */
+const ANNOUNCE_AFTER_MS = [1_000, 2_000, 4_000];
 
 export interface LocalNameOptions {
   readonly port: number;
@@ -41,43 +44,24 @@ export interface LocalNameOptions {
   readonly yieldMs?: number;
 }
 
-interface DnsRecord {
-  readonly name: string;
-  readonly type: string;
-  readonly ttl?: number;
-  readonly data: unknown;
-}
-
-interface DnsPacket {
-  readonly answers?: readonly DnsRecord[];
-  readonly additionals?: readonly DnsRecord[];
-  readonly authorities?: readonly DnsRecord[];
-}
-
-/** The part of multicast-dns, which bonjour-service contains, that is used here. */
-interface Mdns extends EventEmitter {
-  query(packet: object, done: (error?: Error | null) => void): void;
-}
-
 export class LocalName {
   readonly #options: LocalNameOptions;
-  readonly #bonjour: Bonjour;
-  readonly #mdns: Mdns;
+  readonly #mdns: MulticastDns;
   /** All addresses this computer has had: an answer with one of them is an old answer of this server. */
   readonly #addresses = new Set<string>();
   #label: string;
   #probeCount = 0;
-  #service: Service | null = null;
+  /** The announced records; null while the server has no name. */
+  #records: readonly DnsRecord[] | null = null;
+  /** Of the next probe or announcement. */
   #timer: NodeJS.Timeout | undefined;
   #isClosed = false;
   #hasFailed = false;
 
   constructor(options: LocalNameOptions) {
     this.#options = options;
-    this.#label = LAST_NAME.exec(options.last ?? "")?.[1] ?? MDNS_NAME;
-    const line = options.socket === undefined ? {} : { socket: options.socket };
-    this.#bonjour = new Bonjour(line as Record<string, unknown>, () => undefined);
-    this.#mdns = (this.#bonjour as unknown as { readonly server: { readonly mdns: Mdns } }).server.mdns;
+    this.#label = LAST_NAME.exec(options.last ?? "")?.[1] ?? LOCAL_NAME;
+    this.#mdns = multicastDns(options.socket === undefined ? {} : { socket: options.socket });
     // An "error" event without a listener would end the process. Send errors are reported by query().
     this.#mdns.on("error", () => undefined);
     this.#mdns.on("response", (packet: DnsPacket) => this.#onAnswer(packet));
@@ -88,7 +72,7 @@ export class LocalName {
 
   /** The current name, as "plotwright-2.local"; null while the server has none. */
   get name(): string | null {
-    return this.#service === null ? null : this.#host;
+    return this.#records === null ? null : this.#host;
   }
 
   /** Gives up the name. */
@@ -96,7 +80,7 @@ export class LocalName {
     this.#isClosed = true;
     clearTimeout(this.#timer);
     return new Promise((resolve) => {
-      this.#bonjour.unpublishAll(() => this.#bonjour.destroy(() => resolve()));
+      this.#sayGoodbye(() => this.#mdns.destroy(resolve));
     });
   }
 
@@ -105,10 +89,14 @@ export class LocalName {
   }
 
   get #fullName(): string {
-    return `${this.#label}._${this.#type}._tcp.local`;
+    return `${this.#label}.${this.#type}`;
   }
 
   get #type(): string {
+    return `_${this.#scheme}._tcp.local`;
+  }
+
+  get #scheme(): string {
     return this.#options.isTls ? "https" : "http";
   }
 
@@ -141,7 +129,7 @@ export class LocalName {
 
   /** The records this server will announce; they decide between two simultaneous probes. */
   #claim(): DnsRecord[] {
-    for (const address of ownAddresses()) this.#addresses.add(address);
+    for (const address of ownAddresses("IPv4")) this.#addresses.add(address);
     const service = { port: this.#options.port, target: this.#host, priority: 0, weight: 0 };
     return [
       { name: this.#fullName, type: "SRV", ttl: 120, data: service },
@@ -151,25 +139,45 @@ export class LocalName {
 
   #announce(): void {
     const { port, log, onName } = this.#options;
-    // With `probe` the library would probe once more and write the answers to the console.
-    const service = { name: this.#label, type: this.#type, port, host: this.#host, probe: false };
-    this.#service = this.#bonjour.publish(service);
+    this.#records = recordsOf({
+      host: this.#host,
+      type: this.#type,
+      fullName: this.#fullName,
+      port,
+      addresses: [...ownAddresses("IPv4"), ...ownAddresses("IPv6")],
+    });
+    this.#repeatAnnouncement(0);
     this.#hasFailed = false;
-    log?.(`the server's address on the network is ${this.#type}://${this.#host}:${port}`);
+    log?.(`the server's address on the network is ${this.#scheme}://${this.#host}:${port}`);
     onName?.(this.#host);
+  }
+
+  #repeatAnnouncement(count: number): void {
+    if (this.#records === null) return;
+    this.#mdns.respond({ answers: this.#records });
+    const pauseMs = ANNOUNCE_AFTER_MS[count];
+    if (pauseMs === undefined) return;
+    this.#timer = setTimeout(() => this.#repeatAnnouncement(count + 1), pauseMs).unref();
   }
 
   /** Withdraws the name if it was announced. */
   #withdraw(): void {
-    if (this.#service === null) return;
-    (this.#service.stop as () => void)();
-    this.#service = null;
+    if (this.#records === null) return;
+    this.#sayGoodbye();
     this.#options.onName?.(null);
+  }
+
+  /** Tells the network that the announced records are no longer valid. */
+  #sayGoodbye(sent: () => void = () => undefined): void {
+    const records = this.#records;
+    this.#records = null;
+    if (records === null) sent();
+    else this.#mdns.respond({ answers: records.map((record) => ({ ...record, ttl: 0 })) }, () => sent());
   }
 
   #onAnswer({ answers = [], additionals = [] }: DnsPacket): void {
     if (this.#isClosed || ![...answers, ...additionals].some((record) => this.#isAnothers(record))) return;
-    if (this.#service === null) {
+    if (this.#records === null) {
       this.#options.log?.(`${this.#host} is in use by another server on this network`);
       this.#label = nextLabel(this.#label);
     }
@@ -177,16 +185,23 @@ export class LocalName {
     this.#probe(0);
   }
 
-  #onQuestion({ authorities = [] }: DnsPacket): void {
-    if (this.#isClosed || this.#service !== null) return;
+  #onQuestion({ questions = [], authorities = [] }: DnsPacket): void {
+    if (this.#isClosed) return;
+    if (this.#records !== null) {
+      for (const question of questions) {
+        const answer = answerTo(question, this.#records);
+        if (answer !== null) this.#mdns.respond(answer);
+      }
+      return;
+    }
     const theirs = authorities.filter((record) => this.#isOfName(record));
     if (!theirs.some((record) => this.#isAnothers(record))) return;
     if (inOrder(theirs) > inOrder(this.#claim())) this.#probe(this.#options.yieldMs ?? YIELD_MS);
   }
 
-  /** The library's announcement lacks the addresses of a network that appears later, so announce again. */
+  /** The announced records lack the addresses of a network that appears later, so announce again. */
   #onNetwork(): void {
-    if (this.#isClosed || this.#service === null) return;
+    if (this.#isClosed || this.#records === null) return;
     this.#withdraw();
     this.#probe(0);
   }
@@ -202,8 +217,7 @@ export class LocalName {
   }
 
   #isOfName({ name, type }: DnsRecord): boolean {
-    const is = (other: string): boolean => name.toLowerCase() === other.toLowerCase();
-    return (type === "A" && is(this.#host)) || (type === "SRV" && is(this.#fullName));
+    return (type === "A" && sameName(name, this.#host)) || (type === "SRV" && sameName(name, this.#fullName));
   }
 
   /**
@@ -217,16 +231,16 @@ export class LocalName {
   }
 }
 
-function ownAddresses(): string[] {
+function ownAddresses(wanted: "IPv4" | "IPv6"): string[] {
   return Object.values(networkInterfaces())
     .flatMap((list) => list ?? [])
-    .filter(({ family, internal }) => family === "IPv4" && !internal)
+    .filter(({ family, internal }) => family === wanted && !internal)
     .map(({ address }) => address);
 }
 
 function nextLabel(label: string): string {
   const number = /-(\d+)$/.exec(label)?.[1];
-  return `${MDNS_NAME}-${number === undefined ? 2 : Number(number) + 1}`;
+  return `${LOCAL_NAME}-${number === undefined ? 2 : Number(number) + 1}`;
 }
 
 const portOf = ({ data }: DnsRecord): unknown => (data as { readonly port?: unknown }).port;
