@@ -47,31 +47,34 @@ const RECONNECT_S = 2;
 const SUPPLY_S = 2;
 
 export class PlotterDriver {
-  private readonly clock: Clock;
-  private settings: PlotSettings;
-  private current: PlotterState;
-  private readonly listeners: ((state: PlotterState) => void)[] = [];
-  private connection: Connection | null = null;
-  private machine: Machine | null = null;
+  readonly #clock: Clock;
+  #settings: PlotSettings;
+  #current: PlotterState;
+  readonly #listeners: ((state: PlotterState) => void)[] = [];
+  #connection: Connection | null = null;
+  #machine: Machine | null = null;
   /** Why there is no connection. */
-  private trouble: PlotwrightError | null = null;
-  private connecting: Promise<void> | null = null;
-  private cancelRetry: (() => void) | null = null;
-  private run: MachinePlot | null = null;
-  private movingByHand = false;
-  private closed = false;
+  #trouble: PlotwrightError | null = null;
+  #connecting: Promise<void> | null = null;
+  #cancelRetry: (() => void) | null = null;
+  #run: MachinePlot | null = null;
+  #movingByHand = false;
+  #closed = false;
   /** After a real board was connected, the virtual board is never used in its place. */
-  private hadSerial = false;
-  private powerIsLow = false;
-  private lastSupplyLow = false;
-  private cancelSupply: (() => void) | null = null;
-  private virtual: VirtualMachine | null = null;
+  #hadSerial = false;
+  #powerIsLow = false;
+  #lastSupplyLow = false;
+  #cancelSupply: (() => void) | null = null;
+  #virtual: VirtualMachine | null = null;
 
-  constructor(private readonly options: PlotterOptions) {
-    this.clock = options.clock ?? nodeClock;
-    this.settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
+  readonly #options: PlotterOptions;
+
+  constructor(options: PlotterOptions) {
+    this.#options = options;
+    this.#clock = options.clock ?? nodeClock;
+    this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
     const isVirtual = options.device === "virtual";
-    this.current = {
+    this.#current = {
       kind: isVirtual || options.device === "auto" ? "virtual" : "serial",
       device: isVirtual || options.device === "auto" ? null : options.device,
       connection: "connecting",
@@ -88,50 +91,50 @@ export class PlotterDriver {
   }
 
   get state(): PlotterState {
-    return this.current;
+    return this.#current;
   }
 
   /** The built-in virtual board while it is in use: gives access to the drawn line and simulated faults. */
   get virtualBoard(): VirtualBoard | null {
-    const { virtual } = this;
-    return this.connection?.kind === "virtual" && virtual instanceof VirtualBoard ? virtual : null;
+    const virtual = this.#virtual;
+    return this.#connection?.kind === "virtual" && virtual instanceof VirtualBoard ? virtual : null;
   }
 
   onChange(listener: (state: PlotterState) => void): void {
-    this.listeners.push(listener);
+    this.#listeners.push(listener);
   }
 
   /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
   start(): Promise<void> {
-    this.tell({ connection: "connecting", message: null });
-    return this.startConnecting();
+    this.#tell({ connection: "connecting", message: null });
+    return this.#startConnecting();
   }
 
   /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
   async settled(): Promise<void> {
-    await this.connecting;
+    await this.#connecting;
   }
 
   /** Commands and replies of the current connection, as text to download. */
   log(): string {
-    return this.connection?.machine.log() ?? "";
+    return this.#connection?.machine.log() ?? "";
   }
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    await this.connecting;
-    const machine = this.idleMachine();
-    this.settings = settings;
-    this.machineChanged();
+    await this.#connecting;
+    const machine = this.#idleMachine();
+    this.#settings = settings;
+    this.#machineChanged();
     const run = new MachinePlot(machine, planner, settings, start);
-    this.run = run;
+    this.#run = run;
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
-    this.tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
-    run.onHeld((held) => this.tell({ activity: held ? "held" : "plotting" }));
-    run.onProgress((progress) => this.movedTo(progress.xMm, progress.yMm, progress.penUp));
+    this.#tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
+    run.onHeld((held) => this.#tell({ activity: held ? "held" : "plotting" }));
+    run.onProgress((progress) => this.#movedTo(progress.xMm, progress.yMm, progress.penUp));
     run.finished.then(
-      () => this.runEnded(),
-      () => this.runEnded(),
+      () => this.#runEnded(),
+      () => this.#runEnded(),
     );
     return run;
   }
@@ -139,26 +142,26 @@ export class PlotterDriver {
   /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
   use(settings: PlotSettings): void {
     machineOf(settings);
-    this.settings = settings;
-    this.machineChanged();
+    this.#settings = settings;
+    this.#machineChanged();
   }
 
   async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
-    await this.byHand((machine) => machine.movePen(request.up, this.settings, request.heightPct));
+    await this.#byHand((machine) => machine.movePen(request.up, this.#settings, request.heightPct));
   }
 
   async motorsOff(): Promise<void> {
-    await this.byHand((machine) => machine.motorsOff());
+    await this.#byHand((machine) => machine.motorsOff());
   }
 
   /**
    * Makes a manual move with the machine, speeds and heights of `settings`; default: those of the last job or
    * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
-  async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
+  async move(move: HandMove, settings: PlotSettings = this.#settings): Promise<void> {
     machineOf(settings);
-    await this.byHand((machine) => {
-      this.settings = settings;
+    await this.#byHand((machine) => {
+      this.#settings = settings;
       return moveByHand(machine, move, settings);
     });
   }
@@ -211,190 +214,191 @@ export class PlotterDriver {
 
   /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
   async command(line: string): Promise<CommandAnswer> {
-    return this.byHand((machine) => machine.command(line));
+    return this.#byHand((machine) => machine.command(line));
   }
 
   /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
   async close(): Promise<void> {
-    this.closed = true;
-    this.cancelRetry?.();
-    this.cancelSupply?.();
-    await this.connecting;
-    const { run } = this;
+    this.#closed = true;
+    this.#cancelRetry?.();
+    this.#cancelSupply?.();
+    await this.#connecting;
+    const run = this.#run;
     run?.fail(closedError());
     // A lost board can't be told anything.
-    if (run || this.movingByHand) await this.machine?.leave(this.settings).catch(() => undefined);
-    await this.connection?.machine.close();
-    this.virtual?.close();
+    if (run || this.#movingByHand) await this.#machine?.leave(this.#settings).catch(() => undefined);
+    await this.#connection?.machine.close();
+    this.#virtual?.close();
   }
 
-  private startConnecting(): Promise<void> {
-    if (this.closed) return Promise.resolve();
-    this.connecting ??= this.connect().finally(() => {
-      this.connecting = null;
+  #startConnecting(): Promise<void> {
+    if (this.#closed) return Promise.resolve();
+    this.#connecting ??= this.#connect().finally(() => {
+      this.#connecting = null;
     });
-    return this.connecting;
+    return this.#connecting;
   }
 
-  private async connect(): Promise<void> {
-    this.cancelRetry?.();
+  async #connect(): Promise<void> {
+    this.#cancelRetry?.();
     try {
       const connection = await connect({
-        device: this.options.device,
-        isTaken: this.options.isTaken,
-        virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
-        clock: this.clock,
-        speed: this.options.virtualSpeed ?? 1,
-        driver: driverOf(machineOf(this.settings)),
-        virtualMachine: () => this.makeVirtual(),
+        device: this.#options.device,
+        isTaken: this.#options.isTaken,
+        virtualIfNone: this.#options.virtualIfNone !== false && !this.#hadSerial,
+        clock: this.#clock,
+        speed: this.#options.virtualSpeed ?? 1,
+        driver: driverOf(machineOf(this.#settings)),
+        virtualMachine: () => this.#makeVirtual(),
         events: {
-          changed: () => this.machineChanged(),
-          buttonPressed: () => void this.run?.pause().catch(() => undefined),
-          supplyRead: (isLow) => this.supplyRead(isLow),
-          lost: (error) => this.lost(error),
+          changed: () => this.#machineChanged(),
+          buttonPressed: () => void this.#run?.pause().catch(() => undefined),
+          supplyRead: (isLow) => this.#supplyRead(isLow),
+          lost: (error) => this.#lost(error),
         },
       });
-      await this.adopt(connection);
+      await this.#adopt(connection);
     } catch (error) {
-      this.lost(error instanceof PlotwrightError ? error : internal(error));
+      this.#lost(error instanceof PlotwrightError ? error : internal(error));
     }
   }
 
-  private makeVirtual(): VirtualMachine {
-    const machine = machineOf(this.settings);
-    this.virtual ??= driverOf(machine).virtualMachine({
-      clock: this.clock,
-      speed: this.options.virtualSpeed ?? 1,
-      firmware: this.options.firmware,
+  #makeVirtual(): VirtualMachine {
+    const machine = machineOf(this.#settings);
+    this.#virtual ??= driverOf(machine).virtualMachine({
+      clock: this.#clock,
+      speed: this.#options.virtualSpeed ?? 1,
+      firmware: this.#options.firmware,
       machine,
     });
-    return this.virtual;
+    return this.#virtual;
   }
 
-  private async adopt(connection: Connection): Promise<void> {
-    if (this.closed) {
+  async #adopt(connection: Connection): Promise<void> {
+    if (this.#closed) {
       await connection.machine.close();
       return;
     }
-    this.connection = connection;
-    this.hadSerial ||= connection.kind === "serial";
+    this.#connection = connection;
+    this.#hadSerial ||= connection.kind === "serial";
     const { machine } = connection;
     await machine.takeOver();
-    this.machine = machine;
-    this.trouble = null;
-    this.powerIsLow = false;
-    this.watchSupply(machine);
-    this.machineChanged();
-    this.tell({
+    this.#machine = machine;
+    this.#trouble = null;
+    this.#powerIsLow = false;
+    this.#watchSupply(machine);
+    this.#machineChanged();
+    this.#tell({
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
       boardName: machine.name,
       firmware: machine.firmware,
-      message: this.welcome(connection),
+      message: this.#welcome(connection),
     });
   }
 
-  private welcome(connection: Connection): string | null {
+  #welcome(connection: Connection): string | null {
     if (connection.kind === "serial") return null;
-    return this.options.device === "auto"
+    return this.#options.device === "auto"
       ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
       : "This is the virtual board: nothing is drawn on paper.";
   }
 
-  private lost(error: PlotwrightError): void {
-    if (this.closed) return;
-    this.trouble = error;
-    this.machine = null;
-    this.connection?.machine.close().catch(() => undefined);
-    this.connection = null;
+  #lost(error: PlotwrightError): void {
+    if (this.#closed) return;
+    this.#trouble = error;
+    this.#machine = null;
+    this.#connection?.machine.close().catch(() => undefined);
+    this.#connection = null;
     // A held run does not notice the lost board by itself.
-    this.run?.fail(error);
+    this.#run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
-    this.tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
-    this.cancelRetry?.();
-    this.cancelRetry = this.clock.after(RECONNECT_S, () => void this.startConnecting());
+    this.#tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    this.#cancelRetry?.();
+    this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
   }
 
-  private runEnded(): void {
-    this.run = null;
-    this.tell({ activity: "none", ...(this.machine && !this.powerIsLow ? { connection: "idle" } : {}) });
-    this.machineChanged();
+  #runEnded(): void {
+    this.#run = null;
+    this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
+    this.#machineChanged();
   }
 
   /**
    * Reacts only to two low readings in a row: with a second program on the port, an answer may be mistaken.
    */
-  private supplyRead(isLow: boolean): void {
-    if (isLow && this.lastSupplyLow) this.powerLost();
-    this.lastSupplyLow = isLow;
+  #supplyRead(isLow: boolean): void {
+    if (isLow && this.#lastSupplyLow) this.#powerLost();
+    this.#lastSupplyLow = isLow;
   }
 
   /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
-  private watchSupply(machine: Machine): void {
-    if (this.closed) return;
-    this.cancelSupply = this.clock.after(SUPPLY_S, () => {
-      if (this.closed || this.machine !== machine) return;
-      const isPlaying = this.movingByHand || (this.run !== null && !this.run.isHeld);
-      const asked = isPlaying ? Promise.resolve() : this.askSupply(machine);
+  #watchSupply(machine: Machine): void {
+    if (this.#closed) return;
+    this.#cancelSupply = this.#clock.after(SUPPLY_S, () => {
+      if (this.#closed || this.#machine !== machine) return;
+      const isPlaying = this.#movingByHand || (this.#run !== null && !this.#run.isHeld);
+      const asked = isPlaying ? Promise.resolve() : this.#askSupply(machine);
       // A lost board has its own way to be told of.
-      asked.catch(() => undefined).finally(() => this.watchSupply(machine));
+      asked.catch(() => undefined).finally(() => this.#watchSupply(machine));
     });
   }
 
-  private async askSupply(machine: Machine): Promise<void> {
+  async #askSupply(machine: Machine): Promise<void> {
     const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
-    if (isLow) this.powerLost();
-    else if (this.powerIsLow) {
-      this.powerIsLow = false;
-      this.tell({ connection: "idle", message: this.connection && this.welcome(this.connection) });
+    if (isLow) this.#powerLost();
+    else if (this.#powerIsLow) {
+      this.#powerIsLow = false;
+      this.#tell({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
     }
   }
 
-  private powerLost(): void {
-    if (this.powerIsLow) return;
-    this.powerIsLow = true;
-    this.run?.fail(powerLost());
-    this.tell({ connection: "fault", message: powerLow().message });
-    const { machine, settings } = this;
+  #powerLost(): void {
+    if (this.#powerIsLow) return;
+    this.#powerIsLow = true;
+    this.#run?.fail(powerLost());
+    this.#tell({ connection: "fault", message: powerLow().message });
+    const machine = this.#machine,
+      settings = this.#settings;
     machine
       ?.forgetPlace()
       .then(() => machine.letGo(settings))
       .catch(() => undefined);
   }
 
-  private async byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
-    await this.connecting;
-    const machine = this.idleMachine();
-    this.movingByHand = true;
-    this.tell({ connection: "busy", activity: "moving" });
+  async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
+    await this.#connecting;
+    const machine = this.#idleMachine();
+    this.#movingByHand = true;
+    this.#tell({ connection: "busy", activity: "moving" });
     try {
       return await action(machine);
     } finally {
-      this.movingByHand = false;
-      this.tell({ activity: "none", ...(this.machine && !this.powerIsLow ? { connection: "idle" } : {}) });
+      this.#movingByHand = false;
+      this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
     }
   }
 
   /** To be taken at once: between asking and taking, another one could ask. */
-  private idleMachine(): Machine {
-    if (this.run) {
+  #idleMachine(): Machine {
+    if (this.#run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
     }
-    if (this.movingByHand) {
+    if (this.#movingByHand) {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
-    if (!this.machine) throw this.trouble ?? notStarted();
-    if (this.powerIsLow) throw powerLow();
-    return this.machine;
+    if (!this.#machine) throw this.#trouble ?? notStarted();
+    if (this.#powerIsLow) throw powerLow();
+    return this.#machine;
   }
 
-  private machineChanged(): void {
-    const machine = this.machine;
+  #machineChanged(): void {
+    const machine = this.#machine;
     if (!machine) return;
-    const place = machine.place(machineOf(this.settings));
-    this.tell({
-      emergencyStopMs: machine.emergencyStopMs(this.settings),
+    const place = machine.place(machineOf(this.#settings));
+    this.#tell({
+      emergencyStopMs: machine.emergencyStopMs(this.#settings),
       penUp: machine.penUp,
       motorsOn: machine.motorsOn,
       xMm: place?.x ?? null,
@@ -403,16 +407,16 @@ export class PlotterDriver {
   }
 
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
-  private movedTo(xMm: number, yMm: number, penUp: boolean): void {
+  #movedTo(xMm: number, yMm: number, penUp: boolean): void {
     // A run that ends with the connection still tells where it was; nobody knows where the carriage is then.
-    if (this.machine) this.current = { ...this.current, xMm, yMm, penUp };
+    if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp };
   }
 
-  private tell(change: Partial<PlotterState>): void {
+  #tell(change: Partial<PlotterState>): void {
     const keys = Object.keys(change) as (keyof PlotterState)[];
-    if (keys.every((key) => this.current[key] === change[key])) return;
-    this.current = { ...this.current, ...change };
-    for (const listener of this.listeners) listener(this.current);
+    if (keys.every((key) => this.#current[key] === change[key])) return;
+    this.#current = { ...this.#current, ...change };
+    for (const listener of this.#listeners) listener(this.#current);
   }
 }
 
