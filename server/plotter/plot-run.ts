@@ -1,7 +1,7 @@
 /**
- * One plot on a machine: plan, stream, and what the user asks of it on the way.
+ * One plot on a machine: plans, streams, and handles the user's requests meanwhile.
  *
- *              ┌──────── resume: plan what is left, from the very place ────────┐
+ *              ┌──────── resume: plan the rest, from the same place ────────────┐
  *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
  *    ^          │ │ │  └──emergency──> stops at once, lifts ──> held
  *    │          │ │ └──cancel──> slows down, lifts, walks home ──> cancelled
@@ -266,7 +266,7 @@ export class MachinePlot implements LivePlotRun {
     }
   }
 
-  /** Plans on from a place, to the next change of pens. */
+  /** Plans from a place to the next pen change. */
   async #plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
     const until = this.#stops.nextAfter(from);
     if (until !== null || this.#start.from) {

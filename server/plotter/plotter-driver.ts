@@ -225,7 +225,7 @@ export class PlotterDriver {
     await this.#connecting;
     const run = this.#run;
     run?.fail(closedError());
-    // A lost board can't be told anything.
+    // Fails if the connection is lost; there is nothing left to do then.
     if (run || this.#movingByHand) await this.#machine?.leave(this.#settings).catch(() => undefined);
     await this.#connection?.machine.close();
     this.#virtual?.close();
@@ -333,14 +333,14 @@ export class PlotterDriver {
     this.#lastSupplyLow = isLow;
   }
 
-  /** While nothing plays, the supply is asked for; a board that does not answer is noticed by that too. */
+  /** Checks the motor supply while the board is idle. This also detects a board that no longer answers. */
   #watchSupply(machine: Machine): void {
     if (this.#closed) return;
     this.#cancelSupply = this.#clock.after(SUPPLY_S, () => {
       if (this.#closed || this.#machine !== machine) return;
       const isPlaying = this.#movingByHand || (this.#run !== null && !this.#run.isHeld);
       const asked = isPlaying ? Promise.resolve() : this.#askSupply(machine);
-      // A lost board has its own way to be told of.
+      // A lost connection is reported by the machine's own event.
       asked.catch(() => undefined).finally(() => this.#watchSupply(machine));
     });
   }
@@ -380,7 +380,7 @@ export class PlotterDriver {
     }
   }
 
-  /** To be taken at once: between asking and taking, another one could ask. */
+  /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */
   #idleMachine(): Machine {
     if (this.#run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
@@ -408,7 +408,7 @@ export class PlotterDriver {
 
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
   #movedTo(xMm: number, yMm: number, penUp: boolean): void {
-    // A run that ends with the connection still tells where it was; nobody knows where the carriage is then.
+    // A run that ends because the connection is lost still reports a position, which is then unknown.
     if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp };
   }
 

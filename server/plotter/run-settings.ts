@@ -1,4 +1,4 @@
-/** The settings of a plot under way, as they were changed on the way. */
+/** The settings of a running plot, with the changes made while it runs. */
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./types.js";
 
