@@ -1,6 +1,6 @@
 /** Planning for the queue: takes the id of a stored drawing and uses a few threads at a time. */
 import { stat } from "node:fs/promises";
-import { machineOf } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import { lane, type Requester } from "./lane.js";
