@@ -1,6 +1,6 @@
 /** `plotwright logs`: what happened, as one text to be sent to whoever helps. */
-import { defaultDataDir } from "../data-dir.js";
-import { bundleText, readLog } from "../log-book.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { bundleText, readLog } from "../storage/log-book.js";
 import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 

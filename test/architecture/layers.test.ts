@@ -32,6 +32,21 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
 };
 
+/** The folders of server, lowest first: each imports only those before it. The entry files may import all. */
+const SERVER_LAYERS = [
+  "server/storage",
+  "server/serial",
+  "server/security",
+  "server/planning",
+  "server/plotter",
+  "server/queue",
+  "server/http",
+  "server/plugins",
+  "server/plugins/*",
+  "server/composition",
+  "server/cli",
+];
+
 interface Import {
   readonly from: string;
   readonly to: string;
@@ -74,6 +89,27 @@ function literalsOf(file: string): string[] {
 
 const importsIn = (folder: string): Import[] => sourceFiles(folder).flatMap(importsOf);
 const write = ({ from, to }: Import): string => `${from} imports ${to}`;
+
+/** The imports that TypeScript writes at the top of a file, without `import("…")`. */
+function staticImportsOf(file: string): Import[] {
+  const source = ts.createSourceFile(
+    file,
+    readFileSync(path.join(ROOT, file), "utf8"),
+    ts.ScriptTarget.ES2022,
+  );
+  return source.statements.flatMap((statement) => {
+    const isImport = ts.isImportDeclaration(statement) || ts.isExportDeclaration(statement);
+    const from = isImport ? statement.moduleSpecifier : undefined;
+    if (from === undefined || !ts.isStringLiteral(from) || !from.text.startsWith(".")) return [];
+    return [{ from: file, to: path.posix.join(path.posix.dirname(file), from.text).replace(/\.jsx?$/, "") }];
+  });
+}
+
+/** The same imports between folders: "server/http/app.ts" → "server/http". */
+const betweenFolders = (imports: readonly Import[]): Import[] =>
+  imports
+    .map(({ from, to }) => ({ from: path.posix.dirname(from), to: path.posix.dirname(to) }))
+    .filter(({ from, to }) => from !== to);
 
 /** "src/plan/corner" → "plan"; "src/units" → "units". */
 const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
@@ -163,6 +199,47 @@ describe("server and web", () => {
   });
 });
 
+describe("the folders of server", () => {
+  const inside = importsIn("server").filter(({ to }) => to.startsWith("server/"));
+  const levelOf = (file: string): number => {
+    const folder = path.posix.dirname(file);
+    if (folder === "server") return SERVER_LAYERS.length;
+    return SERVER_LAYERS.indexOf(folder.startsWith("server/plugins/") ? "server/plugins/*" : folder);
+  };
+  const pluginOf = (file: string): string | null => /^server\/plugins\/[^/]+(?=\/)/.exec(file)?.[0] ?? null;
+
+  it("have no circles", () => {
+    expect(findCycle(betweenFolders(inside))).toEqual([]);
+  });
+
+  it("are layers, each of which imports only those below it", () => {
+    expect(sourceFiles("server").filter((file) => levelOf(file) === -1)).toEqual([]);
+    const wrong = inside.filter(({ from, to }) => levelOf(from) < levelOf(to));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("are not the place of entries, which are the only files beside them", () => {
+    const files = sourceFiles("server").filter((file) => path.posix.dirname(file) === "server");
+    expect(files.sort()).toEqual(["server/index.ts", "server/main.ts"]);
+  });
+
+  it("load a plug-in only when it is asked for: nothing outside imports it statically", () => {
+    const wrong = sourceFiles("server")
+      .flatMap(staticImportsOf)
+      .filter(({ from, to }) => pluginOf(to) !== null && pluginOf(from) !== pluginOf(to));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("have no two files whose names differ only by a plural", () => {
+    const names = sourceFiles("server").map((file) => path.posix.basename(file, ".ts"));
+    const singular = (name: string): string => name.replace(/s(?=-|$)/g, "");
+    const twins = names.filter((name) =>
+      names.some((other) => other !== name && singular(other) === singular(name)),
+    );
+    expect(twins).toEqual([]);
+  });
+});
+
 describe("the folders of web", () => {
   const inside = importsIn("web").filter(({ to }) => to.startsWith("web/"));
 
@@ -248,5 +325,14 @@ describe("the search for circles", () => {
       { from: "src/c.ts", to: "src/b" },
     ];
     expect(findCycle(circle)).toEqual(["src/b", "src/c", "src/b"]);
+  });
+
+  it("finds one among folders whose files have none", () => {
+    const imports = [
+      { from: "server/http/app.ts", to: "server/index" },
+      { from: "server/main.ts", to: "server/http/listen" },
+    ];
+    expect(findCycle(imports)).toEqual([]);
+    expect(findCycle(betweenFolders(imports))).toEqual(["server/http", "server", "server/http"]);
   });
 });
