@@ -117,7 +117,8 @@ export class PlotterDriver {
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    await this.connectFor(settings);
+    await this.connecting;
+    if (!this.isConnectedFor(settings)) await this.connectFor(settings);
     const machine = this.idleMachine();
     this.settings = settings;
     this.machineChanged();
@@ -155,7 +156,7 @@ export class PlotterDriver {
    * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
   async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
-    await this.connectFor(settings);
+    if (!this.isConnectedFor(settings)) await this.connectFor(settings);
     await this.byHand((machine) => {
       this.settings = settings;
       return moveByHand(machine, move, settings);
@@ -237,7 +238,7 @@ export class PlotterDriver {
    */
   private async connectFor(settings: PlotSettings): Promise<void> {
     await this.connecting;
-    if (this.isConnectedFor(settings) || this.run || this.movingByHand) return;
+    if (this.run || this.movingByHand) return;
     const before = this.settings;
     this.settings = settings;
     const { connection, virtual } = this;
