@@ -232,10 +232,7 @@ export class PlotterDriver {
     return machineOf(settings).controller.kind === machineOf(this.settings).controller.kind;
   }
 
-  /**
-   * Connects anew if the machine of these settings has another controller than the current one. Rejects if no such
-   * controller answers; the next attempt is made with the settings of before.
-   */
+  /** Connects anew by another driver. Rejects if none answers; the next attempt is made with the settings of before. */
   private async connectFor(settings: PlotSettings): Promise<void> {
     await this.connecting;
     if (this.run || this.movingByHand) return;
