@@ -2,6 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
+import { grblDriver } from "../../src/drivers/grbl/grbl-driver.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { GRBL } from "../support/grbl-machine.js";
@@ -161,6 +162,30 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
       /^board-error: The Grbl refused G5X1 with error:20/,
     );
     expect(board.state().state).not.toBe("Run");
+  });
+
+  it.each(["asleep", "held", "moving"])("is found again when it was left %s", async (how) => {
+    const world = new ManualClock();
+    const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
+    const line = board.transport();
+    const left = { asleep: "$SLP\n", held: "G1X50F600\n!", moving: "G1X50F600\n" }[how] ?? "";
+    await line.write(new TextEncoder().encode(left));
+    await world.advance(1);
+    const events = {
+      changed: () => undefined,
+      buttonPressed: () => undefined,
+      supplyRead: () => undefined,
+      lost: () => undefined,
+    };
+    const options = { clock: world, machineClock: world, speed: 1, events };
+    const machine = await world.run(grblDriver.identify(board.transport(), options));
+    await world.run(machine.takeOver());
+    expect(machine.firmware).toBe("Grbl 1.1h");
+    expect(board.state().state).toBe("Idle");
+    await world.run(machine.walk(10, 20, SETTINGS));
+    expect(board.state()).toMatchObject({ zMm: 5, penUp: true });
+    expect(machine.place(GRBL)?.x).toBeCloseTo(10, 3);
+    await machine.close();
   });
 
   it("gives way to an EiBotBoard for a job of such a machine, and comes back", async () => {

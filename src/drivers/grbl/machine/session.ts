@@ -69,6 +69,8 @@ export class GrblSession {
   /** Rejects with `no-board` when something else answers, with `board-timeout` when nothing does. */
   async identify(): Promise<string> {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
+      // Asleep, held or at work for another program, it answers nothing else.
+      if (i > 0) this.now(NOW.reset);
       const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
       // An empty line closes what another program may have left unfinished.
       const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
@@ -78,7 +80,7 @@ export class GrblSession {
       if (i > 0) await tooLate;
     }
     if (this.failure) throw this.failure;
-    if (this.version === null) throw notGrbl(this.log.tail(4));
+    if (this.version === null) throw notGrbl(this.heard.slice(-4));
     return this.version;
   }
 
