@@ -128,7 +128,8 @@ export class PlotterDriver {
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    await this.#connectFor(settings);
+    await this.#connecting;
+    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
     const machine = this.#idleMachine();
     this.#settings = settings;
     this.#machineChanged();
@@ -166,7 +167,7 @@ export class PlotterDriver {
    * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
   async move(move: HandMove, settings: PlotSettings = this.#settings): Promise<void> {
-    await this.#connectFor(settings);
+    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
     await this.#byHand((machine) => {
       this.#settings = settings;
       return moveByHand(machine, move, settings);
@@ -242,17 +243,14 @@ export class PlotterDriver {
     return machineOf(settings).controller.kind === machineOf(this.#settings).controller.kind;
   }
 
-  /**
-   * Connects anew if the machine of these settings has another controller than the current one. Rejects if no such
-   * controller answers; the next attempt is made with the settings of before.
-   */
+  /** Connects again, by the driver of these settings. Rejects if none answers; the next attempt uses the settings of before. */
   async #connectFor(settings: PlotSettings): Promise<void> {
     await this.#connecting;
-    if (this.#isConnectedFor(settings) || this.#run || this.#movingByHand) return;
+    if (this.#run || this.#movingByHand) return;
     const before = this.#settings;
     this.#settings = settings;
-    const connection = this.#connection,
-      virtual = this.#virtual;
+    const connection = this.#connection;
+    const virtual = this.#virtual;
     this.#machine = this.#connection = this.#virtual = null;
     this.#tell({
       connection: "connecting",

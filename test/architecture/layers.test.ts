@@ -285,6 +285,9 @@ describe("the seams", () => {
   const EBB_COMMAND =
     /^(EM|SC|SP|S2|SM|XM|LM|LT|L3|T3|TD|TR|HM|ES|QS|QM|QG|QB|QC|QU|QE|QP|QL|SL|CS|CU|PI|PD)(,[\d-]|,$|$)/;
 
+  /** A line of G-code, a system command, or the greeting. */
+  const GRBL_COMMAND = /^(G\d+([A-Z$]|$)|M[345](S|$)|\$([XHIGC#$]|SLP)$|\$(J|RST)=|Grbl(HAL)?( |$))/;
+
   it("keep the commands of the EiBotBoard in its driver's folder", () => {
     // HPGL has commands of the same names; the console's field shows one as its example.
     const exempt = ["src/drivers/ebb/", "src/import/hpgl/", "web/plotter/console.tsx"];
@@ -295,6 +298,27 @@ describe("the seams", () => {
         .map((text) => `${file}: "${text}"`),
     );
     expect(wrong).toEqual([]);
+  });
+
+  it("keep the commands of Grbl in its driver's folder", () => {
+    // Its profile's fields name the settings of the firmware, for the user.
+    const exempt = ["src/drivers/grbl/", "src/machines/controllers.ts"];
+    const others = PRODUCT.filter((file) => !exempt.some((start) => file.startsWith(start)));
+    const wrong = others.flatMap((file) =>
+      literalsOf(file)
+        .filter((text) => GRBL_COMMAND.test(text))
+        .map((text) => `${file}: "${text}"`),
+    );
+    expect(wrong).toEqual([]);
+  });
+
+  it("let no driver use another one", () => {
+    const driverOf = (file: string): string | undefined => /^src\/drivers\/([^/]+)\//.exec(file)?.[1];
+    const wrong = importsIn("src/drivers").filter(({ from, to }) => {
+      const [own, other] = [driverOf(from), driverOf(to)];
+      return own !== undefined && other !== undefined && own !== other;
+    });
+    expect(wrong.map(write)).toEqual([]);
   });
 
   it("leave planning and compiling to planJob and the drivers", () => {
@@ -314,6 +338,41 @@ describe("the seams", () => {
   it("would find a command that is elsewhere", () => {
     const texts = ["EM,0,0", "SP,1,", "QS", "S2,", "plan", "S", "SVG", "Esc"];
     expect(texts.filter((text) => EBB_COMMAND.test(text))).toEqual(["EM,0,0", "SP,1,", "QS", "S2,"]);
+    const lines = [
+      "G1X",
+      "G4P0",
+      "G21G90",
+      "M3S",
+      "$X",
+      "$SLP",
+      "$I",
+      "Grbl 1.1h",
+      "G",
+      "M4",
+      "Grbl's",
+      "$5",
+      "M10 30H90",
+    ];
+    expect(lines.filter((text) => GRBL_COMMAND.test(text))).toEqual(lines.slice(0, 8).concat("M4"));
+  });
+});
+
+describe("the folders of src", () => {
+  const files = sourceFiles("src");
+  const isLeaf = (folder: string): boolean =>
+    !files.some((file) => path.posix.dirname(file).startsWith(`${folder}/`));
+  /** "src/drivers/ebb/compile/leg" → "src/drivers/ebb/compile"; a file beside folders stands for itself. */
+  const folderOf = (file: string): string => {
+    const folder = path.posix.dirname(file);
+    return isLeaf(folder) ? folder : file.replace(/\.ts$/, "");
+  };
+
+  it("have no circles among them, deep ones too", () => {
+    const between = importsIn("src")
+      .filter(({ to }) => to.startsWith("src/"))
+      .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
+      .filter(({ from, to }) => from !== to);
+    expect(findCycle(between)).toEqual([]);
   });
 });
 
