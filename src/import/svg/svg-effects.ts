@@ -2,7 +2,7 @@
 import type { Box } from "../../geometry/box.js";
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
-import { declaredValue, parseUrl, type Style } from "./style.js";
+import { declaredValue, parseOpacity, parseUrl, type Style } from "./style.js";
 import { tagOf, type SvgTree } from "./svg-tree.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 
@@ -24,6 +24,8 @@ export function effectsOf(style: Style, declared: Declared): Effects {
   const blend = valueOf("mix-blend-mode");
   if (blend !== null) effects.push(["blend-ignored", blend]);
   const order = valueOf("paint-order");
+  const opacity = parseOpacity(valueOf("opacity") ?? "1") ?? 1;
+  if (opacity > 0 && opacity < 1) effects.push(["opacity-ignored"]);
   if (order !== null && /^(stroke|markers)/.test(order)) effects.push(["paint-order-ignored", order]);
   return effects;
 }

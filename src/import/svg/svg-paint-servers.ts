@@ -39,7 +39,8 @@ export class SvgPaintServers {
         if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
       }
       const href = attribute(tree, element, HREF) ?? "";
-      element = tree.elementById.get(href.slice(1));
+      const next = tree.elementById.get(href.slice(1));
+      element = next !== undefined && SERVERS.has(tagOf(tree, next)) ? next : undefined;
     }
     // A gradient without stops paints nothing.
     return null;
