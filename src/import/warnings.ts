@@ -33,6 +33,12 @@ const WORDS = {
     `${many(n, "fill", "fills")} with a pattern${details}: taken as one colour, the pattern is not drawn.`,
   "blend-ignored": (n: number, details: string) =>
     `${many(n, "blend mode is", "blend modes are")} ignored${details}: a pen cannot mix colours like a screen.`,
+  "effect-ignored": (n: number, details: string) =>
+    `${many(n, "effect is", "effects are")} not drawn${details}.`,
+  "text-style-ignored": (n: number, details: string) =>
+    `${many(n, "style of text is", "styles of text are")} not drawn${details}. Convert the text to paths to keep it.`,
+  "color-unknown": (n: number, details: string) =>
+    `${many(n, "colour is", "colours are")} not known and ignored${details}. Give a plain colour.`,
   "opacity-ignored": (n: number) =>
     `${many(n, "object is", "objects are")} partly transparent: drawn in solid lines.`,
   "paint-order-ignored": (n: number, details: string) =>

@@ -27,6 +27,10 @@ interface Vertex {
 
 export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
   const vertices = verticesOf(shape);
+  // A path that only moves draws no line, but its markers are drawn.
+  if (vertices.length === 0 && shape.lonePoints > 0) {
+    return (["start", "end"] as const).map((kind) => ({ kind, x: shape.x, y: shape.y, angle: 0 }));
+  }
   return vertices.map((vertex, i) => ({
     kind: i === 0 ? "start" : i === vertices.length - 1 ? "end" : "mid",
     x: vertex.x,

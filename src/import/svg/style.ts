@@ -249,6 +249,9 @@ function parsePaint(text: string): Paint | null {
   return paint;
 }
 
+/** Whether a fill or stroke is not a paint, so that the inherited one applies. */
+export const isUnknownPaint = (text: string): boolean => parsePaint(text) === null;
+
 function readPaint(text: string): Paint | null {
   const value = text.trim();
   if (value.toLowerCase() === "none") return NONE;

@@ -6,7 +6,7 @@ import type { Context } from "./svg-context.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { declaredValue, INITIAL_STYLE } from "./style.js";
 
-const SERVERS = new Set(["linearGradient", "radialGradient", "pattern", "meshgradient", "hatch"]);
+const SERVERS = new Set(["linearGradient", "radialGradient", "pattern"]);
 const MAX_HREF_STEPS = 32;
 
 export class SvgPaintServers {

@@ -21,6 +21,7 @@ import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
+import { isMarked } from "./svg-markers.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
@@ -96,7 +97,7 @@ export class SvgPainter {
     this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
-      if (shape.lonePoints > 0)
+      if (shape.lonePoints > 0 && !isMarked(tag, context))
         this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
       return;
     }

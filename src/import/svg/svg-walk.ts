@@ -27,7 +27,7 @@ import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
 import { outsideText } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
-import type { WarningCode, Warnings } from "../warnings.js";
+import type { Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
 
 /**
@@ -40,15 +40,15 @@ const ELEMENTS_PER_YIELD = 1000;
 const COORDS_PER_YIELD = 100_000;
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
-const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
-  image: "image-not-drawn",
-  video: "not-supported",
-  audio: "not-supported",
-  canvas: "not-supported",
-  iframe: "not-supported",
-  mesh: "not-supported",
-  flowRoot: "not-supported",
-};
+/** Elements that draw nothing where they stand. All others that are not drawn here are reported. */
+const INVISIBLE = new Set(
+  `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
+   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view`.split(
+    /\s+/,
+  ),
+);
+/** Not drawn either, but a `switch` may choose them. */
+const EMBEDDED = new Set(["image", "video", "audio", "canvas", "iframe"]);
 const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
 
 interface Frame {
@@ -294,8 +294,7 @@ export class SvgWalk {
       this.warnings.add("animation-ignored");
       return;
     }
-    const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
-    if (code === undefined || !this.conditions.areMet(element)) return;
+    if (INVISIBLE.has(tag) || !this.conditions.areMet(element)) return;
     const { declared } = this;
     this.cascade.collect(element, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
@@ -309,7 +308,8 @@ export class SvgWalk {
       this.geometry(context, element, "width", "width") ?? 0,
       this.geometry(context, element, "height", "height") ?? 0,
     );
-    this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
+    if (tag === "image") this.warnings.add("image-not-drawn", box);
+    else this.warnings.add("not-supported", box, tag.slice(0, 40));
   }
 
   /** A length from CSS or an attribute. Valid while `declared` belongs to this element. */
@@ -341,8 +341,8 @@ export class SvgWalk {
     const { tree } = this;
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
       const tag = tagOf(tree, child);
-      const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
-      if (isDrawn && this.conditions.areMet(child)) return child;
+      const isKnown = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || EMBEDDED.has(tag);
+      if (isKnown && this.conditions.areMet(child)) return child;
     }
     return -1;
   }
