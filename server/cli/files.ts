@@ -3,6 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
+import { fileFault } from "../planning/read-drawing.js";
 import type { CliIo } from "./io.js";
 import { readStdin } from "./stdin.js";
 
@@ -33,7 +34,7 @@ export function writeOut(path: string, text: string, io: Pick<CliIo, "out">): vo
   try {
     writeFileSync(path, text);
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, {
       cause,
     });
   }

@@ -42,7 +42,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
     .configureOutput({
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
-      outputError: (text, write) => write(`plotwright: ${oneLine(text.replace(/^error: /, ""))}\n`),
+      outputError: (text, write) => write(`plotwright: ${inWords(oneLine(text.replace(/^error: /, "")))}\n`),
     });
   for (const { name, about, examples, load } of COMMANDS) {
     const command = program
@@ -72,5 +72,13 @@ async function mustBeCommand(word: string | undefined): Promise<void> {
   const { notACommand } = await import("./first-word.js");
   throw notACommand(word, names);
 }
+
+/** A word too many is mostly an option without its name. */
+const inWords = (text: string): string =>
+  text.replace(
+    /^too many arguments for '(.+)'\. Expected (\d+) arguments? but got (\d+)\.$/,
+    (_, name: string, expected: string, got: string) =>
+      `${name} takes ${expected === "0" ? "no arguments" : `${expected} at most`}, got ${got}. Options begin with --, such as --port 9381; names with blanks need quotes. See plotwright ${name} --help.`,
+  );
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");

@@ -4,9 +4,15 @@
  */
 import { Option, type Command } from "commander";
 import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import {
+  firstFault,
+  DEFAULT_PLOT_SETTINGS,
+  plotSettingsSchema,
+  type PlotSettings,
+} from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles, machineOfText } from "../machines/machine-files.js";
+import { fileFault } from "../planning/read-drawing.js";
 import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
@@ -45,11 +51,10 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
   const result = plotSettingsSchema.safeParse(settings);
   if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data, values);
-  const issue = result.error.issues[0];
-  const path = issue?.path.join(".") ?? "";
+  const { path, words } = firstFault(result.error);
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
   const where = option?.flags.split(" ")[0] ?? (typeof config === "string" ? `${config}: ${path}` : path);
-  throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+  throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
 }
 
 /** For moves by hand: where no machine is given, the one of the plotter that a server here has driven. */
@@ -83,9 +88,7 @@ function readMachine(path: string): MachineProfile {
   try {
     return machineOfText(readText(path));
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${(cause as Error).message}.`, {
-      cause,
-    });
+    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${whyNotJson(cause)}.`, { cause });
   }
 }
 
@@ -101,9 +104,13 @@ function readConfig(path: string): Record<string, unknown> {
     if (isRecord(value)) return value;
     throw new Error("it is not a JSON object");
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--config ${path}: ${(cause as Error).message}.`, { cause });
+    throw new PlotwrightError("bad-setting", `--config ${path}: ${whyNotJson(cause)}.`, { cause });
   }
 }
+
+/** Why a JSON file cannot be used. */
+const whyNotJson = (cause: unknown): string =>
+  cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
 
 /** Lays the file's values over the settings; a name that there is not is a mistake, not ignored. */
 function merge(
