@@ -26,6 +26,7 @@ let server: PlotwrightServer;
 beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), "plotwright-reference-"));
   for (const name of ["drawing.svg", "other.svg"]) writeFileSync(join(folder, name), SVG);
+  writeFileSync(join(folder, "wide.svg"), SVG.replaceAll("20", "90").replace("M1 2h9", "M30 40h30"));
   vi.stubEnv("XDG_CONFIG_HOME", folder);
   process.chdir(folder);
   const options = { port: 0, dataDir: join(folder, "server"), device: "virtual", log: () => undefined };
@@ -95,6 +96,10 @@ const VALUES: Readonly<Record<string, string>> = {
   "--max-upload-mb": "20",
   "--out": "plotwright.log",
   "--pty": "plotter",
+  "--margins": "5,1cm,5,1in",
+  "--place": "20,20,50,50",
+  "--pen-up": "70",
+  "--send-ahead-ms": "200",
 };
 const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   plan: ["drawing.svg"],
@@ -106,6 +111,7 @@ const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   walk: ["1", "2"],
   raw: ["QM"],
   service: ["status"],
+  board: ["--pty", "plotter"],
 };
 
 describe("each option in docs/cli.md", () => {
@@ -135,7 +141,7 @@ describe("each option in docs/cli.md", () => {
     const { code, err } = await cliWith(
       new CaughtIo(),
       "plan",
-      "drawing.svg",
+      "wide.svg",
       flag,
       ...(option.required ? [value] : []),
     );
