@@ -10,10 +10,10 @@ import { readStdin } from "./stdin.js";
 export const readText = (path: string): string =>
   path === "-" ? Buffer.from(readStdin()).toString("utf8") : readFileSync(path, "utf8");
 
-/** For people. */
+/** The name for messages. */
 export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
 
-/** The drawing as a file, for threads that read it by its path; what came by stdin is kept in one until `use` is over. */
+/** The drawing as a file, for threads that read it by its path. Stdin is written to a temporary file during `use`. */
 export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
   if (file !== "-") return use(resolve(file));
   const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));

@@ -1,4 +1,4 @@
-/** The command line: finds the command that is asked for, runs it, and makes errors one line and an exit code. */
+/** The command line: finds the command, runs it, and turns errors into one line and an exit code. */
 import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import type { CliIo } from "./io.js";
@@ -31,7 +31,7 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   }
 }
 
-/** All commands by name, and those of `wanted` with their options; the others are not loaded. */
+/** All commands by name; only those in `wanted` are loaded and have their options. */
 export async function buildProgram(wanted: readonly string[], context: CommandContext): Promise<Command> {
   const { io, version } = context;
   const program = new Command("plotwright")
@@ -56,7 +56,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
   return program;
 }
 
-/** Options without a command are those of the default one, but for these, which the program itself answers. */
+/** Options without a command belong to the default command, except these, which the program itself handles. */
 const OF_PROGRAM = ["--help", "-h", "--version"];
 
 function wantedOf(args: readonly string[]): string[] {
@@ -73,7 +73,7 @@ async function mustBeCommand(word: string | undefined): Promise<void> {
   throw notACommand(word, names);
 }
 
-/** A word too many is mostly an option without its name. */
+/** An extra word is usually an option without its name. */
 const inWords = (text: string): string =>
   text.replace(
     /^too many arguments for '(.+)'\. Expected (\d+) arguments? but got (\d+)\.$/,

@@ -1,6 +1,6 @@
 /**
  * From the command line to PlotSettings: defaults, then the file of --config, then the flags. Values are
- * checked by the same schema as the web's; a fault names the flag, or the place in the file.
+ * checked by the same schema as the web's; an error names the flag, or the field in the file.
  */
 import { Option, type Command } from "commander";
 import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
@@ -17,10 +17,10 @@ import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
-/** What commander hands to an action: option names in camel case. */
+/** The option values that commander passes to an action: names in camel case. */
 export type OptionValues = Readonly<Record<string, unknown>>;
 
-/** `parts`: the settings that the command follows, by where they stand: "pen", "motion.travel"; left out: all. */
+/** @param parts paths of the settings that the command uses: "pen", "motion.travel". Absent: all. */
 export function addSettingOptions(command: Command, parts?: readonly string[]): Command {
   const isMeant = ({ path }: SettingOption): boolean =>
     parts === undefined || parts.some((part) => path === part || path.startsWith(`${part}.`));
@@ -57,7 +57,7 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
 }
 
-/** For moves by hand: where no machine is given, the one of the plotter that a server here has driven. */
+/** For moves by hand. If no machine is given, uses the one of the plotter that a server on this computer has driven. */
 export function handSettingsFromOptions(values: OptionValues): PlotSettings {
   const settings = settingsFromOptions(values);
   const { machine, machineFile, config, device } = values;
@@ -92,7 +92,7 @@ function readMachine(path: string): MachineProfile {
   }
 }
 
-/** A machine of the user's own, made in the page of a server with that data folder. */
+/** Adds the user's own machine, which was made in the page of a server with that data folder. */
 const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
   new MachineFiles(dataDirOf(values)).withMachine(settings);
 
@@ -112,7 +112,7 @@ function readConfig(path: string): Record<string, unknown> {
 const whyNotJson = (cause: unknown): string =>
   cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
 
-/** Lays the file's values over the settings; a name that there is not is a mistake, not ignored. */
+/** Merges the file's values into the settings. An unknown name is an error. */
 function merge(
   target: Record<string, unknown>,
   over: Record<string, unknown>,
