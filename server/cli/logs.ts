@@ -1,6 +1,6 @@
 /** `plotwright logs`: all logs as one text, to send with a question. */
-import { defaultDataDir } from "../data-dir.js";
-import { bundleText, readLog } from "../log-book.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { bundleText, readLog } from "../storage/log-book.js";
 import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 

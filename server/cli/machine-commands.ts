@@ -2,8 +2,8 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../plotter/hand-moves.js";
-import { openPlotter } from "../driven-plotter.js";
-import type { PlotterPort } from "../queue/plotter-port.js";
+import { openPlotter } from "../plotter/named-plotter.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import type { DeviceOptions } from "./options.js";

@@ -3,13 +3,14 @@
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
  */
 import { basename } from "node:path";
-import { PlotwrightError, machineOf } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
+import { defaultDataDir } from "../storage/data-dir.js";
 import { WorkerPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../plotter/types.js";
-import type { PlotterPort } from "../queue/plotter-port.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
 import { nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";

@@ -2,9 +2,10 @@
 import { Option, type Command } from "commander";
 import { basename } from "node:path";
 import { importDrawing } from "../../src/index.js";
+import { textOfBytes } from "../../src/internal.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
-import { readDrawing } from "../planning/read-drawing.js";
+import { readBytes } from "../planning/read-drawing.js";
 import { nameOf, withDrawingFile } from "./files.js";
 import { addData, addJson, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
@@ -31,18 +32,18 @@ export const declareAdd: Declare = (command, { io }) => {
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
       for (const file of files) {
-        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readDrawing(path)));
+        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readBytes(path)));
         const settings =
           options.only === undefined
             ? base
-            : withOnlyLayers(importDrawing(file, drawing), base, options.only);
-        const job = await addJob(options, {
+            : withOnlyLayers(importDrawing(file, textOfBytes(drawing)), base, options.only);
+        const wanted = {
           name: basename(nameOf(file)),
-          drawing: withoutEncoding(drawing),
           settings,
           copies: options.copies,
           ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
-        });
+        };
+        const job = await addJob(options, wanted, drawing);
         if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
       }
     });
@@ -57,10 +58,6 @@ export const declareQueue: Declare = (command, { io }) => {
     else waiting.forEach((job) => io.out(`${line(job)}\n`));
   });
 };
-
-/** The text is sent in UTF-8, so the encoding that the file declares no longer applies. */
-const withoutEncoding = (text: string): string =>
-  text.replace(/^(\s*<\?xml\s[^>]*?)\s+encoding\s*=\s*(?:"[^"]*"|'[^']*')/, "$1");
 
 const addServer = (command: Command): Command =>
   command

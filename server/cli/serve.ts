@@ -2,7 +2,7 @@
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../src/index.js";
-import { createServer, type PlotwrightServer, type ServerOptions } from "../index.js";
+import { createServer, type PlotwrightServer, type ServerOptions } from "../composition/create-server.js";
 import { lanAddresses, pairingText } from "../security/network.js";
 import type { CliIo } from "./io.js";
 

@@ -18,14 +18,22 @@ const stateSchema = z.object({
 });
 export type ServerState = z.infer<typeof stateSchema>;
 
+const uploadSchema = z.object({ id: z.string() });
 const faultSchema = z.object({ error: z.object({ message: z.string() }) });
 
 export async function serverState(options: ServerOptions): Promise<ServerState> {
   return stateSchema.parse(await ask(options, "state"));
 }
 
-export async function addJob(options: ServerOptions, job: NewJob): Promise<Job> {
-  const body = JSON.stringify(job);
+/** Uploads the drawing's file as it is, then adds the job. */
+export async function addJob(
+  options: ServerOptions,
+  job: Omit<NewJob, "drawing" | "drawingId">,
+  drawing: Buffer<ArrayBuffer>,
+): Promise<Job> {
+  const upload = await ask(options, "drawings", { method: "POST", body: drawing });
+  const { id: drawingId } = uploadSchema.parse(upload);
+  const body = JSON.stringify({ ...job, drawingId } satisfies NewJob);
   const headers = { "Content-Type": "application/json" };
   return jobSchema.parse(await ask(options, "jobs", { method: "POST", body, headers }));
 }

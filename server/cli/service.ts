@@ -7,7 +7,7 @@ import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { packagePath } from "../package-files.js";
+import { packagePath } from "../storage/package-files.js";
 import type { CliIo } from "./io.js";
 
 export interface ServiceOptions {

@@ -3,16 +3,17 @@
  * checked by the same schema as the web's; an error names the flag, or the field in the file.
  */
 import { Option, type Command } from "commander";
-import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
+import { PlotwrightError, type MachineProfile } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import {
-  firstFault,
   DEFAULT_PLOT_SETTINGS,
+  firstFault,
   plotSettingsSchema,
   type PlotSettings,
 } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles, machineOfText } from "../machines/machine-files.js";
 import { fileFault } from "../planning/read-drawing.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { MachineFiles, machineOfText } from "../storage/machine-files.js";
 import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";

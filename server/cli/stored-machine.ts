@@ -2,7 +2,7 @@
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { Store } from "../queue/store.js";
+import { Store } from "../storage/store.js";
 
 /**
  * The machine of the plotter with that device; of the one that takes any board where none has it. Null where nothing

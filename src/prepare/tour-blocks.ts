@@ -11,10 +11,11 @@
  * mm saved in it is saved overall. (This is tour-based partitioning, after K. Helsgaun's LKH; here the runs
  * need no special case.)
  */
-import { PointIndex } from "../geometry/point-index.js";
+import { PointGrid } from "../geometry/point-grid.js";
 import { TourSearch } from "./tour-search.js";
 
 const STROKES_IN_BLOCK = 1_000;
+const CELLS_IN_BLOCK = 4;
 /** Kicks per stroke of a block before the next block is searched. */
 const KICKS = 8;
 const KICKS_BETWEEN_LOOKS = 512;
@@ -33,7 +34,7 @@ export function improveBlocks(
 ): boolean {
   const strokes = ring.length / 2;
   const home = ring[0] >> 1;
-  const order = strokesInSpace(xy, strokes);
+  const order = strokesInSpace(xy, strokes, strokesInBlock);
   // Different cuts in every pass, so that a block border in one pass is inside a block in the next.
   const shift = Math.floor(random() * strokes);
   const blocks = Math.max(Math.round(strokes / strokesInBlock), 1);
@@ -49,14 +50,14 @@ export function improveBlocks(
   return true;
 }
 
-/** Strokes sorted by the position of their midpoint, neighbours side by side. */
-function strokesInSpace(xy: Float64Array, strokes: number): Uint32Array {
+/** Strokes sorted by the position of their midpoint, so that each block covers a few adjacent cells. */
+function strokesInSpace(xy: Float64Array, strokes: number, strokesInBlock: number): Uint32Array {
   const middles = new Float64Array(2 * strokes);
   for (let k = 0; k < strokes; k++) {
     middles[2 * k] = (xy[4 * k] + xy[4 * k + 2]) / 2;
     middles[2 * k + 1] = (xy[4 * k + 1] + xy[4 * k + 3]) / 2;
   }
-  return new PointIndex(middles).inSpaceOrder;
+  return new PointGrid(middles, strokesInBlock / CELLS_IN_BLOCK).inSpaceOrder();
 }
 
 function improveBlock(

@@ -13,7 +13,7 @@ import {
   unitText,
   type ServiceHost,
 } from "../../server/cli/service.js";
-import { LogBook, readLog, withoutSecrets } from "../../server/log-book.js";
+import { LogBook, readLog, withoutSecrets } from "../../server/storage/log-book.js";
 
 let home: string;
 let out: string;

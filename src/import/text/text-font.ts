@@ -3,6 +3,7 @@
  * at 0.
  */
 
+/** One letter of a text that a font has laid out. */
 export interface LaidOutGlyph {
   /** Path data with absolute commands; "" for a blank. */
   readonly path: string;
@@ -35,6 +36,7 @@ export interface FontMetrics {
   readonly lineThickness: number;
 }
 
+/** A source of letters. Lengths in em, y down, baseline at 0. */
 export interface TextFont {
   /** Outlines are filled; single strokes are drawn as lines. */
   readonly kind: "outline" | "single-stroke";
@@ -42,6 +44,7 @@ export interface TextFont {
   readonly metrics?: FontMetrics;
   /** Whether it has small capitals of its own; if not, they are made from its capitals. */
   readonly hasSmallCaps?: boolean;
+  /** The glyphs of one line of text. `family` is the font family that the drawing asks for. */
   layout(
     text: string,
     style: LetterStyle,
