@@ -1,4 +1,4 @@
-/** What there is: boards and plotter models. */
+/** Commands that list boards and plotter models. */
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import type { CliIo } from "./io.js";

@@ -24,11 +24,11 @@ export const declareAdd: Declare = (command, { io }) => {
     .option("--only <layer...>", "draw these layers only, by name or id")
     .option("--copies <number>", "how often to plot each", copies, 1)
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
-    .option("--quiet", "say nothing but errors")
+    .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
       const { plotters } = await serverState(options);
       const plotter = plotters.find(({ id }) => id === (options.plotter ?? plotters[0]?.id));
-      // A plotter knows which model it is; who names one means that.
+      // The plotter's own model, unless the user names one.
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
       for (const file of files) {
@@ -67,6 +67,6 @@ const addServer = (command: Command): Command =>
 const line = (job: Job): string =>
   [job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name].join("\t");
 
-/** What is left of it, or all where it has not begun. */
+/** The time left, or the whole time if it has not begun. */
 const timeOf = ({ remainingS, expectedS, stats, state }: Job): string =>
   minutes(state === "queued" ? (expectedS ?? stats?.durationS ?? remainingS ?? 0) : (remainingS ?? 0));

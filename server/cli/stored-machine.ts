@@ -1,4 +1,4 @@
-/** Which machine a server has been told that its plotter is, for commands that run without it. */
+/** The machine that is set for a server's plotter, for commands that run without the server. */
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";

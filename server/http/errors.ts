@@ -3,15 +3,15 @@ import type { ErrorRequestHandler, RequestHandler } from "express";
 import type { ZodType } from "zod";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { ERROR_TABLE } from "../../src/internal.js";
+import { firstFault } from "../../src/schema/index.js";
 import { isDiskFault } from "../storage/disk-fault.js";
 
 /** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */
 export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
   const result = schema.safeParse(value);
   if (result.success) return result.data;
-  const issue = result.error.issues[0];
-  const where = issue === undefined || issue.path.length === 0 ? "The request" : issue.path.join(".");
-  throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+  const { path, words } = firstFault(result.error);
+  throw new PlotwrightError("bad-setting", `${path === "" ? "The request" : path}: ${words}.`);
 }
 
 export const notFound: RequestHandler = (request) => {

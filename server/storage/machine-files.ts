@@ -5,7 +5,12 @@
 import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { MACHINES, PlotwrightError, type MachineProfile } from "../../src/index.js";
-import { machineProfileSchema, type ListedMachine, type PlotSettings } from "../../src/schema/index.js";
+import {
+  firstFault,
+  machineProfileSchema,
+  type ListedMachine,
+  type PlotSettings,
+} from "../../src/schema/index.js";
 
 export class MachineFiles {
   readonly #dir: string;
@@ -74,8 +79,8 @@ const readMachineFile = (path: string): MachineProfile => machineOfText(readFile
 export function machineOfText(text: string): MachineProfile {
   const result = machineProfileSchema.safeParse(JSON.parse(text));
   if (result.success) return result.data;
-  const issue = result.error.issues[0];
-  throw new Error(`${issue?.path.join(".") ?? ""}: ${issue?.message ?? "not a machine's profile"}`);
+  const { path, words } = firstFault(result.error);
+  throw new Error(`${path}: ${words}`);
 }
 
 function fileNames(dir: string): string[] {

@@ -17,6 +17,7 @@ import { watch, type FSWatcher } from "chokidar";
 import { PlotwrightError } from "../../../src/index.js";
 import { isDrawingName } from "../../../src/internal.js";
 import {
+  firstFault,
   cleanName,
   DEFAULT_PLOT_SETTINGS,
   plotSettingsSchema,
@@ -160,11 +161,8 @@ async function settingsBeside(path: string, base: PlotSettings): Promise<PlotSet
     if (text === null) continue;
     const result = plotSettingsSchema.partial().safeParse(parsed(text, file));
     if (result.success) return plotSettingsSchema.parse({ ...base, ...result.data });
-    const issue = result.error.issues[0];
-    throw new PlotwrightError(
-      "bad-setting",
-      `${basename(file)}: ${issue?.path.join(".") ?? ""} ${issue?.message ?? "is not understood"}.`,
-    );
+    const { path: field, words } = firstFault(result.error);
+    throw new PlotwrightError("bad-setting", `${basename(file)}: ${field}: ${words}.`);
   }
   return base;
 }
