@@ -34,7 +34,7 @@ export interface JobParts {
 }
 
 /** Small enough to be parsed in this thread, which also streams to the board. */
-const MAX_JSON_BYTES = 1_000_000;
+const MAX_JSON_BYTES = 8_000_000;
 const MAX_CHANGE_BYTES = 200_000;
 
 const action = (name: string, about: string, body?: ZodType): ApiRoute =>
@@ -44,7 +44,7 @@ export const JOB_ROUTES: readonly ApiRoute[] = [
   route(
     "post",
     "/jobs",
-    "Adds a job from JSON with an uploaded drawing's id or, up to 1 MB, with its text; or from the file itself as the body with ?name=",
+    "Adds a job from JSON with an uploaded drawing's id or, up to 8 MB, with its text; or from the file itself as the body with ?name=",
     jobSchema,
     { body: newJobSchema, status: 201 },
   ),
@@ -72,7 +72,9 @@ export function jobRoutes({ queue, files, uploads, machines }: JobParts): Router
   const router = Router();
   const small = express.json({ limit: MAX_CHANGE_BYTES });
 
-  router.post("/", express.json({ limit: MAX_JSON_BYTES }), async (request, response) => {
+  const limit = Math.min(MAX_JSON_BYTES, files.maxBytes);
+
+  router.post("/", express.json({ limit }), async (request, response) => {
     const requester = requesterOf(request, response);
     const job = await (request.is("json") !== false
       ? addFromJson(request, requester)

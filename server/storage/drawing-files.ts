@@ -17,12 +17,13 @@ export class DrawingFiles {
   readonly #dir: string;
   /** Folder for drawings that belong to no job. */
   readonly unclaimedDir: string;
-  readonly #maxBytes: number;
+  /** Size limit of one file. */
+  readonly maxBytes: number;
 
   constructor(dataDir: string, maxBytes: number) {
     this.#dir = join(dataDir, "drawings");
     this.unclaimedDir = join(dataDir, "unclaimed-drawings");
-    this.#maxBytes = maxBytes;
+    this.maxBytes = maxBytes;
   }
 
   path(id: string): string {
@@ -42,7 +43,7 @@ export class DrawingFiles {
       try {
         for await (const chunk of chunks) {
           bytes += chunk.byteLength;
-          if (bytes > this.#maxBytes) throw tooLarge(this.#maxBytes);
+          if (bytes > this.maxBytes) throw tooLarge(this.maxBytes);
           await file.write(chunk);
         }
         await file.sync();

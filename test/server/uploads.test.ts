@@ -142,8 +142,8 @@ describe("JSON", () => {
   });
 
   it.each([
-    ["large settings", job(`"settings":{"k":${JSON.stringify("y".repeat(2_000_000))}}`)],
-    ["a large drawing", JSON.stringify({ name: "a", drawing: `<svg>${" ".repeat(2_000_000)}</svg>` })],
+    ["large settings", job(`"settings":{"k":${JSON.stringify("y".repeat(9_000_000))}}`)],
+    ["a large drawing", JSON.stringify({ name: "a", drawing: `<svg>${" ".repeat(9_000_000)}</svg>` })],
   ])("with %s is not parsed, and the answer says how to send the drawing", async (_what, body) => {
     const { status, message } = await post(body);
     expect([status, message]).toEqual([413, expect.stringContaining("POST /api/v1/drawings")]);
