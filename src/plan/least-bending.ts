@@ -27,6 +27,9 @@ export class LeastBending {
   /** w, and w times the turn. */
   private weight = new Float64Array(0);
   private bending = new Float64Array(0);
+  /** 1/ℓ of each segment; 1 for each point that is not fixed. */
+  private perLength = new Float64Array(0);
+  private isFree = new Uint8Array(0);
   /** The system L D Lᵀ: 1/D, and the two subdiagonals of L by column. */
   private inverse = new Float64Array(0);
   private below1 = new Float64Array(0);
@@ -47,6 +50,8 @@ export class LeastBending {
     this.turn = new Float64Array(size);
     this.weight = new Float64Array(size);
     this.bending = new Float64Array(size);
+    this.perLength = new Float64Array(size);
+    this.isFree = new Uint8Array(size);
     this.inverse = new Float64Array(size);
     this.below1 = new Float64Array(size);
     this.below2 = new Float64Array(size);
@@ -59,7 +64,7 @@ export class LeastBending {
   /** Sets `y` from `low`, `high` and `turn` of the n + 1 points between n segments. */
   solve(n: number, length: Float64Array): void {
     this.weigh(n, length);
-    this.factor(n, length);
+    this.factor(n);
     this.halfway.set(this.right.subarray(0, n));
     this.carry.fill(0, 0, n);
     for (let round = 0; round < ROUNDS; round++) {
@@ -70,20 +75,22 @@ export class LeastBending {
     this.y[n] = this.low[n];
   }
 
-  private isFree(i: number): boolean {
-    return this.low[i] !== this.high[i];
-  }
-
   /** Fills weights and turns. Points that are fixed away from the line contribute to the turns. */
   private weigh(n: number, length: Float64Array): void {
-    const { low, turn, weight, bending } = this;
+    const { low, high, turn, weight, bending, perLength, isFree } = this;
     weight[0] = bending[0] = weight[n] = bending[n] = 0;
-    let y0 = low[0];
-    let y1 = this.isFree(1) ? 0 : low[1];
+    isFree[0] = isFree[n] = 0;
+    perLength[0] = 1 / length[0];
     for (let i = 1; i < n; i++) {
-      const a = 1 / length[i - 1];
-      const c = 1 / length[i];
-      const y2 = this.isFree(i + 1) ? 0 : low[i + 1];
+      isFree[i] = low[i] === high[i] ? 0 : 1;
+      perLength[i] = 1 / length[i];
+    }
+    let y0 = low[0];
+    let y1 = isFree[1] === 1 ? 0 : low[1];
+    for (let i = 1; i < n; i++) {
+      const a = perLength[i - 1];
+      const c = perLength[i];
+      const y2 = isFree[i + 1] === 1 ? 0 : low[i + 1];
       const max = Math.max(a, c);
       weight[i] = ((length[i - 1] + length[i]) / 2) * max * max;
       bending[i] = weight[i] * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
@@ -92,8 +99,8 @@ export class LeastBending {
     }
   }
 
-  private factor(n: number, length: Float64Array): void {
-    const { weight, bending, inverse, below1, below2, right, held } = this;
+  private factor(n: number): void {
+    const { weight, bending, perLength, isFree, inverse, below1, below2, right, held } = this;
     // D times the first subdiagonal of L in the previous column, and the second one in the previous two.
     let first1 = 0;
     let second1 = 0;
@@ -103,9 +110,9 @@ export class LeastBending {
       let first = 0;
       let second = 0;
       right[i] = held[i] = 0;
-      if (this.isFree(i)) {
-        const a = 1 / length[i - 1];
-        const c = 1 / length[i];
+      if (isFree[i] === 1) {
+        const a = perLength[i - 1];
+        const c = perLength[i];
         const own = weight[i] * (a + c);
         const before = weight[i - 1] * a;
         const after = weight[i + 1] * c;
@@ -114,8 +121,8 @@ export class LeastBending {
         held[i] = BOUND * diagonal;
         d = diagonal + held[i] - (i > 1 ? below2[i - 2] * second2 : 0) - below1[i - 1] * first1;
         // The last point is fixed, so these read no segment beyond it.
-        if (this.isFree(i + 1)) first = -own * c - after * (c + 1 / length[i + 1]) - below1[i - 1] * second1;
-        if (i + 2 < n && this.isFree(i + 2)) second = after / length[i + 1];
+        if (isFree[i + 1] === 1) first = -own * c - after * (c + perLength[i + 1]) - below1[i - 1] * second1;
+        if (i + 2 < n && isFree[i + 2] === 1) second = after * perLength[i + 1];
       }
       inverse[i] = 1 / d;
       below1[i] = first * inverse[i];
@@ -129,8 +136,13 @@ export class LeastBending {
   private substituteForward(n: number): void {
     const { halfway, below1, below2 } = this;
     // The first point is fixed, with 0 in the system.
+    let s1 = halfway[1];
+    let s2 = 0;
     for (let i = 2; i < n; i++) {
-      halfway[i] = halfway[i] - below2[i - 2] * halfway[i - 2] - below1[i - 1] * halfway[i - 1];
+      const s = halfway[i] - below2[i - 2] * s2 - below1[i - 1] * s1;
+      halfway[i] = s;
+      s2 = s1;
+      s1 = s;
     }
   }
 

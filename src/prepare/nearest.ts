@@ -66,10 +66,10 @@ interface Entries {
 /** All points where a line can start: both ends, one for a dot, all points of a closed line. */
 function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean): Entries {
   const { xy, offsets } = lines;
-  const most = offsets[end] - offsets[first];
+  const maxEntries = offsets[end] - offsets[first];
   const firstOf = new Uint32Array(end - first + 1);
-  const places = new Float64Array(2 * most);
-  const line = new Uint32Array(most);
+  const places = new Float64Array(2 * maxEntries);
+  const line = new Uint32Array(maxEntries);
   const closed = new Uint8Array(end - first);
   let count = 0;
   for (let i = first; i < end; i++) {

@@ -18,18 +18,18 @@ const STROKES_IN_BLOCK = 1_000;
 const CELLS_IN_BLOCK = 4;
 /** Kicks per stroke of a block before the next block is searched. */
 const KICKS = 8;
-const KICKS_BETWEEN_LOOKS = 512;
+const KICKS_BETWEEN_CHECKS = 512;
 
 /**
  * One pass over all strokes in blocks. `ring` is changed in place: ends in drawing order, stroke k with ends
- * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `goOn` is called from time
- * to time with the number of kicks since the last call. Returns whether the pass was finished.
+ * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `hasTime` is called from
+ * time to time with the number of kicks since the last call. Returns whether the pass was finished.
  */
 export function improveBlocks(
   ring: Int32Array,
   xy: Float64Array,
   random: () => number,
-  goOn: (kicks: number) => boolean,
+  hasTime: (kicks: number) => boolean,
   strokesInBlock = STROKES_IN_BLOCK,
 ): boolean {
   const strokes = ring.length / 2;
@@ -45,7 +45,7 @@ export function improveBlocks(
     isIn.fill(0);
     for (let k = from; k < to; k++) isIn[order[(k + shift) % strokes]] = 1;
     isIn[home] = 0;
-    if (!improveBlock(ring, xy, isIn, random, goOn)) return false;
+    if (!improveBlock(ring, xy, isIn, random, hasTime)) return false;
   }
   return true;
 }
@@ -65,7 +65,7 @@ function improveBlock(
   xy: Float64Array,
   isIn: Uint8Array,
   random: () => number,
-  goOn: (kicks: number) => boolean,
+  hasTime: (kicks: number) => boolean,
 ): boolean {
   const starts = smallStrokes(ring, isIn);
   const count = starts.length - 1;
@@ -84,10 +84,10 @@ function improveBlock(
   const search = new TourSearch(smallXy, smallRing, random);
   search.improve();
   let more = true;
-  for (let left = KICKS * count; left > 0 && more; left -= KICKS_BETWEEN_LOOKS) {
-    const kicks = Math.min(left, KICKS_BETWEEN_LOOKS);
+  for (let left = KICKS * count; left > 0 && more; left -= KICKS_BETWEEN_CHECKS) {
+    const kicks = Math.min(left, KICKS_BETWEEN_CHECKS);
     for (let k = 0; k < kicks; k++) search.kick();
-    more = goOn(kicks);
+    more = hasTime(kicks);
   }
   putBack(ring, starts, search.ring);
   return more;
