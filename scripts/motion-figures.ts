@@ -2,19 +2,16 @@
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import {
-  DEFAULT_FIT,
   DEFAULT_PEN,
   machineById,
-  MOTION_MODES,
   plan,
   stateAt,
   type MachineProfile,
-  type MotionMode,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
-import { swingPen, type Shaper } from "../src/internal.js";
+import { DEFAULT_FIT, MOTION_MODES, swingPen, type MotionMode, type Shaper } from "../src/internal.js";
 import { cornersOf, type Point } from "../test/support/reference-planners/polyline.js";
 import { junctionDeviation } from "../test/support/reference-planners/systems.js";
 

@@ -1,12 +1,49 @@
-/** What server and web use besides the public library. No promise is made to anybody else. */
-export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
+/** What server, web and tests use besides the public library. Anything here may change without notice. */
+// errors
+export { ERROR_TABLE } from "./errors.js";
+
+// drawing
+export type { DrawingWarning } from "./drawing/drawing.js";
+export { strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
+export type { PaperName, PaperSize } from "./drawing/paper.js";
+
+// import
+export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
+export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
+
+// settings
 export {
-  isAllowed,
-  rangeInWords,
-  type NumberSetting,
-  type Setting,
-  type SwitchSetting,
-} from "./settings/setting.js";
+  ORDER_MODES,
+  type FourMargins,
+  type PlacedBox,
+  HATCH_TABLE,
+  LAYER_REPEATS,
+  PAPER_TABLE,
+  PREPARE_TABLE,
+} from "./settings/prepare.js";
+export {
+  DEFAULT_FIT,
+  MOTION_MODES,
+  SHAPERS,
+  type Shaper,
+  type FitSettings,
+  type LayerMotion,
+  type MotionLimits,
+  type MotionMode,
+  DRAW_TABLE,
+  EASE_TABLE,
+  FIT_TABLE,
+  TRAVEL_TABLE,
+} from "./settings/motion.js";
+export {
+  type LayerPen,
+  DROP_RATE,
+  HOP_TABLE,
+  LAYER_WAIT,
+  PEN_TABLE,
+  PLOT_PEN_TABLE,
+} from "./settings/pen.js";
+export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
 export {
   QUALITY_PATH,
   SETTING_FLAGS,
@@ -15,35 +52,65 @@ export {
   valuesInWords,
   type SettingFlag,
 } from "./settings/tables.js";
-export { SHAPERS, type Shaper } from "./settings/motion.js";
 export { QUALITIES, type Quality } from "./settings/quality.js";
+export { SPRINGS_TABLE } from "./settings/springs.js";
+export { STREAM_TABLE } from "./settings/stream.js";
+
+// prepare
+export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
+export type { PreparedLayer } from "./prepare/assemble.js";
+export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
+export {
+  NO_PENS,
+  PEN_STOP_MODES,
+  penOf,
+  penStopsOf,
+  prepareSettingsOf,
+  type PenSetup,
+  type PenStop,
+  type PlotPen,
+} from "./prepare/pens.js";
+
+// plan
+export { PlaceTimes } from "./plan/place-times.js";
+export type { TrajectoryStats } from "./plan/stats.js";
+export { penOfLayer } from "./plan/pen-times.js";
+export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 export { leavesLineMm } from "./plan/shapers.js";
 export { motionOfQuality, qualityOf } from "./plan/quality.js";
-export { SPRINGS_TABLE } from "./settings/springs.js";
-export type { Springs } from "./machines/profile.js";
 export { penError, type PenError } from "./plan/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/spring-pen.js";
-export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
-export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
-export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
-export type { EbbController } from "./machines/profile.js";
-export { STREAM_TABLE } from "./settings/stream.js";
-export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
-export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
+export { comeToRest } from "./plan/come-to-rest.js";
 export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
 export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
-export { driverOf } from "./drivers/registry.js";
-export type {
-  Driver,
-  Machine,
-  MachineEvents,
-  MachineRun,
-  PlaceAhead,
-  VirtualMachine,
-} from "./drivers/driver.js";
+
+// machines
+export type { Springs } from "./machines/profile.js";
+export type { EbbController, GrblController } from "./machines/controllers.js";
+export { findMachine, machineOf } from "./machines/profiles.js";
+export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
+export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
+export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-height.js";
+
+// job
+export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
+
+// drivers
+export type { BoardState } from "./drivers/ebb/compile/command-stream.js";
+export { motionForFirmware } from "./drivers/ebb/protocol/firmware-motion.js";
+export { closingCommands, penCommand, penMoveOf } from "./drivers/ebb/protocol/commands.js";
+export { compareFirmware } from "./drivers/ebb/protocol/firmware.js";
+export type { BoardStatistics, VirtualBoardState } from "./drivers/ebb/virtual/virtual-board.js";
+export type { StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
+export { Streamer } from "./drivers/ebb/stream/streamer.js";
+export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
+export { driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
+export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine } from "./drivers/driver.js";
 export { powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
+
+// ringing sheet
 export {
   frequencyOfRipples,
   ringingChecks,
@@ -52,3 +119,8 @@ export {
   ringingSheet,
   type RingingCheck,
 } from "./job/ringing-sheet.js";
+
+// export
+export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";
+export { toJson } from "./export/strokes-to-json.js";
+export { trajectoryToSvg } from "./export/trajectory-to-svg.js";

@@ -1,20 +1,25 @@
-/** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
+/** `plotwright plan FILE.svg`: time, distance and commands of a plot, without a board. Runs in a thread: see plan-thread.ts. */
 import {
   PlotwrightError,
   importDrawing,
-  machineOf,
   planJob,
-  pointCount,
-  strokeCount,
   trajectoryStats,
-  trajectoryToSvg,
-  svgOptionsOf,
-  toJson,
   toSvg,
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
-import { penError, prepareJob, type PenError, type PreparedJob } from "../../src/internal.js";
+import {
+  penError,
+  prepareJob,
+  type PenError,
+  type PreparedJob,
+  machineOf,
+  pointCount,
+  strokeCount,
+  trajectoryToSvg,
+  svgOptionsOf,
+  toJson,
+} from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readDrawing } from "../planning/read-drawing.js";
@@ -60,14 +65,14 @@ interface Planned {
   readonly settings: PlotSettings;
   readonly job: PreparedJob;
   readonly trajectory: Trajectory;
-  /** All that a plot would send, from motors-on to motors-off. */
+  /** All commands of the plot, from motors-on to motors-off. */
   readonly lines: readonly string[];
 }
 
-/** What it needs of the thread that it runs in. */
+/** What it needs of its thread. */
 export interface PlanOutput {
   out(text: string): void;
-  /** A step has begun. */
+  /** Called when a step begins. */
   begin(step: PlanStep): void;
 }
 

@@ -6,13 +6,14 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
-import { plannerOf, type AnyCommands } from "../drivers/registry.js";
+import { plannerOf } from "../drivers/registry.js";
 import { checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 
 export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
 
+/** Where a job begins and ends, and for which firmware. Every option has a default. */
 export interface JobOptions extends DriverPlanOptions {
   /** Number of the stroke before which to stop and go home; default: the end of the drawing. */
   readonly until?: number | null | undefined;
@@ -30,7 +31,7 @@ export function planJob(
   settings: JobSettings,
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
-): MachineJob<AnyCommands> {
+): MachineJob {
   checkProfile(machine);
   const coded = withLayerCodes(settings, strokes.layers);
   return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);

@@ -40,10 +40,9 @@ export interface Kernel {
   readonly of: "motion" | "integral";
   /** Mean delay of the output, s; the same in both axes. */
   readonly meanDelayS: number;
+  /** Delay of the last tap, s: how much longer the output is than the input. */
+  readonly lengthS: number;
 }
-
-/** How long after the input the output ends, s. */
-export const lastDelayS = ({ taps }: Kernel): number => taps[taps.length - 1].delayS;
 
 export function boxKernel(widthS: number): Kernel {
   const weight = 1 / widthS;
@@ -51,7 +50,7 @@ export function boxKernel(widthS: number): Kernel {
     { delayS: 0, x: weight, y: weight },
     { delayS: widthS, x: -weight, y: -weight },
   ];
-  return { taps, of: "integral", meanDelayS: widthS / 2 };
+  return { taps, of: "integral", meanDelayS: widthS / 2, lengthS: widthS };
 }
 
 /**
@@ -65,7 +64,8 @@ export function impulseKernel(x: readonly Impulse[], y: readonly Impulse[]): Ker
     ...x.map(({ delayS, weight }) => ({ delayS: delayS + meanDelayS - meanX, x: weight, y: 0 })),
     ...y.map(({ delayS, weight }) => ({ delayS: delayS + meanDelayS - meanY, x: 0, y: weight })),
   ];
-  return { taps: joined(taps), of: "motion", meanDelayS };
+  const all = joined(taps);
+  return { taps: all, of: "motion", meanDelayS, lengthS: all[all.length - 1].delayS };
 }
 
 const meanDelayOf = (impulses: readonly Impulse[]): number =>

@@ -16,13 +16,14 @@ import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
-import { RunWriter } from "./run-writer.js";
+import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
 import { shaperKernel } from "./shapers.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
+/** Where a plan begins and ends. Every option has a default. */
 export interface PlanOptions {
   /** Where in the drawing to begin, possibly in the middle of a stroke; default: the start of the drawing. */
   readonly from?: Place | undefined;
@@ -46,6 +47,12 @@ export interface PlanOptions {
   readonly endY?: number | undefined;
   /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
+  /**
+   * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself.
+   *
+   * @internal
+   */
+  readonly runs?: WritesRuns | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
@@ -53,7 +60,7 @@ export interface PlanOptions {
 /**
  * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points.
  *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other, "cancelled"
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other; "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
  */
 export function plan(
@@ -64,8 +71,8 @@ export function plan(
 ): Trajectory {
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
-  const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
-  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY);
+  const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
+  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
   if (options.liftFirst ?? false) builder.liftAnyway();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
@@ -111,7 +118,7 @@ class PlanBuilder {
   private readonly plannedFirst: Uint32Array;
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
-  private readonly writer: RunWriter;
+  private readonly writer: WritesRuns;
   private readonly penMoves: PenMoveWriter;
   private runCount = 0;
   private readonly firstBlock: Uint32Array;
@@ -138,6 +145,7 @@ class PlanBuilder {
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
+    runs?: WritesRuns,
   ) {
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
       throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
@@ -158,12 +166,13 @@ class PlanBuilder {
     this.runStartS = new Float64Array(2 * count + 1);
     this.penMoves = new PenMoveWriter(3 * count + 2);
     // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
-    this.shaper = shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
+    // A controller that plans by itself is not shaped.
+    this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
     const segments = pointCount(strokes) + 1;
     this.blocks = new BlockColumns(segments, motion.mode === "scurve");
     this.planned = new BlockColumns(segments, false);
     this.plannedFirst = new Uint32Array(this.shaper ? 2 * count + 2 : 0);
-    this.writer = new RunWriter(motion.mode, motion.fit ?? null, this.shaper);
+    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null, this.shaper);
   }
 
   /**

@@ -9,8 +9,8 @@ import { writeFiltered, type Kernel } from "./filter.js";
 import { writeJunctionRun } from "./junction.js";
 import { shapedLimits, type RunLimits } from "./limits.js";
 import { mergeBlocks, type MergeRules } from "./merge.js";
-import type { RunPath } from "./run-path.js";
-import { filteredPlan } from "./scurve.js";
+import { RunPath } from "./run-path.js";
+import { filteredPlan, stopsAreFaster } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
 
 /** Merged blocks of a shaped motion deviate from it by at most this, mm: a jolt of that size swings too. */
@@ -20,11 +20,18 @@ const SHAPED_SHORT_MM = 0.02;
 /** Shorter blocks are merged, s: a command takes the board up to 5 ms. */
 const SHAPED_FLOOR_S = 0.006;
 
-export class RunWriter {
+/** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
+export interface WritesRuns {
+  /** @param planned gets the motion before the shaper, if there is one */
+  write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void;
+}
+
+export class RunWriter implements WritesRuns {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly filtered = new BlockColumns(0, false);
+  private readonly straight = new RunPath();
   private readonly rules: MergeRules | null;
   private readonly shapedRules: MergeRules;
 
@@ -89,7 +96,19 @@ export class RunWriter {
     const { unfiltered } = this;
     unfiltered.clear();
     this.writeBlocks(path, limits, unfiltered);
-    writeFiltered(unfiltered, path.end(), kernel, out);
+    if (path.segmentCount > 1 && stopsAreFaster(path, runLimits, unfiltered.clockS + kernel.lengthS)) {
+      this.writeWithStops(path, runLimits, out);
+    } else writeFiltered(unfiltered, path.end(), kernel, out);
+  }
+
+  private writeWithStops(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const { straight } = this;
+    let along = path.startAlong;
+    for (let i = 0; i < path.segmentCount; i++) {
+      straight.setSegment(path, i, along);
+      this.writeFiltered(straight, limits, out);
+      along += path.length[i];
+    }
   }
 
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {

@@ -6,7 +6,7 @@
  *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
  */
 import { BlockColumns } from "./block-columns.js";
-import { lastDelayS, writeFiltered, type Kernel } from "./filter.js";
+import { writeFiltered, type Kernel } from "./filter.js";
 import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
@@ -37,7 +37,7 @@ export function shapeRest(
   end: { readonly x: number; readonly y: number; readonly alongMm: number },
 ): ShapedRest {
   const window = new BlockColumns(0, false);
-  addWindow(planned, run, tS - lastDelayS(kernel), tS, window);
+  addWindow(planned, run, tS - kernel.lengthS, tS, window);
   for (let k = 0; k < braking.count; k++) window.pushFrom(braking, k);
   const whole = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);

@@ -1,9 +1,10 @@
 /** How a plotter lets go: in the middle of something, with its board lost, or with two things asked for at once. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const outcome = (promise: Promise<unknown>): Promise<unknown> =>
   promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
@@ -12,7 +13,7 @@ async function idle() {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world });
   await world.run(driver.start());
-  return { world, driver, board: driver.virtualBoard! };
+  return { world, driver, board: virtualBoardOf(driver) };
 }
 
 describe("a plotter that is closed", () => {

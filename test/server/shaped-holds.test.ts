@@ -1,15 +1,17 @@
 /** Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { Place } from "../../src/index.js";
 import { SpringAxis } from "../../src/plan/spring-pen.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
-import { comeToRest, DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
+import { comeToRest } from "../../src/plan/come-to-rest.js";
+import { DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { DRAWING, seamsMm, seeded } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
 import { FIGURES, inQuality, SPRINGS, swinging } from "../support/swinging.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** A gap, a doubled stretch or a swing that nobody sees, mm. */
 const UNSEEN_MM = 0.05;
@@ -29,7 +31,7 @@ async function plotting(firmware: string) {
   await world.run(driver.start());
   const planner = new KeepingPlanner(DRAWING);
   const run = await world.run(driver.plot(planner, SETTINGS));
-  return { world, run, planner, board: driver.virtualBoard! };
+  return { world, run, planner, board: virtualBoardOf(driver) };
 }
 
 describe("a hold in shaped motion", () => {

@@ -1,5 +1,6 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
+import { findMachine, firmwareFor } from "../../src/internal.js";
 import type {
   Job,
   ListedMachine,
@@ -10,14 +11,16 @@ import type {
   Plotter,
   QueueSettings,
 } from "../../src/schema/index.js";
-import type { Hover } from "../preview/hover.js";
-import type { SnapLines } from "../preview/placing.js";
-import type { DrawingText, PlanFault, Planned } from "../worker/protocol.js";
+import type { Hover } from "../scene/hover.js";
+import type { SnapLines } from "../scene/placing.js";
+import type { SampleInfo } from "../backend/backend.js";
+import type { DrawingText } from "../worker/drawing-text.js";
+import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
 /** The drawing on the paper. */
-interface OpenDrawing {
+export interface OpenDrawing {
   readonly key: string;
   readonly name: string;
   readonly text: DrawingText;
@@ -47,11 +50,6 @@ export interface Notice {
 
 /** Sheets over the page, one at a time. */
 export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
-
-interface SampleInfo {
-  readonly name: string;
-  readonly title: string;
-}
 
 export interface PageState {
   readonly settings: PlotSettings;
@@ -148,8 +146,11 @@ export type PageStore = ReturnType<typeof createPageStore>;
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
-/** Of the current plotter's board; null: not known. */
-export const boardFirmware = (state: PageState): string | null => currentPlotter(state)?.firmware ?? null;
+/** Of the current plotter's board; null: not known, or of another controller than the machine's. */
+export const boardFirmware = (state: PageState): string | null => {
+  const machine = findMachine(state.settings);
+  return machine && firmwareFor(machine, currentPlotter(state)?.firmware ?? null);
+};
 
 /** The current plotter would do something now: it is there, free, and heard of. */
 export const isReady = (state: PageState): boolean =>

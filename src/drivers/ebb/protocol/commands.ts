@@ -3,10 +3,11 @@
  * for the commands between.
  */
 import { checkProfile } from "../../../machines/check-profile.js";
-import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
+import { ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
+import { servoPosFromPct } from "./servo-height.js";
 
 /** The servo moves during this part of the wait for it; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
@@ -14,11 +15,15 @@ const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
 const STANDARD_PIN = 4;
 
-/** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
+/**
+ * The commands to send before the first plot after connecting: motors on, which sets the step counters to zero, and the
+ * pen's heights and speeds.
+ */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
   checkProfile(machine);
   const features = firmwareFeatures(firmware);
-  const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
+  const { microstepMode } = ebbOf(machine);
+  const lines = [`EM,${microstepMode},${microstepMode}`];
   // On older boards EM does not clear the accumulators: CS sets them to a known value.
   if (!features.enableClearsAccumulators && features.hasStepQuery) lines.push("CS");
   return [...lines, ...penSetUpCommands(machine, pen)];
@@ -60,7 +65,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
 
 /** Height and speed of SP in one direction. Empty if S2 moves the pen. */
 export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
-  if (machine.controller.servoPin !== STANDARD_PIN) return [];
+  if (ebbOf(machine).servoPin !== STANDARD_PIN) return [];
   const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
   return [
     `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
@@ -73,9 +78,9 @@ export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
  */
 export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
-  if (machine.controller.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
+  if (ebbOf(machine).servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
   const position = servoPosFromPct(machine, way.heightPct);
-  return `S2,${position},${machine.controller.servoPin},${servoRate(machine, way)},${delayMs}`;
+  return `S2,${position},${ebbOf(machine).servoPin},${servoRate(machine, way)},${delayMs}`;
 }
 
 /** Max delay of SP and S2. */
@@ -83,7 +88,8 @@ export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
 function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
-  const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
+  const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
+  const unitsPerPct = Math.abs(servoPosAt100Pct - servoPosAt0Pct) / 100;
   const frames = ratePctPerS
     ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
     : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
