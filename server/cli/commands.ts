@@ -35,16 +35,6 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./plan-command.js")).declarePlan,
   },
   {
-    name: "ringing",
-    about: "write the sheet that shows how the machine swings, and read it",
-    examples: [
-      "plotwright ringing ringing.svg",
-      "plotwright ringing --ripples 5 --at 30.1",
-      "plotwright ringing check.svg --check --spring-x 15 --spring-y 25",
-    ],
-    load: async () => (await import("./ringing-command.js")).declareRinging,
-  },
-  {
     name: "plot",
     about: "plot drawings",
     examples: [
@@ -131,6 +121,16 @@ export const COMMANDS: readonly CliCommand[] = [
     about: "show the board and its firmware",
     examples: ["plotwright info --json"],
     load: async () => (await hand()).declareInfo,
+  },
+  {
+    name: "ringing",
+    about: "write the sheet that shows how the machine swings, and read it",
+    examples: [
+      "plotwright ringing ringing.svg",
+      "plotwright ringing --ripples 5 --at 30.1",
+      "plotwright ringing check.svg --check --spring-x 15 --spring-y 25",
+    ],
+    load: async () => (await import("./ringing-command.js")).declareRinging,
   },
   {
     name: "devices",
