@@ -67,7 +67,7 @@ export const API_ROUTES: readonly ApiRoute[] = [
   jobAction("resume", "Resumes a paused job"),
   jobAction("cancel", "Cancels a job: the pen lifts and goes home"),
   jobAction("requeue", "Queues an ended job again"),
-  jobAction("recover", "Continues an interrupted job, paused at first"),
+  jobAction("recover", "Continues an interrupted or cancelled job, paused at first"),
   jobAction("emergency-stop", "Stops at once, without slowing down"),
   jobAction("change", "Changes pen heights and speeds while plotting", jobChangeSchema),
   jobAction("place", "Moves the place from which a paused job resumes", movePlaceSchema),

@@ -12,7 +12,7 @@
  *   POST   /api/v1/jobs/:id/(start|pause|resume|cancel|requeue)  → Job
  *   POST   /api/v1/jobs/:id/emergency-stop    stops immediately; the job is then held → Job
  *   POST   /api/v1/jobs/:id/change            JobChange → Job (heights and speeds, while plotting or held)
- *   POST   /api/v1/jobs/:id/recover           holds an interrupted job at its place, without drawing → Job
+ *   POST   /api/v1/jobs/:id/recover           holds an interrupted or cancelled job at its place, without drawing → Job
  *   POST   /api/v1/jobs/:id/place             MovePlace: moves the place of a held job → Job
  *   POST   /api/v1/jobs/:id/check-place       goes to the place with the pen up → Job
  *   POST   /api/v1/jobs/:id/duplicate         a queued copy, right after it or last → 201 Job
