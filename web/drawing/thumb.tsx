@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import type { Backend, DrawingSource } from "../backend/backend.js";
 import { useBackend } from "../state/use-store.js";
+import { croppedPicture } from "./crop-picture.js";
 import "./thumb.css";
 
 /** Larger files are not fetched for a picture of a thumb's size. */
@@ -11,7 +12,7 @@ const MAX_PICTURES = 200;
 const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
 
 /**
- * A small picture of a drawing on the server, a job's or a sample. As the source of an image an SVG runs no scripts
+ * A small picture of a drawing, cut to what is drawn, on the server, a job’s or a sample. As the source of an image an SVG runs no scripts
  * and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
  */
 export const Thumb = ({ of, id }: DrawingSource) => {
@@ -20,7 +21,10 @@ export const Thumb = ({ of, id }: DrawingSource) => {
   const box = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState(pictures.get(key) ?? null);
   useEffect(() => {
-    if (!box.current || pictures.has(key)) return;
+    const known = pictures.get(key);
+    // It may have come between the first look and now.
+    if (known !== undefined) setUrl(known);
+    if (!box.current || known !== undefined) return;
     const watcher = new IntersectionObserver((entries) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       watcher.disconnect();
@@ -38,7 +42,8 @@ export const Thumb = ({ of, id }: DrawingSource) => {
 
 const pictureOf = async (backend: Backend, source: DrawingSource): Promise<string | null> => {
   const svg = await backend.svgOf(source, MAX_BYTES).catch(() => null);
-  const url = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const whole = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const url = whole === null ? null : await croppedPicture(whole).catch(() => whole);
   if (pictures.size >= MAX_PICTURES) forgetOldest();
   pictures.set(keyOf(source), url);
   return url;
