@@ -12,8 +12,8 @@ const MAX_PICTURES = 200;
 const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
 
 /**
- * A small picture of a drawing, cut to what is drawn, on the server, a job’s or a sample. As the source of an image an SVG runs no scripts
- * and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
+ * A small picture of a drawing on the server, a job's or a sample, cut to what is drawn. As the source of an image an
+ * SVG runs no scripts and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
  */
 export const Thumb = ({ of, id }: DrawingSource) => {
   const backend = useBackend();
@@ -21,10 +21,7 @@ export const Thumb = ({ of, id }: DrawingSource) => {
   const box = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState(pictures.get(key) ?? null);
   useEffect(() => {
-    const known = pictures.get(key);
-    // It may have come between the first look and now.
-    if (known !== undefined) setUrl(known);
-    if (!box.current || known !== undefined) return;
+    if (!box.current || url !== null) return;
     const watcher = new IntersectionObserver((entries) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       watcher.disconnect();
@@ -32,7 +29,7 @@ export const Thumb = ({ of, id }: DrawingSource) => {
     });
     watcher.observe(box.current);
     return () => watcher.disconnect();
-  }, [backend, of, id, key]);
+  }, [backend, of, id, url]);
   return (
     <span className="thumb" ref={box} aria-hidden="true">
       {url !== null && <img src={url} alt="" loading="lazy" decoding="async" />}
@@ -41,6 +38,8 @@ export const Thumb = ({ of, id }: DrawingSource) => {
 };
 
 const pictureOf = async (backend: Backend, source: DrawingSource): Promise<string | null> => {
+  const known = pictures.get(keyOf(source));
+  if (known !== undefined) return known;
   const svg = await backend.svgOf(source, MAX_BYTES).catch(() => null);
   const whole = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   const url = whole === null ? null : await croppedPicture(whole).catch(() => whole);

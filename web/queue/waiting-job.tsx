@@ -62,7 +62,8 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
     for (const { id } of copies) await moveJob(id, beforeId);
   };
   const removeAll = async (): Promise<void> => {
-    for (const { id } of copies) await removeJob(id);
+    // The first stands for the row as long as there is one.
+    for (const { id } of [...copies].reverse()) await removeJob(id);
   };
   const drag = useRowDrag(list, job.id, (place) => void moveTo(place));
   const { name } = job;
