@@ -7,6 +7,7 @@ const PAD = 0.06;
 /** A pixel lighter than this is paper, as where a file has a white page of its own. */
 const PAPER_LIGHTNESS = 247;
 const PAPER_ALPHA = 12;
+const PASSES = 3;
 
 interface Box {
   readonly x: number;
@@ -76,6 +77,15 @@ const pixelsOf = (
   canvas.height = height;
   const context = canvas.getContext("2d", { willReadFrequently: true });
   if (!context) throw new Error("no 2d context");
-  context.drawImage(image, -left / step, -top / step, image.naturalWidth / step, image.naturalHeight / step);
+  // More than once: lines much finer than a pixel are too faint to be seen.
+  for (let pass = 0; pass < PASSES; pass++) {
+    context.drawImage(
+      image,
+      -left / step,
+      -top / step,
+      image.naturalWidth / step,
+      image.naturalHeight / step,
+    );
+  }
   return { canvas, data: context.getImageData(0, 0, width, height).data };
 };

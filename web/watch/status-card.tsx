@@ -45,7 +45,7 @@ const Figures = ({ job }: { job: Job }) => {
     return (
       <p className="status-figures">
         <span className="status-large">{words.lastSeen(share)}</span>
-        <span>{words.lastSeenHint}</span>
+        {job.state === "plotting" && <span>{words.lastSeenHint}</span>}
       </p>
     );
   }
