@@ -95,16 +95,17 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   addRests(from, end);
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
   const { alongMm } = from;
-  const { rate, change } = alongRates(from, count);
+  const isIntegral = kernel.of === "integral";
+  // Of impulses the place along the drawing is set later (shaped-along.ts).
+  const { rate, change } = isIntegral ? alongRates(from, count) : NO_RATES;
   // Position of each tap in the input: its block, the seconds since the start of that block, and the seconds
   // left in it.
   const n = taps.length;
-  const weightsX = Float64Array.from(taps, ({ x }) => x);
-  const weightsY = Float64Array.from(taps, ({ y }) => y);
-  const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
-  const since = new Float64Array(n);
-  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]));
-  const isIntegral = kernel.of === "integral";
+  const weightsX = taps.map(({ x }) => x);
+  const weightsY = taps.map(({ y }) => y);
+  const block = taps.map(({ delayS }) => (delayS > 0 ? count + 1 : 0));
+  const since = taps.map(() => 0);
+  const left = taps.map(({ delayS }) => (delayS > 0 ? delayS : durationS[0]));
   let x = px[0];
   let y = py[0];
   let along = from.alongMm[0];
@@ -135,8 +136,8 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
       const ay1 = pay[k];
       const vx1 = pvx[k] + t * ax1;
       const vy1 = pvy[k] + t * ay1;
-      const alongV1 = rate[k] + t * change[k];
       if (isIntegral) {
+        const alongV1 = rate[k] + t * change[k];
         // The weights sum to zero, so positions are taken relative to the output's position: this keeps
         // precision far from the origin.
         vx += weightX * (px[k] - x + (t * (pvx[k] + vx1)) / 2);
@@ -193,6 +194,8 @@ function addRests(from: BlockColumns, end: RunEnd): void {
   from.push(Infinity, end.x, end.y, 0, 0, 0, 0, end.alongMm);
   from.push(Infinity, x0, y0, 0, 0, 0, 0, along0);
 }
+
+const NO_RATES = { rate: new Float64Array(0), change: new Float64Array(0) };
 
 /** Speed along the drawing's own line at the start of each block, mm/s, and its rate of change, mm/s². */
 function alongRates(
