@@ -101,7 +101,7 @@ export default tseslint.config(
           patterns: [
             onlyEntryPoints("web"),
             {
-              group: ["**/server/**", "**/test/**", "node:*"],
+              group: ["**/server/**", "!**/backend/server/**", "**/test/**", "node:*"],
               message: "server and web never import each other; what they exchange is in src/schema.",
             },
           ],

@@ -78,6 +78,9 @@ const write = ({ from, to }: Import): string => `${from} imports ${to}`;
 /** "src/plan/corner" → "plan"; "src/units" → "units". */
 const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
 
+/** "web/queue/jobs.tsx" → "web/queue"; what lies in web itself is a folder of its own. */
+const folderOf = (file: string): string => file.split("/").slice(0, 2).join("/");
+
 /** The imports of one search that close a circle, as a readable chain; empty when there is none. */
 function findCycle(imports: readonly Import[]): string[] {
   const next = new Map<string, string[]>();
@@ -160,6 +163,46 @@ describe("server and web", () => {
   });
 });
 
+describe("the folders of web", () => {
+  const inside = importsIn("web").filter(({ to }) => to.startsWith("web/"));
+
+  it("have no circles among their files", () => {
+    expect(findCycle(inside)).toEqual([]);
+  });
+
+  it("have no circles among themselves", () => {
+    const between = inside
+      .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
+      .filter(({ from, to }) => from !== to);
+    expect(findCycle(between)).toEqual([]);
+  });
+
+  it("leave requests to the server's implementation of the backend", () => {
+    // The service worker and its helpers fetch the page's own files; the build's configuration is no part of the page.
+    const others = sourceFiles("web").filter(
+      (file) => !/^web\/(backend\/server|pwa)\//.test(file) && file !== "web/vite.config.ts",
+    );
+    const wrong = others.filter((file) => {
+      const text = readFileSync(path.join(ROOT, file), "utf8");
+      return (
+        /\b(fetch\(|EventSource|XMLHttpRequest|sendBeacon|WebSocket)/.test(text) ||
+        literalsOf(file).some((literal) => literal.includes("/api/"))
+      );
+    });
+    expect(wrong).toEqual([]);
+  });
+
+  it("know the backend by its interface; only main.tsx chooses the implementation", () => {
+    const wrong = inside.filter(
+      ({ from, to }) =>
+        to.startsWith("web/backend/server/") &&
+        !from.startsWith("web/backend/server/") &&
+        from !== "web/app/main.tsx",
+    );
+    expect(wrong.map(write)).toEqual([]);
+  });
+});
+
 describe("the seams", () => {
   const PRODUCT = ["src", "server", "web"].flatMap(sourceFiles);
   const EBB_COMMAND =
@@ -167,7 +210,7 @@ describe("the seams", () => {
 
   it("keep the commands of the EiBotBoard in its driver's folder", () => {
     // HPGL has commands of the same names; the console's field shows one as its example.
-    const exempt = ["src/drivers/ebb/", "src/import/hpgl/", "web/machine/console.tsx"];
+    const exempt = ["src/drivers/ebb/", "src/import/hpgl/", "web/plotter/console.tsx"];
     const others = PRODUCT.filter((file) => !exempt.some((start) => file.startsWith(start)));
     const wrong = others.flatMap((file) =>
       literalsOf(file)

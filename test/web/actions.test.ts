@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema } from "../../src/schema/index.js";
-import { createApiClient } from "../../web/api/client.js";
+import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
@@ -10,14 +10,14 @@ function makePage() {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
   const sent: (string | Blob)[] = [];
-  const api = createApiClient((_path, init) => {
+  const backend = createServerBackend((_path, init) => {
     if (typeof init?.body === "string" || init?.body instanceof Blob) sent.push(init.body);
     return isServerUp
       ? Promise.resolve(Response.json({ samples: [] }))
       : Promise.reject(new Error("refused"));
   });
   const planner = { request: () => undefined, export: () => undefined };
-  const actions = createActions({ store, api, planner, nowMs: () => 0, after: () => undefined });
+  const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };
 }

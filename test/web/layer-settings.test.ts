@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { prepare, importSvg } from "../../src/index.js";
 import { penStopsOf, prepareSettingsOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema, type PlotSettings } from "../../src/schema/index.js";
-import { alignmentJob, CORNERS, markPlace } from "../../web/state/alignment-mark.js";
+import { alignmentJob, CORNERS, markPlace } from "../../web/pens/alignment-mark.js";
 import {
   addPen,
   changePen,
@@ -20,7 +20,7 @@ import {
   showOnly,
   stopBefore,
   type LayerRow,
-} from "../../web/state/layer-settings.js";
+} from "../../web/layers/layer-settings.js";
 import { forOtherDrawing } from "../../web/state/other-drawing.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
 
