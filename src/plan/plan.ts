@@ -20,6 +20,7 @@ import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
+/** Where a plan begins and ends. Every option has a default. */
 export interface PlanOptions {
   /** Where in the drawing to begin, possibly in the middle of a stroke; default: the start of the drawing. */
   readonly from?: Place | undefined;
@@ -43,7 +44,11 @@ export interface PlanOptions {
   readonly endY?: number | undefined;
   /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
-  /** Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself. */
+  /**
+   * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself.
+   *
+   * @internal
+   */
   readonly runs?: WritesRuns | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
@@ -52,7 +57,7 @@ export interface PlanOptions {
 /**
  * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points.
  *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other, "cancelled"
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other; "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
  */
 export function plan(

@@ -16,9 +16,10 @@ const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
 const NOT_DEFINED = 0;
 
 /**
- * Rejects with PlotwrightError("bad-file") if the bytes are not a font.
+ * Opens a font file (TrueType, OpenType, WOFF), for `ImportOptions.font`. The font library is loaded by the first call,
+ * because loading takes as long as importing thousands of lines.
  *
- * The font library is loaded here, on demand: loading takes as long as a drawing of thousands of lines.
+ * @throws PlotwrightError "bad-file" if the bytes are not a font
  */
 export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   const { create } = await import("fontkit");

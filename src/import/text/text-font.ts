@@ -3,6 +3,7 @@
  * at 0.
  */
 
+/** One letter of a text that a font has laid out. */
 export interface LaidOutGlyph {
   /** Path data with absolute commands; "" for a blank. */
   readonly path: string;
@@ -13,9 +14,11 @@ export interface LaidOutGlyph {
   readonly advance: number;
 }
 
+/** A source of letters. Lengths in em, y down, baseline at 0. */
 export interface TextFont {
   /** Outlines are filled; single strokes are drawn as lines. */
   readonly kind: "outline" | "single-stroke";
+  /** The glyphs of one line of text. `family` is the font family that the drawing asks for. */
   layout(
     text: string,
     style: { readonly family: string },
