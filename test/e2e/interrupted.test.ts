@@ -1,4 +1,7 @@
-/** A plot that was killed half way: the page says how far it is, and shows what is drawn and what is left apart. */
+/**
+ * A plot that was killed half way: the page shows its progress, and what is drawn and what is left in
+ * different colours.
+ */
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -26,7 +29,7 @@ const data = temporaryFolder("interrupted");
 let browser: Browser;
 let server: ServerProcess;
 let page: Page;
-/** Pixels that the whole drawing inks. */
+/** Pixels inked by the whole drawing. */
 let wholeCount = 0;
 
 async function openPage(): Promise<void> {
@@ -50,7 +53,7 @@ async function inkedCount(): Promise<number> {
   return sum;
 }
 
-/** What the page says and shows is as far as the job is. */
+/** The page's text and picture match the job's progress. */
 async function expectPartlyDrawn(state: string): Promise<void> {
   const job = await theJob();
   const share = Math.round(job.progress * 100);
@@ -80,38 +83,38 @@ afterAll(async () => {
 });
 
 describe("a plot whose server was killed", () => {
-  it("stands at its place at once, on a page that is opened then", { timeout: PATIENCE_MS }, async () => {
-    await dropFile(page, `${NAME}.svg`, COMB);
-    await page.getByText(NAME, { exact: true }).first().waitFor();
-    await waitForPlan(page);
-    wholeCount = await inkedCount();
-    expect(wholeCount).toBeGreaterThan(2_000);
-    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
-    await queuePanel(page)
-      .getByRole("button", { name: /^Start / })
-      .click();
-    await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
-    const ended = once(server.process, "exit");
-    server.process.kill("SIGKILL");
-    await ended;
-    await page.context().close();
-    server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
-    await openPage();
-    await waitForPlan(page);
-    await expectPartlyDrawn("Interrupted");
-  });
-
   it(
-    "stands there when it is taken up again and held, after a reload too",
+    "is shown at its position at once, on a page that is opened then",
     { timeout: PATIENCE_MS },
     async () => {
-      const { id } = await theJob();
-      await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
-      await expect.poll(async () => (await theJob()).state).toBe("paused");
-      await expectPartlyDrawn("Paused");
-      await page.reload();
+      await dropFile(page, `${NAME}.svg`, COMB);
+      await page.getByText(NAME, { exact: true }).first().waitFor();
       await waitForPlan(page);
-      await expectPartlyDrawn("Paused");
+      wholeCount = await inkedCount();
+      expect(wholeCount).toBeGreaterThan(2_000);
+      await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      await queuePanel(page)
+        .getByRole("button", { name: /^Start / })
+        .click();
+      await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
+      const ended = once(server.process, "exit");
+      server.process.kill("SIGKILL");
+      await ended;
+      await page.context().close();
+      server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
+      await openPage();
+      await waitForPlan(page);
+      await expectPartlyDrawn("Interrupted");
     },
   );
+
+  it("is shown there when it is resumed and held, after a reload too", { timeout: PATIENCE_MS }, async () => {
+    const { id } = await theJob();
+    await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await expectPartlyDrawn("Paused");
+    await page.reload();
+    await waitForPlan(page);
+    await expectPartlyDrawn("Paused");
+  });
 });
