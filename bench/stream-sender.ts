@@ -1,4 +1,4 @@
-/** The host of bench/stream.bench.ts: plans a dense curve, streams it to the port given, reports, and ends. */
+/** The host of bench/stream.bench.ts: plans a dense curve, streams it to the given port, reports, and ends. */
 import {
   BoardSession,
   compile,
@@ -14,7 +14,7 @@ import { openSerial } from "../server/serial/serial-transport.js";
 
 export interface SenderTask {
   readonly pacing: "window" | "acks";
-  /** False: a command for every piece of the polyline, as they come out of the plan. */
+  /** False: one command for every piece of the polyline, as planned. */
   readonly fitted: boolean;
 }
 
@@ -26,7 +26,7 @@ export interface SenderReport {
   readonly steps2: number;
 }
 
-/** A rose of three turns inside one another: smooth, curved everywhere, a point every 0.3 mm, over 60 s long. */
+/** A rose of three nested turns: smooth, curved everywhere, a point every 0.3 mm, over 60 s long. */
 function denseCurve(): StrokeSet {
   const points: number[] = [];
   const turns = 12;
@@ -67,7 +67,7 @@ const { underrunCount, steps1, steps2 } = await streamCommands(session, commands
   pacing: task.pacing,
   poll: { lines: ["QG"], everyS: 0.25 },
 }).catch((error: unknown) => {
-  // What was said last tells whether the board, the line or this process went wrong.
+  // The last lines show whether the board, the connection or this process failed.
   console.error(session.log.tail(30).join("\n"));
   console.error(
     `${session.unansweredCount} unanswered, ${session.lostReplyCount} lost, ${session.strayCount} stray`,

@@ -34,7 +34,7 @@ function withoutKeyboard(): CaughtIo {
 
 describe("plotwright plot", () => {
   it(
-    "says when it begins and when it is done, and nothing with --quiet",
+    "reports when it begins and when it is done, and nothing with --quiet",
     async () => {
       expect((await plot(new CaughtIo(), file)).err).toMatch(
         /^Plotting a\.svg\.\nDone: a\.svg, after 00:00:\d\d\.\n$/,
@@ -45,7 +45,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "waits for Enter between two plots, or so long as it is told",
+    "waits for Enter between two plots, or for the given time",
     async () => {
       const io = new CaughtIo();
       const plotted = plot(io, file, "-");
@@ -63,7 +63,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "does not begin over a plot that was cut short, unless it is told to forget it",
+    "does not begin after an interrupted plot, unless asked to restart",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       const cutShort = (): void => {
@@ -86,7 +86,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "with a keyboard, a plot that is resumed waits for Enter",
+    "with a keyboard, a resumed plot waits for Enter",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
@@ -101,7 +101,7 @@ describe("plotwright plot", () => {
     LIMIT_MS,
   );
 
-  it("names the server that may have the plotter", async () => {
+  it("names the server that may use the plotter", async () => {
     const taken = new PlotwrightError("busy", "Another program has it.");
     vi.stubGlobal("fetch", () => Promise.resolve(new Response("{}")));
     expect((await serverHint(taken)) as Error).toMatchObject({

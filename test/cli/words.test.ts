@@ -1,24 +1,24 @@
-/** What people type: a word that is no command, and lengths with units. */
+/** What people type: a word that is not a command, and lengths with units. */
 import { describe, expect, it } from "vitest";
 import { length, sizeMm } from "../../server/cli/lengths.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { cli } from "./support.js";
 
-describe("a word that is no command", () => {
+describe("a word that is not a command", () => {
   it.each([
     ["pln", "x.svg", /There is no command pln\. The commands are serve, plan, plot, /],
     ["recover", "", /There is no command recover\. The commands are /],
     ["x.svg", "", /There is no command x\.svg\. To plot a drawing: plotwright plot x\.svg$/],
     ["9381", "", /To choose the port: plotwright --port 9381, or npm start -- --port 9381/],
-  ])("%s %s is named, with what may be meant", async (word, more, message) => {
+  ])("%s %s is named, with a suggestion", async (word, more, message) => {
     const { code, out, err } = await cli(...[word, more].filter((one) => one !== ""));
     expect([code, out]).toEqual([2, ""]);
     expect(err.trim()).toMatch(message);
     expect(err.trim().split("\n")).toHaveLength(1);
   });
 
-  it("leaves options and help as they are", async () => {
+  it("leaves options and help unchanged", async () => {
     expect(await cli("--version")).toMatchObject({ code: 0, out: "0.0.0\n" });
     expect((await cli("help")).code).toBe(0);
     expect((await cli("--nonsense")).err).toMatch(/unknown option/);

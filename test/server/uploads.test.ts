@@ -1,4 +1,7 @@
-/** Uploads that take long, or are made to: the others are served meanwhile, and nothing is done for those who have gone. */
+/**
+ * Slow uploads, intentional or not: other clients are served meanwhile, and no work is done for clients that
+ * have gone.
+ */
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -12,7 +15,7 @@ const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10" stroke="r
 const JSON_TYPE = { "Content-Type": "application/json" };
 
 describe("a lane", () => {
-  /** Work that ends when told to; `begun` in the order in which it begins. */
+  /** Work that ends when the test says so; `begun` in the order in which it begins. */
   function desk(places: number): {
     readonly begun: string[];
     begin(name: string, client?: string, signal?: AbortSignal): Promise<string>;
@@ -34,7 +37,7 @@ describe("a lane", () => {
   }
   const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
-  it("gives each client one place, the others in the order in which they came", async () => {
+  it("gives each client one place, the others in order of arrival", async () => {
     const { begun, begin, end } = desk(2);
     const all = [begin("a1", "a"), begin("a2", "a"), begin("b1", "b"), begin("c1", "c"), begin("b2", "b")];
     await settled();
@@ -51,7 +54,7 @@ describe("a lane", () => {
     expect(await Promise.all(all)).toEqual(["a1", "a2", "b1", "c1", "b2"]);
   });
 
-  it("forgets who has gone while waiting, and who had gone before", async () => {
+  it("drops clients that have gone while waiting, and those gone before", async () => {
     const { begun, begin, end } = desk(1);
     const gone = new AbortController();
     const first = begin("first");
@@ -69,7 +72,7 @@ describe("a lane", () => {
   });
 });
 
-describe("uploads whose order is searched for an hour", () => {
+describe("uploads whose ordering takes an hour", () => {
   const scattered = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200"><path stroke="black" fill="none" d="${Array.from(
     { length: 20_000 },
     (_, i) => `M${(i * 7919) % 200} ${(i * 104_729) % 197}h.5`,
@@ -92,7 +95,7 @@ describe("uploads whose order is searched for an hour", () => {
     rmSync(dataDir, { recursive: true, force: true });
   });
 
-  it("keep no ordinary one waiting, and end with the client who wanted them", async () => {
+  it("do not delay ordinary ones, and end with their client", async () => {
     const gone = new AbortController();
     const jobs = `${server.url}/api/v1/jobs`;
     const drawings = (): string[] => readdirSync(join(dataDir, "drawings"));
@@ -107,7 +110,7 @@ describe("uploads whose order is searched for an hour", () => {
     expect([answer.status, jobSchema.parse(await answer.json()).name]).toEqual([201, "ordinary"]);
     gone.abort();
     expect(await Promise.all(long)).toEqual(["gone", "gone", "gone"]);
-    // Their drawings go when their planning has ended.
+    // Their drawings are removed when their planning has ended.
     await expect.poll(() => drawings().length).toBe(1);
   }, 120_000);
 });
@@ -132,26 +135,26 @@ describe("JSON", () => {
     ["beside the drawing", job(`"settings":${nested(1_000_000)}`)],
     ["a small one", job(`"settings":${nested(50_000)}`)],
     ["in place of the drawing", `{"name":"a","drawing":${nested(1_000_000)}}`],
-  ])("nested deeply, %s, is refused and nothing of it kept", async (_what, body) => {
+  ])("nested deeply, %s, is refused and nothing of it is stored", async (_what, body) => {
     const { status, message } = await post(body);
     expect([status, message]).toEqual([400, expect.stringMatching(/nested|object|expected|drawing|JSON/i)]);
     expect(app.drawingsOnDisk()).toEqual([]);
     expect(app.logged.filter((line) => line.includes("Error"))).toEqual([]);
   });
 
-  it("of a million members comes to the main thread in no part", async () => {
+  it("of a million members is never handled on the main thread", async () => {
     const members = Array.from({ length: 1_000_000 }, (_, i) => `"k${i}":1`).join(",");
     const { status, message } = await post(job(`"settings":{"prepare":{"layerPens":{${members}}}}`));
     expect([status, message]).toEqual([413, expect.stringContaining("Without its drawing")]);
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
-  it("that is broken far in is refused with words", async () => {
+  it("that is broken late is refused with an explanation", async () => {
     const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(1_000_000))}`).slice(0, -1));
     expect([status, message]).toEqual([400, "The request is not valid JSON."]);
   });
 
-  it("that is large for its drawing is taken", async () => {
+  it("that is large because of its drawing is accepted", async () => {
     const drawing = SVG.replace("</svg>", `<!--${"x".repeat(10_000_000)}--></svg>`);
     expect(await post(JSON.stringify({ name: "a", drawing, settings: DEFAULT_PLOT_SETTINGS }))).toEqual({
       status: 201,

@@ -6,7 +6,7 @@ import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is available again at the same path. */
   | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
-  /** It starts anew, its counters at 0, but its USB stays. */
+  /** It restarts with its counters at 0, but its USB connection stays. */
   | { readonly type: "restart" }
   /** The line carries nothing in either direction and what is sent is lost; the board itself goes on. */
   | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }

@@ -3,13 +3,13 @@ import { describe, expect, it } from "vitest";
 import { PointIndex } from "../../../src/geometry/point-index.js";
 import { cases } from "../../support/full-run.js";
 
-/** Few different values, so that points coincide and stand in rows. */
+/** Few different values, so that points coincide and are collinear. */
 const value = fc.oneof(fc.integer({ min: 0, max: 5 }), fc.double({ min: -1e3, max: 1e3, noNaN: true }));
 const points = fc.array(fc.tuple(value, value), { minLength: 1, maxLength: 60 });
 const RUNS = { numRuns: cases() };
 
 describe("PointIndex", () => {
-  it("lists the nearest few, nearest first, without the point itself and the one to leave out", () => {
+  it("lists the nearest few, nearest first, without the point itself and the excluded one", () => {
     fc.assert(
       fc.property(points, fc.nat(59), fc.nat(59), fc.integer({ min: 1, max: 8 }), (given, a, b, count) => {
         const id = a % given.length;

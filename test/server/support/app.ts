@@ -1,4 +1,4 @@
-/** The HTTP server over a temporary folder, with a led plotter: everything real but threads and board. */
+/** The HTTP server over a temporary folder, with a scripted plotter: everything is real but threads and board. */
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -37,7 +37,7 @@ export interface TestApp {
   /** "method path" of every route below /api/v1. */
   routes(): string[];
   drawingsOnDisk(): string[];
-  /** From now on requests have to come that fast. */
+  /** From now on requests have to arrive that fast. */
   hurry(headersMs: number, wholeMs: number): void;
   close(): Promise<void>;
 }
