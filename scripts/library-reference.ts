@@ -236,12 +236,15 @@ function isOurs(symbol: ts.Symbol): boolean {
 }
 
 const isPublicMember = (node: ts.Node): boolean =>
-  !ts.canHaveModifiers(node) ||
-  ts.getModifiers(node)?.some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword) !== true;
+  !hasInternalTag(node) &&
+  (!ts.canHaveModifiers(node) ||
+    ts.getModifiers(node)?.some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword) !== true);
+
+const hasInternalTag = (node: ts.Node): boolean =>
+  ts.getJSDocTags(node).some(({ tagName }) => tagName.text === "internal");
 
 /** Not private, and not marked @internal. */
 const isPublic = (member: ts.Symbol): boolean => {
-  if (member.getJsDocTags().some(({ name }) => name === "internal")) return false;
   const declaration = declarationOf(member);
   const isHidden = ts.isPropertyDeclaration(declaration) && ts.isPrivateIdentifier(declaration.name);
   return !isHidden && isPublicMember(declaration);

@@ -73,14 +73,14 @@ describe("plotwright plot", () => {
       };
       cutShort();
       const refused = await plot(new CaughtIo(), file);
-      expect(refused.err).toMatch(/plot of b\.svg was cut short at 40 %.*plot --resume/);
+      expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
       expect([refused.code, record.find()?.progress]).toEqual([5, 0.4]);
       const resumed = await plot(withoutKeyboard(), "--resume");
-      expect(resumed.err).toMatch(/^Going on with b\.svg\.\nDone: b\.svg/);
+      expect(resumed.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
       expect([resumed.code, record.find()]).toEqual([0, null]);
       expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
       cutShort();
-      expect((await plot(new CaughtIo(), file, "--anew")).code).toBe(0);
+      expect((await plot(new CaughtIo(), file, "--restart")).code).toBe(0);
     },
     LIMIT_MS,
   );

@@ -91,6 +91,7 @@ function* draw(
     conditions,
   );
   clips.textBox = (element, at) => painter.textBox(element, at);
+  clips.lettersOf = (element, at, add) => painter.outlinesOf(element, at, add);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
   if (isShown(root)) yield* walk.run(context);
   return { builder, page };
