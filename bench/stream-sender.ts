@@ -15,7 +15,7 @@ import { openSerial } from "../server/serial/serial-transport.js";
 export interface SenderTask {
   readonly pacing: "window" | "acks";
   /** False: one command for every piece of the polyline, as planned. */
-  readonly fitted: boolean;
+  readonly merged: boolean;
 }
 
 export interface SenderReport {
@@ -54,7 +54,7 @@ const task = JSON.parse(taskText!) as SenderTask;
 const session = new BoardSession(await openSerial(port!), { clock: nodeClock });
 const { firmware } = await session.identify();
 await session.send("EM,1,1");
-const motion = task.fitted ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
+const motion = task.merged ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
 const trajectory = plan(denseCurve(), motion, DEFAULT_PEN);
 const commands = compile(trajectory, {
   machine: machineById("axidraw-v3"),

@@ -18,9 +18,9 @@ const STALL_MS = 150;
 const EVERY_MS = 1_000;
 
 const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
-  { what: "short commands, window of 0.3 s", task: { pacing: "window", fitted: false } },
-  { what: "short commands, by acknowledgement", task: { pacing: "acks", fitted: false } },
-  { what: "fitted commands, window of 0.3 s", task: { pacing: "window", fitted: true } },
+  { what: "short commands, window of 0.3 s", task: { pacing: "window", merged: false } },
+  { what: "short commands, by acknowledgement", task: { pacing: "acks", merged: false } },
+  { what: "merged commands, window of 0.3 s", task: { pacing: "window", merged: true } },
 ];
 
 export default async function streamBench(report: Report): Promise<void> {

@@ -37,7 +37,7 @@ mkdirSync(FOLDER, { recursive: true });
 save("corner-deviations", [cornerChart()]);
 save("three-modes", [overTime("speed"), overTime("acceleration")]);
 save("circle-resampling", [resamplingChart()]);
-save("fitted-pieces", [fitChart(null, "as planned"), fitChart(DEFAULT_FIT, "fitted")]);
+save("merged-pieces", [fitChart(null, "as planned"), fitChart(DEFAULT_FIT, "merged")]);
 
 function cornerChart(): Chart {
   const corner: Point[] = [

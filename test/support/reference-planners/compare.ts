@@ -30,7 +30,7 @@ export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonR
   });
   const ours = MOTION_MODES.flatMap((mode) => [
     ourRow(`plotwright ${mode}`, strokes, limits, { mode, fit: null }),
-    ourRow(`plotwright ${mode}, fitted`, strokes, limits, { mode, fit: DEFAULT_FIT }),
+    ourRow(`plotwright ${mode}, merged`, strokes, limits, { mode, fit: DEFAULT_FIT }),
   ]);
   return [...others, ...ours];
 }

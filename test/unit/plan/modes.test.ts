@@ -59,7 +59,7 @@ describe("fitting", () => {
   });
 
   it("keeps velocity continuous in blend mode, and acceleration in scurve mode", () => {
-    const fitted = (mode: MotionMode) =>
+    const merged = (mode: MotionMode) =>
       worstOf(
         plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN),
         strokes,
@@ -67,18 +67,18 @@ describe("fitting", () => {
         draw,
         1,
       );
-    expect(fitted("blend").velocityJump).toBeLessThan(1e-9);
-    expect(fitted("blend").gap).toBeLessThan(1e-9);
-    expect(fitted("scurve").accelJump).toBeLessThan(1e-6);
-    expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
+    expect(merged("blend").velocityJump).toBeLessThan(1e-9);
+    expect(merged("blend").gap).toBeLessThan(1e-9);
+    expect(merged("scurve").accelJump).toBeLessThan(1e-6);
+    expect(merged("scurve").jerk).toBeLessThanOrEqual(1.001);
   });
 
   it("leaves a polygon's blocks as they are", () => {
     const motion: MotionSettings = { mode: "blend", draw, travel: draw };
     const plain = plan(strokeSetOf([square]), motion, DEFAULT_PEN);
-    const fitted = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
-    expect(fitted.blockCount).toBe(plain.blockCount);
-    expect(fitted.totalS).toBeCloseTo(plain.totalS, 9);
+    const merged = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
+    expect(merged.blockCount).toBe(plain.blockCount);
+    expect(merged.totalS).toBeCloseTo(plain.totalS, 9);
   });
 });
 
