@@ -1,6 +1,6 @@
 /**
  * What may be asked of an idle plotter by hand, as data, and how the machine does it. Every move begins with the
- * pen up and stays within the machine; where nobody knows where the carriage is, it stands at home.
+ * pen up and stays within the machine; if the carriage's position is unknown, it is assumed to be at home.
  */
 import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import { type Machine, machineOf } from "../../src/internal.js";

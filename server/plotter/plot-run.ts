@@ -105,7 +105,7 @@ export class MachinePlot implements LivePlotRun {
         throw error;
       },
     );
-    // Callers await `finished`. If nobody does, its rejection must not end the process.
+    // Callers await `finished`. If none does, its rejection must not end the process.
     this.finished.catch(() => undefined);
   }
 
