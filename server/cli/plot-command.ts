@@ -9,10 +9,10 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     ),
   )
     .option("--only <layer...>", "draw these layers only, by name or id")
-    .option("--copies <number>", "how often to plot each", copies, 1)
+    .option("--copies <number>", "number of times to plot each", copies, 1)
     .option(
       "--paper-s <seconds>",
-      "wait so long for new paper between two plots, instead of for Enter",
+      "time to wait for new paper between two plots, instead of for Enter",
       seconds,
     )
     .option("--resume", "resume the plot that a crash interrupted")

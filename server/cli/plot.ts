@@ -49,7 +49,7 @@ export async function runPlot(
   if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
     throw new PlotwrightError(
       "bad-setting",
-      "Between two plots somebody changes the paper and presses Enter. Without a keyboard, say with --paper-s how many seconds to wait.",
+      "Between two plots it waits for Enter, so that the paper can be changed. Without a keyboard, use --paper-s SECONDS to set the wait.",
     );
   }
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
@@ -83,7 +83,7 @@ export async function resumePlot(
   return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
 }
 
-/** The carriage is in the middle of that drawing, and part of it is on the paper: beginning again is rarely meant. */
+/** The carriage is in the middle of that drawing, and part of it is on the paper: starting again is rarely intended. */
 function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): void {
   const found = record.find();
   if (found === null || restart === true) return;

@@ -62,9 +62,9 @@ export function stoppedPlace(
 }
 
 /**
- * The same where the server ended and the board lived on: it has played all that it was given, so it stopped behind what
- * was sent at the last entry, and a place where the line crossed itself before that is not meant. Null with the pen up,
- * and where nothing fits: then not everything that was sent has arrived.
+ * The same after the server ended while the board kept running: the board has played everything it received, so it
+ * stopped after what was sent at the last entry. An earlier place where the line crosses itself is excluded. Null if the
+ * pen is up, or if nothing matches because not everything that was sent has arrived.
  */
 export function placeBehindSent(
   strokes: StrokeSet,
@@ -78,7 +78,7 @@ export function placeBehindSent(
   return found === fromHere ? null : found;
 }
 
-/** mm along a stroke where it passes a point for the first time after `fromMm`; null where it does not. */
+/** mm along a stroke where it first passes a point after `fromMm`; null if it does not. */
 function alongOf(
   { xy, offsets }: StrokeSet,
   stroke: number,

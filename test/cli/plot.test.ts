@@ -93,7 +93,7 @@ describe("plotwright plot", () => {
       record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
       const io = new CaughtIo();
       const plotted = plot(io, "--resume");
-      await expect.poll(() => io.errText).toMatch(/lost its place.*Enter goes on/);
+      await expect.poll(() => io.errText).toMatch(/lost its position.*Enter resumes/);
       expect(io.errText).not.toMatch(/Done/);
       io.line();
       expect((await plotted).code).toBe(0);
@@ -138,7 +138,7 @@ describe("plotwright add and queue", () => {
         expect((await cli("queue", ...at)).out.trimEnd().split("\n").length).toBe(4);
         writeFileSync(file, "hello");
         const refused = await cli("add", file, ...at);
-        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/did not take it/) });
+        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/refused it/) });
       } finally {
         await server.close();
       }
