@@ -25,7 +25,7 @@ describe("a drawing put in the shared queue for any plotter of a model", () => {
     await page.getByRole("radio", { name: "Servers" }).check();
     await page.getByRole("button", { name: /^Put .* there$/ }).click();
     const row = page.getByRole("listitem").filter({ hasText: "for any AxiDraw V3" });
-    await row.getByText(/is left out: nobody has said what model it is/).waitFor();
+    await row.getByText(/is left out: its model is not set/).waitFor();
     expect(await test.jobs()).toEqual([]);
     await row.getByRole("button", { name: /^Its model: AxiDraw V3/ }).click();
     await row.getByText("taken", { exact: false }).waitFor();

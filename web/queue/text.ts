@@ -55,7 +55,7 @@ export const queueText = {
   againNamed: (name: string) => `Put ${name} into the queue again`,
   more: (count: number) => `Show ${Math.min(count, 20)} more`,
   took: (duration: string) => `took ${duration}`,
-  foretold: (duration: string) => `${duration} foretold`,
+  expected: (duration: string) => `${duration} expected`,
 };
 
 export const notifyText = {
