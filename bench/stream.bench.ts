@@ -21,6 +21,7 @@ const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
   { what: "short commands, window of 0.3 s", task: { pacing: "window", merged: false } },
   { what: "short commands, by acknowledgement", task: { pacing: "acks", merged: false } },
   { what: "merged commands, window of 0.3 s", task: { pacing: "window", merged: true } },
+  { what: "shaped, quality fast, window of 0.3 s", task: { pacing: "window", merged: true, shaped: true } },
 ];
 
 export default async function streamBench(report: Report): Promise<void> {

@@ -14,7 +14,7 @@ import { isPenUpBefore } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
 import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
-import { stateAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import { drawnAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
@@ -238,13 +238,17 @@ export class EbbRun implements MachineRun {
     };
   }
 
-  /** What is still to be drawn at a time of a part; from the pen's position if it is drawing. */
+  /**
+   * What is still to be drawn at a time of a part; from the pen's position if it is drawing. In a shaped motion that
+   * differs from the carriage's position `x`, `y`.
+   */
   private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
-    const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
+    const { stroke, alongMm, ...drawn } = drawnAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
+    const pen = trajectory.planned ? drawn : { ...drawn, x, y };
     return alongMm === 0
       ? { stroke, alongMm }
-      : snappedPlace(this.strokes, { stroke, alongMm }, { x, y, vx, vy }, SNAP_MM);
+      : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
   /** Applies new heights in mid-plot; if the pen is down at another height than it should be, it moves there. */
