@@ -1,4 +1,4 @@
-/** Drawings written in a few words, for tests of what comes after the importer. */
+/** Drawings in a short notation, for tests of the stages after the importer. */
 import {
   PAIRS_OF_VERB,
   RULE_NONZERO,
@@ -107,7 +107,7 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
   };
 }
 
-/** A sheet of ruled lines: little to draw on a screen, minutes to plot. */
+/** A sheet of ruled lines: little to draw on a screen, but minutes to plot. */
 export const ruledSheet = (lineCount = 120): string => {
   const lines = Array.from(
     { length: lineCount },

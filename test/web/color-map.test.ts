@@ -27,7 +27,7 @@ describe("the colour ramp", () => {
     }
   });
 
-  it("stands out on white paper at every speed", () => {
+  it("is visible on white paper at every speed", () => {
     for (const color of colors) expect(contrastOnPaper(color)).toBeGreaterThan(1.9);
   });
 

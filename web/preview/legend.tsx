@@ -7,7 +7,7 @@ import { legendStops, rampColor } from "../scene/color-map.js";
 const words = previewText;
 const LABELS = 5;
 
-/** What the colours mean. `data-stops` holds the scale as JSON, for whoever reads the page by program. */
+/** The meaning of the colours. `data-stops` has the scale as JSON, for programs that read the page. */
 export const Legend = () => {
   const colorBy = usePageState((state) => state.view.colorBy);
   const scene = usePageState((state) => state.planned?.scene ?? null);

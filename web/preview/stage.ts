@@ -88,7 +88,7 @@ export class Stage {
     this.setView(zoomAt(this.#view, factor, this.#size.width / 2, this.#size.height / 2));
   }
 
-  /** `copy` is for whoever draws it, and is given away. */
+  /** `copy` is passed to the code that draws, which may transfer it. */
   setScene(scene: Scene | null, copy: Picture | null): void {
     if (scene === this.#scene) return;
     this.#scene = scene;

@@ -267,7 +267,10 @@ export const createActions = (deps: ActionDeps) => {
       if (id) await attempt("queue", () => backend.setQueue(id, settings));
     },
     takeOver: () => attempt("take-over", () => backend.takeOver()),
-    /** Who this browser is; asked anew with each connection, since a server that was started anew may have forgotten. */
+    /**
+     * This browser's identity; requested again with each connection, because a restarted server may have
+     * forgotten it.
+     */
     meet: async (): Promise<void> => {
       try {
         store.setState({ me: await backend.me(), isUnpaired: false });

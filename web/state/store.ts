@@ -109,13 +109,13 @@ export interface PageState {
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
   readonly jobs: readonly Job[];
-  /** How each plotter's queue goes on from job to job, by the plotter's id. */
+  /** How each plotter's queue continues from job to job, by the plotter's id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
   /** Who this browser is to the server; null until it has said. */
   readonly me: Me | null;
-  /** The browser that may change things now; null while nobody has. */
+  /** The browser that may change things now; null: none. */
   readonly operator: Operator | null;
-  /** What went wrong on the server with nobody asking. */
+  /** Errors on the server without a request by this page. */
   readonly serverNotices: readonly ServerNotice[];
   /** The server's name on the network; null while it has none. */
   readonly localName: string | null;
