@@ -1,14 +1,17 @@
+import type { Kernel } from "./filter.js";
+
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.
  *
- *   t from a block's start:  p(t) = p0 + v0 t + a t²/2 + j t³/6
+ *     t from a block's start:  p(t) = p0 + v0 t + a t²/2 + j t³/6
  *
  * Blocks are grouped in runs. A run begins and ends at rest, with the pen up (travel) or down (draw). Between
  * two runs the pen may move, and the carriage waits for it:
  *
- *   run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
+ *     run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
  */
 export interface Trajectory {
+  /** Number of blocks. */
   readonly blockCount: number;
   /** Seconds each block takes. All columns have `blockCount` used entries (arrays may be longer). */
   readonly durationS: Float64Array;
@@ -28,16 +31,28 @@ export interface Trajectory {
   readonly startS: Float64Array;
   /** mm along the run's source polyline at the block's start. */
   readonly alongMm: Float64Array;
+  /** Which blocks belong to which stroke. */
   readonly runs: RunColumns;
-  /** In order of time; `penMovesOf` returns them as objects. */
+  /** In order of time. */
   readonly penMoves: PenMoveColumns;
   /** Total duration, pen waits included. */
   readonly totalS: number;
   /** End position, mm. */
   readonly endX: number;
   readonly endY: number;
+  /**
+   * The motion before shaping, if it is shaped: the same runs, whose blocks begin at the same time or a little earlier.
+   * The pen is where this motion was one mean delay ago, as far as its swinging is kept out.
+   */
+  readonly planned?: PlannedMotion | null | undefined;
 }
 
+export interface PlannedMotion {
+  readonly trajectory: Trajectory;
+  readonly kernel: Kernel;
+}
+
+/** The runs of a trajectory, as columns. */
 export interface RunColumns {
   readonly count: number;
   /** count + 1: run r has blocks [firstBlock[r], firstBlock[r+1]). */
@@ -73,11 +88,13 @@ export interface PenMove {
 
 /** A place in the drawing from which a plan can resume: a stroke, and mm along its polyline. */
 export interface Place {
+  /** Index of the stroke. */
   readonly stroke: number;
+  /** mm along the stroke's polyline. */
   readonly alongMm: number;
 }
 
-/** One instant of a trajectory. */
+/** One instant of a trajectory: mm in the machine frame, mm/s, mm/s². */
 export interface MotionState {
   x: number;
   y: number;
@@ -122,7 +139,30 @@ export function stateAt(
   }
   const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
   out.stroke = runs.stroke[run]!;
-  return blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
+  blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
+  if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
+  return out;
+}
+
+/** Where on the drawing the pen is at `tS`, during a run: where the planned motion was one mean delay ago. */
+function plannedAlong({ trajectory, kernel }: PlannedMotion, run: number, tS: number): number {
+  const plannedS = tS - kernel.meanDelayS;
+  const { firstBlock } = trajectory.runs;
+  const [first, end] = [firstBlock[run], firstBlock[run + 1]];
+  const k = Math.max(first, first + lastNotAfter(plannedS, end - first, (i) => trajectory.startS[first + i]));
+  return blockAlong(trajectory, k, Math.min(trajectory.durationS[k], plannedS - trajectory.startS[k]));
+}
+
+/**
+ * The point of the line that the pen is on, where `stateAt` gives the carriage's: a shaped motion leaves the line to
+ * keep the pen on it.
+ */
+export function drawnAt(trajectory: Trajectory, tS: number): MotionState {
+  const state = stateAt(trajectory, tS);
+  if (!trajectory.planned || state.stroke < 0) return state;
+  const { planned } = trajectory;
+  const { x, y, vx, vy } = stateAt(planned.trajectory, tS - planned.kernel.meanDelayS);
+  return { ...state, x, y, vx, vy };
 }
 
 /** Position, velocity and acceleration `t` seconds into block `k`; 0 ≤ t ≤ its duration. */
@@ -139,12 +179,12 @@ export function blockState(trajectory: Trajectory, k: number, t: number, out: Mo
   out.vy = vy + t * (ay + (t * jy) / 2);
   out.ax = ax + t * jx;
   out.ay = ay + t * jy;
-  out.alongMm = alongAt(trajectory, k, t);
+  out.alongMm = blockAlong(trajectory, k, t);
   return out;
 }
 
 /** mm along the source polyline, interpolated by the length of the block covered so far. */
-function alongAt(trajectory: Trajectory, k: number, t: number): number {
+export function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k];
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;

@@ -4,6 +4,10 @@ import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } fro
 export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
 export type MotionMode = (typeof MOTION_MODES)[number];
 
+/** How the swinging of the machine is kept out of the line (src/plan/shapers.ts). */
+export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
+export type Shaper = (typeof SHAPERS)[number];
+
 const speed = {
   kind: "number",
   label: "Speed",
@@ -102,6 +106,7 @@ export const TRAVEL_TABLE = {
   },
 } as const satisfies SettingsTable;
 
+/** Limits of speed, acceleration, corner and jerk. */
 export type MotionLimits = ValuesOf<typeof DRAW_TABLE>;
 
 export const MOTION_TABLE = {
@@ -112,6 +117,14 @@ export const MOTION_TABLE = {
     flag: "--mode",
     default: "blend",
     choices: MOTION_MODES,
+  },
+  shaper: {
+    kind: "choice",
+    label: "Against swinging",
+    about: "how the machine's swinging is kept out of the line; needs its measured frequencies",
+    flag: "--shaper",
+    default: "none",
+    choices: SHAPERS,
   },
 } as const satisfies SettingsTable;
 
@@ -176,10 +189,19 @@ export const MOTOR_ACCEL = {
 /** Overrides for one layer; what is left out is as for all layers. */
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
 
-export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
+/** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
+export interface MotionSettings {
+  /** How corners are taken. */
+  readonly mode: MotionMode;
+  /** How the machine's swinging is kept out of the line; default none. Another one needs the machine's springs. */
+  readonly shaper?: Shaper | undefined;
+  /** Limits with the pen down. */
   readonly draw: MotionLimits;
+  /** Limits with the pen up. */
   readonly travel: MotionLimits;
+  /** Merges blocks into fewer, longer ones; null or left out: no merging. */
   readonly fit?: FitSettings | null | undefined;
+  /** Slow start and end of every stroke; null or left out: none. */
   readonly ease?: EaseSettings | null | undefined;
   /** Max acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
   readonly motorAccelStepsPerS2?: number | null | undefined;
@@ -189,6 +211,7 @@ export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
 
 export const DEFAULT_FIT: FitSettings = defaultsOf(FIT_TABLE);
 
+/** Mode `blend`, moderate speeds that suit an AxiDraw, merged commands. */
 export const DEFAULT_MOTION: MotionSettings = {
   ...defaultsOf(MOTION_TABLE),
   draw: defaultsOf(DRAW_TABLE),

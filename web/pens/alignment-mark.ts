@@ -18,7 +18,12 @@ export const markPlace = (settings: PlotSettings, corner: Corner): { xMm: number
 };
 
 /** The mark as an SVG of the paper's size, plotted at true size with the pen's own correction and nothing else. */
-export const alignmentJob = (settings: PlotSettings, pen: PlotPen, corner: Corner, name: string): NewJob => {
+export const alignmentJob = (
+  settings: PlotSettings,
+  pen: PlotPen,
+  corner: Corner,
+  name: string,
+): NewJob & { readonly drawing: string } => {
   const { widthMm, heightMm } = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
   const { xMm: x, yMm: y } = markPlace(settings, corner);
   const drawing =

@@ -1,7 +1,7 @@
 /** Machines of the user's own: new ones, their ids, and what the schema says of them. */
 import type { MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
-import { machineProfileSchema } from "../../src/schema/index.js";
+import { faultInWords, machineProfileSchema } from "../../src/schema/index.js";
 
 const MAX_ID = 60;
 
@@ -42,7 +42,9 @@ export const withController = (profile: EbbMachine, part: Partial<EbbController>
 export const problemsOf = (profile: unknown): readonly string[] => {
   const parsed = machineProfileSchema.safeParse(profile);
   if (parsed.success) return [];
-  return parsed.error.issues.map(({ path, message }) => [path.join("."), message].filter(Boolean).join(": "));
+  return parsed.error.issues.map((issue) =>
+    [issue.path.join("."), faultInWords(issue)].filter(Boolean).join(": "),
+  );
 };
 
 /** A profile as it was saved to a file, here or elsewhere. Throws with words for the user. */

@@ -320,7 +320,7 @@ export const createActions = (deps: ActionDeps) => {
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
     /** Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. */
-    plotJob: async ({ drawing, ...newJob }: NewJob): Promise<void> => {
+    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<void> => {
       const plotterId = currentPlotter(store.getState())?.id;
       const job = await attempt("add", () =>
         backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),

@@ -12,13 +12,15 @@ export type Requests = ReturnType<typeof createRequests>;
 
 /** What the server answers where there is nothing to say. */
 const okSchema = z.object({ ok: z.literal(true) });
+const uploadSchema = z.object({ id: z.string() });
 
 export const createRequests = (fetchPath: Fetch) => {
-  /** `body`: a blob is its JSON. */
+  /** `body`: a blob is sent as it is, anything else as JSON. */
   const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
     const init: RequestInit = { method };
-    if (body !== undefined) {
-      init.body = body instanceof Blob ? body : JSON.stringify(body);
+    if (body instanceof Blob) init.body = body;
+    else if (body !== undefined) {
+      init.body = JSON.stringify(body);
       init.headers = { "content-type": "application/json" };
     }
     let response: Response;
@@ -36,21 +38,16 @@ export const createRequests = (fetchPath: Fetch) => {
   const tell = async (method: string, path: string, body?: unknown): Promise<void> => {
     await ask(okSchema, method, path, body);
   };
-  /** For routes that take a drawing beside what is said of it. */
+  /** For routes that take a job with a drawing: uploads the drawing as a file first. */
   const askWithDrawing = async <T>(
     schema: z.ZodType<T>,
     path: string,
     job: { readonly name: string },
     drawing: DrawingText,
-  ): Promise<T> =>
-    ask(
-      schema,
-      "POST",
-      path,
-      typeof drawing === "string"
-        ? { ...job, drawing }
-        : await (await import("./job-body.js")).jobBody({ ...job, drawing }),
-    );
+  ): Promise<T> => {
+    const { id: drawingId } = await ask(uploadSchema, "POST", "/drawings", new Blob([drawing]));
+    return ask(schema, "POST", path, { ...job, drawingId });
+  };
   return { send, ask, tell, askWithDrawing, fetchPath };
 };
 
