@@ -4,7 +4,8 @@ export { ERROR_TABLE } from "./errors.js";
 
 // drawing
 export type { DrawingWarning } from "./drawing/drawing.js";
-export { strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
+export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
+export { meanScale } from "./geometry/affine.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
 
 // import

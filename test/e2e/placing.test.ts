@@ -4,14 +4,14 @@ import { PageTest } from "../support/page-test.js";
 
 /** 60 × 40 mm: a cross from corner to corner, which no frame hides, and a dash at the left that tells a mirrored one. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
-  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#e00000"/></svg>`;
+  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#000"/></svg>`;
 
 let test: PageTest;
 
 beforeAll(async () => {
   test = await PageTest.open("placing");
   await test.drop("flag", SVG);
-  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.look("Ink");
   await test.group("Paper");
 });
 

@@ -1,18 +1,18 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
-import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
+import { findMachine } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { previewText } from "./text.js";
-import { layerColor } from "../scene/color-map.js";
 import type { Desk } from "./backdrop.js";
 import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
-import { Legend } from "./legend.js";
+import { Looks } from "./legend.js";
+import { isTrueToWidth, layerLooks } from "./looks.js";
 import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
@@ -20,7 +20,6 @@ import { Stage, type FrameLook } from "./stage.js";
 import { mmFromScreen } from "../scene/view.js";
 
 const words = previewText;
-const DEFAULT_LINE_MM = 0.35;
 
 /** The paper with the drawing on it, as it will be plotted. */
 export const Preview = () => {
@@ -36,8 +35,10 @@ export const Preview = () => {
         <canvas ref={strokes} role="img" aria-label={words.canvas} />
         <canvas ref={overlay} aria-hidden="true" />
       </div>
-      <Legend />
-      <PreviewTools stage={stage} />
+      <div className="preview-foot">
+        <Looks />
+        <PreviewTools stage={stage} />
+      </div>
       <PaperMessage />
       <HoverTip />
     </section>
@@ -147,28 +148,21 @@ const deskOf = ({ settings }: PageState): Desk => {
   };
 };
 
-const lookOf = (state: PageState): FrameLook => ({
-  colorBy: state.view.colorBy,
-  showTravel: state.view.showTravel,
-  lineMm: DEFAULT_LINE_MM,
-  layerColors: state.planned ? colorsOf(state, state.planned.drawnLayers) : [],
-  layerWidthsMm:
-    state.view.colorBy === "pen" && state.planned ? widthsOf(state, state.planned.drawnLayers) : null,
-  // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
-  untilS: state.momentS ?? drawnUntilS(state),
-});
-
-export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
-  layers.map(({ color }, index) => color ?? layerColor(index));
-
-const colorsOf = ({ view, settings }: PageState, layers: readonly StrokeLayer[]): string[] => {
-  const own = layerColorsOf(layers);
-  if (view.colorBy !== "pen") return own;
-  return layers.map((layer, index) => penOf(settings, layer)?.color ?? own[index]);
+const lookOf = (state: PageState): FrameLook => {
+  const { planned, settings } = state;
+  const { colorBy, showTravel } = state.view;
+  const looks = planned ? layerLooks(colorBy, { planned, settings }) : [];
+  return {
+    colorBy,
+    showTravel,
+    lineMm: Math.max(0, ...looks.map(({ widthMm }) => widthMm)),
+    layerColors: looks.map(({ color }) => color),
+    layerWidthsMm: looks.map(({ widthMm }) => widthMm),
+    lineGapMm: planned && !isTrueToWidth(colorBy) ? planned.lineGapMm : undefined,
+    // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
+    untilS: state.momentS ?? drawnUntilS(state),
+  };
 };
-
-const widthsOf = ({ settings }: PageState, layers: readonly StrokeLayer[]): number[] =>
-  layers.map((layer) => penOf(settings, layer)?.widthMm ?? DEFAULT_LINE_MM);
 
 const markerOf = (state: PageState): Marker | null => {
   if (state.momentS !== null && state.planned) {

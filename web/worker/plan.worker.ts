@@ -24,6 +24,7 @@ import {
   type Placement,
 } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
+import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import type { DrawingText } from "./drawing-text.js";
@@ -88,6 +89,8 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
+    const stats = trajectoryStats(trajectory);
+    const gapMm = lineGapMm(scene.grid, stats.drawMm);
     const t4 = performance.now();
     const planned: Planned = {
       drawingKey,
@@ -103,9 +106,10 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       layoutWarnings: ready.warnings,
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),
-      stats: trajectoryStats(trajectory),
+      stats,
       trajectory,
       scene,
+      lineGapMm: gapMm,
       picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };

@@ -66,6 +66,8 @@ export interface Planned {
   readonly stats: TrajectoryStats;
   readonly trajectory: Trajectory;
   readonly scene: Scene;
+  /** The mean distance between a line and the next, where there are lines. */
+  readonly lineGapMm: number;
   /** The scene's pieces once more, to be given away to the thread that draws them: copied here, where time is. */
   readonly picture: Picture;
   /** How long the worker took, ms, by stage. */
