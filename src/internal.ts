@@ -48,6 +48,7 @@ export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
+export { cutOffLines, type CutOff } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
 export {

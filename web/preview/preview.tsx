@@ -6,6 +6,7 @@ import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { previewText } from "./text.js";
 import type { Desk } from "./backdrop.js";
+import { paintCutOff } from "./cut-off.js";
 import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
@@ -17,7 +18,9 @@ import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
-import { mmFromScreen } from "../scene/view.js";
+import { StrokeCard } from "./stroke-card.js";
+import { selectionPainter } from "./stroke.js";
+import { mmFromScreen, type View } from "../scene/view.js";
 
 const words = previewText;
 
@@ -41,6 +44,7 @@ export const Preview = () => {
       </div>
       <PaperMessage />
       <HoverTip />
+      <StrokeCard />
     </section>
   );
 };
@@ -69,6 +73,11 @@ const useStage = (
       const found = at && planned ? hoverUnder(made, planned, at) : null;
       if (found !== hover) store.setState({ hover: found });
     };
+    const select = (at: { x: number; y: number }): void => {
+      const { planned } = store.getState();
+      const hover = planned && hoverUnder(made, planned, at);
+      store.setState({ hover: null, selected: planned && hover ? { of: planned, hover } : null });
+    };
     const stopShowing = showState(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,
@@ -77,7 +86,7 @@ const useStage = (
       grab: (at) => grabFrame(made, store, actions, at),
       nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
       hover: (at) => pointAt(at),
-      tap: (at) => pointAt(at),
+      tap: (at) => select(at),
     });
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     const recolor = (): void => made.recolor();
@@ -117,11 +126,20 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (
       state.planned !== before?.planned ||
       state.settings !== before?.settings ||
+      state.selected !== before?.selected ||
       state.noteBoxes !== before?.noteBoxes ||
       state.snapLines !== before.snapLines
     ) {
       const frame = frameNow(state);
-      stage.setPainter(painterOf(state), frame && boxAround(frame));
+      const cutOff = state.planned?.cutOff ?? null;
+      const selection = selectionPainter(state);
+      const rest = painterOf(state);
+      const paint = (context: CanvasRenderingContext2D, view: View): void => {
+        if (cutOff) paintCutOff(context, view, cutOff);
+        selection?.(context, view);
+        rest?.(context, view);
+      };
+      stage.setPainter(paint, frame && boxAround(frame));
     }
   };
   show(store.getState(), null);

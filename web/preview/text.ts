@@ -41,6 +41,20 @@ export const hoverText = {
   strokeOf: (number: string, count: string) => `${number} of ${count}`,
 };
 
+export const strokeText = {
+  title: "Selected stroke",
+  strokeOf: (number: string, count: string) => `Stroke ${number} of ${count}`,
+  close: "Close",
+  length: "Length",
+  width: "Width",
+  takes: "Takes",
+  seconds: (s: string) => `${s} s`,
+  begins: "Begins at",
+  speedHere: "Speed here",
+  plotFrom: "Plot from here",
+  plotFromHint: "It waits above this stroke until you press Resume. What comes before is not drawn.",
+};
+
 export const timeLineText = {
   title: "Time line",
   play: "Play the plot",

@@ -27,6 +27,7 @@ import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
 import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
+import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 import type {
   ExportRequest,
@@ -50,7 +51,13 @@ let isRunning = false;
 /** The last text that came, until it has been read. */
 let received: { key: string; text: DrawingText } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
-let prepared: { key: string; result: Prepared; placement: Placement; settings: PlanSettings } | null = null;
+let prepared: {
+  key: string;
+  result: Prepared;
+  placement: Placement;
+  cutOff: CutOffPicture | null;
+  settings: PlanSettings;
+} | null = null;
 
 scope.onmessage = (event) => {
   if (event.data.type === "export") return void exportAs(event.data);
@@ -82,7 +89,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
-    const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
+    const { result: ready, placement, cutOff } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
@@ -104,6 +111,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
       layoutWarnings: ready.warnings,
+      cutOff,
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),
       stats,
@@ -145,7 +153,8 @@ function preparedOf(
   const key = `${drawingKey} ${JSON.stringify(wanted)}`;
   if (prepared?.key !== key) {
     const result = prepare(drawing, wanted);
-    prepared = { key, result, placement: placeDrawing(drawing, wanted), settings };
+    const placement = placeDrawing(drawing, wanted);
+    prepared = { key, result, placement, cutOff: cutOffOf(drawing, wanted, placement), settings };
   }
   prepared.settings = settings;
   return prepared;
