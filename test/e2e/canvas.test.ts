@@ -80,7 +80,7 @@ describe("a stroke", () => {
     for (; y < box.y + box.height - 60 && !(await tip.isVisible()); y += 4) await test.page.mouse.move(x, y);
     await test.page.mouse.click(x, y - 4);
     await card().getByText("Stroke 2 of 3").waitFor();
-    expect(await card().innerText()).toMatch(/Length\s*257 mm/);
+    expect(await card().innerText()).toMatch(/Length\s*257\s*mm/);
     expect(await test.page.getByRole("tooltip").count()).toBe(0);
   });
 

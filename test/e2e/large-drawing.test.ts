@@ -50,7 +50,7 @@ beforeAll(async () => {
   await test.drop("waves", SVG);
   const box = (await canvas().boundingBox())!;
   // Between rulers, tools and legend, as stage.ts lays the paper out.
-  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 110) / 2 };
+  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };
 });
 
 afterAll(async () => test.close());

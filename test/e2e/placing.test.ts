@@ -49,7 +49,7 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
         const x = (i / 4) % width;
         const y = Math.floor(i / 4 / width);
         // Rulers stand at two edges, tools and legend at a third.
-        if (x < 26 || y < 26 || y > bitmap.height - 100) continue;
+        if (x < 26 || y < 26 || y > bitmap.height - 112) continue;
         const isIt = isPaper
           ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
           : Math.max(data[i], data[i + 1], data[i + 2]) < 90;

@@ -23,7 +23,7 @@ export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
 /** The looks with their legend, and the tools, lie here. */
-const BELOW_PX = 84;
+const BELOW_PX = 88;
 /** On a low screen they may lie over the paper: the share of its height that is kept free for them. */
 const MOST_BELOW = 0.18;
 const MAX_RATIO = 2;
