@@ -1,6 +1,6 @@
 /** The ways to look at a drawing, and what can be done with one of its strokes. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, queuePanel } from "../support/page-actions.js";
+import { colorCounts, openView, statusCard } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 /** Three lines across the page, the middle one wide and blue. */
@@ -86,10 +86,10 @@ describe("a stroke", () => {
 
   it("can be plotted from: the job waits there with the pen up, and goes on when it is resumed", async () => {
     await card().getByRole("button", { name: "Plot from here" }).click();
-    await queuePanel(test.page).getByRole("button", { name: "Resume" }).waitFor();
+    await statusCard(test.page).getByRole("button", { name: "Resume" }).waitFor();
     const held = (await test.jobs()).find(({ state }) => state === "paused")!;
     expect(held.place).toEqual({ strokeIndex: 1, alongMm: 0 });
-    await queuePanel(test.page).getByRole("button", { name: "Resume" }).click();
+    await statusCard(test.page).getByRole("button", { name: "Resume" }).click();
     await expect.poll(async () => (await test.jobs())[0].state).toBe("done");
     // Two of three strokes: well below the time for all.
     const { plottedS, stats } = (await test.jobs())[0];
@@ -97,6 +97,7 @@ describe("a stroke", () => {
   });
 
   it("is selected no more when another plan may number the strokes differently", async () => {
+    await openView(test.page, "Prepare");
     expect(await card().count()).toBe(1);
     await test.field("Margin").fill("30");
     await test.field("Margin").press("Enter");
