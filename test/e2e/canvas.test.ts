@@ -98,7 +98,7 @@ describe("a stroke", () => {
 
   it("is selected no more when another plan may number the strokes differently", async () => {
     await openView(test.page, "Prepare");
-    expect(await card().count()).toBe(1);
+    await card().waitFor();
     await test.field("Margin").fill("30");
     await test.field("Margin").press("Enter");
     await card().waitFor({ state: "detached" });
