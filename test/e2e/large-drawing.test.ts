@@ -46,11 +46,11 @@ async function paperPixels(reach: number): Promise<number> {
 
 beforeAll(async () => {
   test = await PageTest.open("large-drawing");
-  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.look("Ink");
   await test.drop("waves", SVG);
   const box = (await canvas().boundingBox())!;
-  // Between rulers, tools and legend, as stage.ts lays out the paper.
-  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 80) / 2 };
+  // Between rulers, tools and legend, as stage.ts lays the paper out.
+  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };
 });
 
 afterAll(async () => test.close());

@@ -156,7 +156,7 @@ describe("pens on the page", () => {
   it("show the drawing in their own colours and widths", async () => {
     await test.page.getByRole("button", { name: "Settings of the pen Red" }).click();
     await test.field("Line width").fill("4");
-    await test.page.getByLabel("Colour by").selectOption("pen");
+    await test.look("Pen");
     await test.page.getByLabel("Colour: Red").fill("#00c000");
     await test.drawn();
     const counts = await colorCounts(test.page.getByRole("img", { name: "Preview", exact: true }));

@@ -10,14 +10,14 @@ import { PageTest } from "../support/page-test.js";
  * mirroring.
  */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
-  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#e00000"/></svg>`;
+  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#000"/></svg>`;
 
 let test: PageTest;
 
 beforeAll(async () => {
   test = await PageTest.open("placing");
   await test.drop("flag", SVG);
-  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.look("Ink");
   await test.group("Paper");
 });
 
@@ -54,8 +54,8 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
       for (let i = 0; i < data.length; i += 4) {
         const x = (i / 4) % width;
         const y = Math.floor(i / 4 / width);
-        // Rulers are at two edges, tools and legend at a third.
-        if (x < 26 || y < 26 || y > bitmap.height - 100) continue;
+        // Rulers stand at two edges, tools and legend at a third.
+        if (x < 26 || y < 26 || y > bitmap.height - 112) continue;
         const isIt = isPaper
           ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
           : Math.max(data[i], data[i + 1], data[i + 2]) < 90;

@@ -53,6 +53,7 @@ const FRAMES: readonly (readonly [string, Frame])[] = [
   ["coloured by speed", WHOLE],
   ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "order", showTravel: true, untilS: totalS / 2 }],
   ["in pens of different widths", { ...WHOLE, colorBy: "pen", layerWidthsMm: [0.3, 1.2] }],
+  ["in lines thin enough for a dense drawing", { ...WHOLE, lineMm: 0.1, lineGapMm: 0.3 }],
   [
     "close up, on a fine screen",
     {

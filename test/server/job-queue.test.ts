@@ -207,6 +207,36 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
+  it("starts where it was told to, held there until it is resumed", async () => {
+    const from = { strokeIndex: 1, alongMm: 0 };
+    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern"), from };
+    const { id, place } = await queue.add(wanted);
+    expect(place).toEqual(from);
+    expect(queue.duplicate(id).place).toBe(null);
+    await queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    expect([run.asked, run.holdPlace]).toEqual([["pause"], { stroke: 1, alongMm: 0 }]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: from });
+    queue.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.requeue(id).place).toBe(null);
+  });
+
+  it("keeps the layout that the number of its first stroke means, and has that stroke", async () => {
+    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern") };
+    const { id } = await queue.add({ ...wanted, from: { strokeIndex: 1, alongMm: 0 } });
+    const { prepare, pen } = DEFAULT_PLOT_SETTINGS;
+    const moved = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, marginMm: 40 } };
+    await expect(queue.patch(id, { settings: moved })).rejects.toThrow("starts at stroke 2");
+    const lower = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 20 } };
+    expect((await queue.patch(id, { settings: lower })).place).toEqual({ strokeIndex: 1, alongMm: 0 });
+    const beyond = { ...wanted, drawing: drawingOf("moss"), from: { strokeIndex: 1e6, alongMm: 0 } };
+    await expect(queue.add(beyond)).rejects.toThrow("strokes, so it can't start at number");
+  });
+
   it("takes a cancelled job up from where it was cancelled, held", async () => {
     const { id } = await add("fern");
     await queue.start(id);

@@ -19,6 +19,7 @@ export interface TestShape {
   readonly group?: number;
   readonly dash?: number;
   readonly clip?: number;
+  readonly strokeWidth?: number;
   readonly fillRule?: number;
 }
 
@@ -99,7 +100,7 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
       ),
       fill: Int32Array.from(given, (shape) => colorIndex(shape.fill ?? null)),
       fillRule: Uint8Array.from(given, (shape) => shape.fillRule ?? RULE_NONZERO),
-      strokeWidth: new Float32Array(given.length).fill(0.3),
+      strokeWidth: Float32Array.from(given, (shape) => shape.strokeWidth ?? 0.3),
       dash: Int32Array.from(given, (shape) => shape.dash ?? -1),
       clip: Int32Array.from(given, (shape) => shape.clip ?? -1),
     },

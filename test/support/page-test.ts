@@ -91,6 +91,12 @@ export class PageTest {
     if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
   }
 
+  /** Looks at the drawing that way. */
+  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen"): Promise<void> {
+    const looks = this.page.getByRole("group", { name: "Colour by" });
+    await looks.getByRole("radio", { name, exact: true }).check();
+  }
+
   async jobs(): Promise<readonly Job[]> {
     const answer = await fetch(`${this.server.url}/api/v1/state`);
     return snapshotSchema.parse(await answer.json()).jobs;

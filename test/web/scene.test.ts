@@ -7,6 +7,7 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
+import { strokeFigures } from "../../web/preview/stroke.js";
 import { hoverAt } from "../../web/scene/hover.js";
 import type { Planned } from "../../web/worker/protocol.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "../../web/scene/pieces.js";
@@ -172,5 +173,24 @@ describe("hovering", () => {
 
   it("returns nothing beside the strokes", () => {
     expect(hover(200, 200)).toBeNull();
+  });
+});
+
+describe("one stroke of a plan", () => {
+  it("has its own line and no other's, its length and its time", () => {
+    const { lengthMm, points, startS, durationS } = strokeFigures({ scene, trajectory }, 0)!;
+    // Its corners are rounded, by a little.
+    expect(lengthMm).toBeGreaterThan(115);
+    expect(lengthMm).toBeLessThanOrEqual(118.001);
+    expect([...points.slice(0, 2), ...points.slice(-2)].map(Math.round)).toEqual([10, 10, 30, 12]);
+    expect(stateAt(trajectory, startS + durationS / 2).y).toBeGreaterThan(9);
+    const next = strokeFigures({ scene, trajectory }, 1)!;
+    expect(next.startS).toBeGreaterThan(startS + durationS - 1e-9);
+    expect(Math.min(...next.points)).toBeGreaterThan(19);
+  });
+
+  it("is a point for a dot, and nothing beyond the last", () => {
+    expect([...strokeFigures({ scene, trajectory }, 2)!.points]).toEqual([80, 80, 80, 80]);
+    expect(strokeFigures({ scene, trajectory }, 3)).toBeNull();
   });
 });

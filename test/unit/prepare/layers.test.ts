@@ -132,3 +132,21 @@ describe("the colour of a layer", () => {
     expect(looksOf([filled])).toEqual([[PURPLE, 1]]);
   });
 });
+
+describe("the line width of a layer", () => {
+  it("is that of the file's lines, the mean by length; 0 where there is none", () => {
+    const layers = preparedWith(
+      {},
+      drawingOf(
+        [
+          { d: "M0 0L30 0", stroke: "#000000", strokeWidth: 0.4 },
+          { d: "M0 5L10 5", stroke: "#000000", strokeWidth: 0.8 },
+          { d: "M0 9L10 9", stroke: "#000000", strokeWidth: 0, group: 1 },
+        ],
+        { groups: ["lines", "hairs"] },
+      ),
+    ).layers;
+    expect(layers[0].strokeWidthMm).toBeCloseTo(0.5);
+    expect(layers[1].strokeWidthMm).toBe(0);
+  });
+});
