@@ -1,4 +1,14 @@
 /** What server, web and tests use besides the public library. Anything here may change without notice. */
+// lengths
+export {
+  LENGTH_UNITS,
+  lengthFromMm,
+  mmFromLength,
+  parseLength,
+  parseSize,
+  type LengthUnit,
+} from "./units.js";
+
 // errors
 export { ERROR_TABLE } from "./errors.js";
 
@@ -46,6 +56,17 @@ export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./s
 export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
+export { boxOfPoints, isEmptyBox, type Box } from "./geometry/box.js";
+export { isReached } from "./prepare/check-bounds.js";
+export {
+  canBePaper,
+  isOnFilesPage,
+  onFilesPage,
+  placedForPage,
+  quarterTurned,
+  quarterTurnedBox,
+  withoutFilesPage,
+} from "./prepare/files-page.js";
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";

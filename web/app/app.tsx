@@ -1,5 +1,6 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
+import { DrawnSize } from "../drawing/drawn-size.js";
 import { ExportPanel } from "../drawing/export.js";
 import { FillPanel } from "../drawing/fill.js";
 import { Dialogs } from "./dialogs.js";
@@ -56,6 +57,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <Strips />
           <div className="paper-area">
             <Preview />
+            <DrawnSize />
             {isEmpty && <EmptyPaper />}
             <Notices />
           </div>

@@ -1,6 +1,6 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
-import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
+import { findMachine, mmFromLength, penOf, type StrokeLayer } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
@@ -17,6 +17,7 @@ import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
+import { formatSize } from "../ui/format.js";
 import { mmFromScreen } from "../scene/view.js";
 
 const words = previewText;
@@ -98,7 +99,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (state.planned !== before?.planned) {
       stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
     }
-    if (state.settings !== before?.settings) stage.setDesk(deskOf(state));
+    if (state.settings !== before?.settings || state.view !== before.view) stage.setDesk(deskOf(state));
     if (
       state.view !== before?.view ||
       state.settings.pens !== before.settings.pens ||
@@ -134,7 +135,7 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: nu
   return hoverAt(planned, at, stage.view.scale);
 };
 
-const deskOf = ({ settings }: PageState): Desk => {
+const deskOf = ({ settings, view }: PageState): Desk => {
   const { prepare } = settings;
   const long = Math.max(prepare.paper.widthMm, prepare.paper.heightMm);
   const short = Math.min(prepare.paper.widthMm, prepare.paper.heightMm);
@@ -143,7 +144,12 @@ const deskOf = ({ settings }: PageState): Desk => {
   return {
     paperMm: prepare.landscape ? { width: long, height: short } : { width: short, height: long },
     margins: prepare.margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all },
-    reachMm: machine ? { width: machine.widthMm, height: machine.heightMm } : null,
+    reach: machine && {
+      width: machine.widthMm,
+      height: machine.heightMm,
+      label: previewText.reach(machine.name, formatSize(machine.widthMm, machine.heightMm, view.lengthUnit)),
+    },
+    unitMm: mmFromLength(1, view.lengthUnit),
   };
 };
 
