@@ -1,6 +1,6 @@
 /** The size on the paper, the machine's reach, and lengths in inches: as a user meets them. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { plotBar } from "../support/page-actions.js";
+import { dropFile, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const svgOf = (width: number, height: number, d: string): string =>
@@ -82,6 +82,18 @@ describe("what the machine does not reach", () => {
   });
 });
 
+describe("the form", () => {
+  it("keeps mirror, cutting and separate margins folded until they are asked for", async () => {
+    const mirror = test.page.getByRole("radio", { name: "Left–right" });
+    expect(await mirror.isVisible()).toBe(false);
+    const fold = test.page.getByText("Separate margins, mirror, cutting");
+    await fold.click();
+    expect(await test.page.getByText("Each margin by itself").isVisible()).toBe(true);
+    await mirror.waitFor({ state: "attached" });
+    await fold.click();
+  });
+});
+
 describe("a length", () => {
   it("may be typed with its unit", async () => {
     await test.drop("flag", FLAG);
@@ -111,6 +123,38 @@ describe("a length", () => {
     expect(await test.field("Width").inputValue()).toBe("8.5");
     await test.page.getByRole("radio", { name: "Millimetres" }).check();
     expect(await test.field("Margin").inputValue()).toBe("12.7");
+  });
+});
+
+describe("a file", () => {
+  it("without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
+    await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
+    await test.group("Fill and shade");
+    await test.page.getByText("Fill areas with lines").click();
+    await test.page.getByText(/No shape of this drawing is filled/).waitFor();
+    const strokes = plotBar(test.page).locator("dd").nth(2);
+    const before = Number(await strokes.innerText());
+    await test.page.getByRole("button", { name: "Fill closed outlines" }).click();
+    await test.planned();
+    expect(Number(await strokes.innerText())).toBeGreaterThan(before);
+    await test.page.getByText("Fill areas with lines").click();
+  });
+
+  it("that can't be read leaves the loaded one", async () => {
+    await dropFile(test.page, "torn.svg", "<svg><path d='M0 0");
+    await test.page.getByText(/torn can’t be drawn/).waitFor();
+    await test.planned();
+    await test.page.locator(".drawing-name", { hasText: "box" }).waitFor();
+    expect(await plot().isEnabled()).toBe(true);
+  });
+
+  it("of a picture only is named as that", async () => {
+    await test.drop(
+      "photo",
+      `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"><image href="a.png" width="60mm" height="40mm"/></svg>`,
+    );
+    await test.page.getByText("This file holds only a picture").waitFor();
+    expect(await plot().isDisabled()).toBe(true);
   });
 
   it("meets no error in the browser's console on the way", () => {

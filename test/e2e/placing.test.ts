@@ -174,6 +174,7 @@ describe("placing the drawing", () => {
   });
 
   it("fills four margins of one's own, stands in the middle, and is mirrored", async () => {
+    await test.page.getByText("Separate margins, mirror, cutting").click();
     await test.page.getByText("Each margin by itself").click();
     await type("Left", 40);
     await type("Top", 20);

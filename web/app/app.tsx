@@ -69,11 +69,11 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <PaperPanel />
           <LayersPanel />
           <PensPanel />
+          <FillPanel />
+          <LinesPanel />
           <MotionPanel />
           <PenPanel />
           <PresetsPanel />
-          <FillPanel />
-          <LinesPanel />
           <ExportPanel />
         </aside>
         <aside className="column column-run" aria-label={tabsText.queue}>

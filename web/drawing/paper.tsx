@@ -85,7 +85,6 @@ export const PaperPanel = () => {
           onChange={(value) => change("margin", { marginMm: value })}
         />
       )}
-      <Margins prepare={prepare} change={change} />
       <Segments
         label={words.placement}
         value={prepare.place ? "place" : prepare.fit ? "fit" : "true"}
@@ -115,26 +114,30 @@ export const PaperPanel = () => {
           <Icon name="again" />
         </button>
       </div>
-      <Segments
-        label={PREPARE_TABLE.mirror.label}
-        value={prepare.mirror}
-        options={[
-          { value: "none", label: words.mirrors.none },
-          { value: "leftRight", label: words.mirrors.leftRight },
-          { value: "upDown", label: words.mirrors.upDown },
-        ]}
-        onChange={(mirror) => change("mirror", { mirror })}
-      />
-      <Switch
-        label={PREPARE_TABLE.cropToPage.label}
-        isOn={prepare.cropToPage}
-        onChange={(cropToPage) => change("crop", { cropToPage })}
-      />
-      <Switch
-        label={PREPARE_TABLE.clipToMargins.label}
-        isOn={prepare.clipToMargins}
-        onChange={(clipToMargins) => change("clip", { clipToMargins })}
-      />
+      <details className="more">
+        <summary>{words.more}</summary>
+        <Margins prepare={prepare} change={change} />
+        <Segments
+          label={PREPARE_TABLE.mirror.label}
+          value={prepare.mirror}
+          options={[
+            { value: "none", label: words.mirrors.none },
+            { value: "leftRight", label: words.mirrors.leftRight },
+            { value: "upDown", label: words.mirrors.upDown },
+          ]}
+          onChange={(mirror) => change("mirror", { mirror })}
+        />
+        <Switch
+          label={PREPARE_TABLE.cropToPage.label}
+          isOn={prepare.cropToPage}
+          onChange={(cropToPage) => change("crop", { cropToPage })}
+        />
+        <Switch
+          label={PREPARE_TABLE.clipToMargins.label}
+          isOn={prepare.clipToMargins}
+          onChange={(clipToMargins) => change("clip", { clipToMargins })}
+        />
+      </details>
       <Segments
         label={words.unit}
         value={lengthUnit}

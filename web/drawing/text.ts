@@ -30,6 +30,7 @@ export const reportText = {
 
 export const paperText = {
   title: "Paper",
+  more: "Separate margins, mirror, cutting",
   unit: "Lengths in",
   units: { mm: "Millimetres", in: "Inches" },
   size: "Paper",
@@ -68,6 +69,8 @@ export const fillText = {
   off: "off",
   on: (spacing: string) => `every ${spacing} mm`,
   switch: "Fill areas with lines",
+  nothingToFill: "No shape of this drawing is filled, so there is nothing to fill with lines.",
+  fillOutlines: "Fill closed outlines",
   spacingHint: "The distance of the lines: as wide as the pen draws fills without gaps.",
 };
 

@@ -209,10 +209,18 @@ const PaperMessage = () => {
     );
   }
   if (planned?.strokeCount !== 0) return null;
+  const isEmptyFile = planned.fileWarnings.some(({ code }) => code === "empty-drawing");
+  const isPicture = isEmptyFile && planned.fileWarnings.some(({ code }) => code === "image-not-drawn");
   return (
     <div className="paper-message">
-      <strong>{previewText.nothingToDraw}</strong>
-      <p>{previewText.nothingToDrawHint}</p>
+      <strong>{isPicture ? previewText.onlyPictures : previewText.nothingToDraw}</strong>
+      <p>
+        {isPicture
+          ? previewText.onlyPicturesHint
+          : isEmptyFile
+            ? previewText.emptyFileHint
+            : previewText.nothingToDrawHint}
+      </p>
     </div>
   );
 };

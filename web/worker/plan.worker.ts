@@ -97,6 +97,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
       pageToPaper: placement.map,
+      hasFills: drawing.paths.fill.some((color) => color >= 0),
       drawnBox: boxOfPoints(ready.strokes.xy),
       frameMm: frameOf(placement, settings.prepare.place?.turnDeg ?? 0),
       layers: ready.layers,

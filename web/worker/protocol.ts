@@ -55,6 +55,8 @@ export interface Planned {
   readonly frameMm: FrameMm | null;
   /** The box of what the pen draws, with nothing that is cut off or hidden; empty if it draws nothing. */
   readonly drawnBox: Box;
+  /** Whether the file has filled shapes. */
+  readonly hasFills: boolean;
   /** All of the file's, switched-off ones too. */
   readonly layers: readonly PreparedLayer[];
   /** Where the plot waits for a pen. */
