@@ -152,8 +152,12 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   context.globalAlpha = isShort ? 1 : 0.8;
   context.font = REACH_FONT;
   context.textAlign = "right";
-  // Under the lower edge, which lies on the paper only where the reach is too short for it.
-  context.fillText(reach.label, offsetX + width, offsetY + height + REACH_GAP_PX + 9);
+  // Under the lower edge, and no further right than the paper, which is in sight.
+  context.fillText(
+    reach.label,
+    offsetX + Math.min(reach.width, paperMm.width) * scale,
+    offsetY + height + REACH_GAP_PX + 9,
+  );
   context.restore();
 };
 
