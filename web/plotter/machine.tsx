@@ -105,7 +105,7 @@ const ModelSelect = () => {
       label={words.model}
       value={machine}
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(id) => void chooseMachine(all.find((one) => one.id === id) ?? null)}
+      onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
   );
 };

@@ -7,7 +7,7 @@ import { findMachine } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 
-const KEY = "plotwright.page.v1";
+export const PAGE_KEY = "plotwright.page.v1";
 
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
@@ -117,7 +117,7 @@ const recordOf = (value: unknown): Record<string, unknown> => (isRecord(value) ?
 
 export const readRemembered = (store: TextStore | null): Remembered => {
   try {
-    return parseRemembered(store?.getItem(KEY) ?? null);
+    return parseRemembered(store?.getItem(PAGE_KEY) ?? null);
   } catch {
     return parseRemembered(null);
   }
@@ -126,7 +126,7 @@ export const readRemembered = (store: TextStore | null): Remembered => {
 /** Layer switches too: the drawing that they belong to comes back with them (see kept-drawing.ts). */
 export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
   try {
-    store?.setItem(KEY, JSON.stringify({ settings, view }));
+    store?.setItem(PAGE_KEY, JSON.stringify({ settings, view }));
   } catch {
     // A full or refused store only means that the next visit begins with the defaults.
   }
