@@ -20,7 +20,7 @@ import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
 import { TimeLine } from "../preview/time-line.js";
-import { activeJob } from "../state/store.js";
+import { activeJob, unfinishedJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
 import { tabsText } from "./text.js";
@@ -46,6 +46,13 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const isEmpty = usePageState(
     (state) =>
       state.drawing === null && !state.isStarting && state.link !== "connecting" && activeJob(state) === null,
+  );
+  const hasJob = usePageState((state) => unfinishedJob(state) !== null);
+  const machine = (
+    <>
+      {hasCamera && <Camera />}
+      <MachinePanel />
+    </>
   );
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   return (
@@ -76,13 +83,12 @@ export const App = ({ player, shortcuts }: AppProps) => {
         </aside>
         <aside className="column column-run" aria-label={tabsText.queue}>
           <PlotBar />
+          {/* What a plot begins with comes first, and the queue once something is plotted. */}
+          {!hasJob && <div className="tab-machine">{machine}</div>}
           <div className="tab-queue">
             <QueuePanel />
           </div>
-          <div className="tab-machine">
-            {hasCamera && <Camera />}
-            <MachinePanel />
-          </div>
+          {hasJob && <div className="tab-machine">{machine}</div>}
           <div className="tab-queue">
             <HistoryPanel />
           </div>

@@ -23,6 +23,8 @@ export interface ViewSettings {
   readonly cameraUrl: string;
   /** Seconds between still pictures; 0: it is a stream. */
   readonly cameraEveryS: number;
+  /** The steps of a first plot were put away. */
+  readonly hidesFirstPlot: boolean;
 }
 
 export const DEFAULT_VIEW: ViewSettings = {
@@ -33,6 +35,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   openGroups: ["drawing", "paper", "layers", "motion"],
   cameraUrl: "",
   cameraEveryS: 0,
+  hidesFirstPlot: false,
 };
 
 const viewSchema = z.object({
@@ -43,6 +46,7 @@ const viewSchema = z.object({
   openGroups: z.array(z.string().max(50)).max(50),
   cameraUrl: z.string().max(2_000),
   cameraEveryS: z.number().min(0).max(3_600),
+  hidesFirstPlot: z.boolean(),
 }) satisfies z.ZodType<ViewSettings>;
 
 export interface Remembered {
