@@ -140,6 +140,7 @@ describe("pens on the page", () => {
     await test.page.getByRole("button", { name: "A pen for each colour" }).click();
     await test.planned();
     expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual([
+      "Stop: put in Red",
       "Stop: put in Blue",
       "Stop: put in Orange",
     ]);
