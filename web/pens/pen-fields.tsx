@@ -1,6 +1,5 @@
-import { DROP_RATE, HOP_TABLE, PEN_TABLE, type NumberSetting } from "../../src/internal.js";
+import { DROP_RATE, HOP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { isReady } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { heightsText } from "./text.js";
 import { Switch } from "../ui/choice.js";
@@ -12,7 +11,7 @@ type PenSettings = PlotSettings["pen"];
 /** A hop is lifted by this share of the full lift when it is switched on. */
 const FIRST_HOP_SHARE = 0.4;
 
-/** Heights, waits and refinements of the pen. */
+/** Waits and refinements of the pen; its heights are in the plotter's panel. */
 export const PenFields = () => {
   const pen = usePageState((state) => state.settings.pen);
   const { changeSettings } = useActions();
@@ -23,21 +22,6 @@ export const PenFields = () => {
     }));
   return (
     <>
-      <HeightField
-        setting={PEN_TABLE.upPct}
-        tryLabel={words.tryUp}
-        value={pen.upPct}
-        isUp
-        onChange={(upPct) => change({ upPct })}
-      />
-      <HeightField
-        setting={PEN_TABLE.downPct}
-        tryLabel={words.tryDown}
-        value={pen.downPct}
-        isUp={false}
-        onChange={(downPct) => change({ downPct })}
-      />
-      <p className="note">{words.heightHint}</p>
       <div className="field-pair">
         <SettingField
           setting={PEN_TABLE.liftMs}
@@ -104,30 +88,3 @@ const Hop = ({ pen: { hop, upPct, downPct }, change }: RefinementProps) => (
     )}
   </>
 );
-
-interface HeightFieldProps {
-  readonly setting: NumberSetting;
-  readonly tryLabel: string;
-  readonly value: number;
-  readonly isUp: boolean;
-  onChange(value: number): void;
-}
-
-const HeightField = ({ setting, tryLabel, value, isUp, onChange }: HeightFieldProps) => {
-  const isIdle = usePageState(isReady);
-  const { movePen } = useActions();
-  return (
-    <div className="field-with-button">
-      <SettingField setting={setting} value={value} onChange={onChange} />
-      <button
-        type="button"
-        className="button"
-        aria-label={tryLabel}
-        disabled={!isIdle}
-        onClick={() => void movePen(isUp, value)}
-      >
-        {words.try}
-      </button>
-    </div>
-  );
-};
