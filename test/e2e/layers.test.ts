@@ -160,6 +160,10 @@ describe("pens on the page", () => {
     await test.look("Pen");
     await test.page.getByLabel("Colour: Red").fill("#00c000");
     await test.drawn();
+    // The legend lies over the canvas, in the same colours.
+    await test.page
+      .locator(".looks")
+      .evaluate((looks: HTMLElement) => looks.style.setProperty("opacity", "0"));
     const counts = await colorCounts(test.page.getByRole("img", { name: "Preview", exact: true }));
     const ofChannel = (shift: number): number =>
       [...counts].reduce((sum, [rgb, count]) => {

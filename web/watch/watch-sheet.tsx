@@ -28,11 +28,17 @@ export const WatchSheet = () => {
         <canvas ref={overlay} aria-hidden="true" />
       </div>
       <Nothing />
-      <div className="preview-tools">
-        <Tool icon="minus" label={previewText.zoomOut} onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)} />
-        <Tool icon="plus" label={previewText.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
-        <Tool icon="fit" label={previewText.fitPaper} onClick={() => stage.current?.fit()} />
-        <FullScreenButton />
+      <div className="preview-foot">
+        <div className="preview-tools">
+          <Tool
+            icon="minus"
+            label={previewText.zoomOut}
+            onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)}
+          />
+          <Tool icon="plus" label={previewText.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
+          <Tool icon="fit" label={previewText.fitPaper} onClick={() => stage.current?.fit()} />
+          <FullScreenButton />
+        </div>
       </div>
     </section>
   );
