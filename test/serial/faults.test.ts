@@ -175,7 +175,7 @@ describe.concurrent("in mid-plot", () => {
     board.tell({ type: "send", line: "CS\r" });
     void run.cancel().catch(() => undefined);
     const { outcome, afterS } = await ended();
-    expect(outcome).toMatch(/^board-error: The board's motors stand at .* Set home again/);
+    expect(outcome).toMatch(/^board-error: The board's motors are at .* Set home again/);
     expect(afterS).toBeLessThan(WITHIN_S);
   });
 });
