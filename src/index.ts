@@ -91,7 +91,7 @@ export {
   type MotionMode,
   type MotionSettings,
 } from "./settings/motion.js";
-export { DEFAULT_PEN, type HopSettings, type LayerPen, type PenSettings } from "./settings/pen.js";
+export { DEFAULT_PEN, type LayerPen, type PenOverlap, type PenSettings } from "./settings/pen.js";
 export { plan, type PlanOptions } from "./plan/plan.js";
 export {
   stateAt,

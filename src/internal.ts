@@ -9,7 +9,7 @@ export {
 } from "./settings/setting.js";
 export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./settings/tables.js";
 export { DRAW_TABLE, EASE_TABLE, FIT_TABLE, TRAVEL_TABLE } from "./settings/motion.js";
-export { DROP_RATE, HOP_TABLE, LAYER_WAIT, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
+export { DROP_RATE, LAYER_WAIT, OVERLAP_TABLE, PEN_TABLE, PLOT_PEN_TABLE } from "./settings/pen.js";
 export { HATCH_TABLE, LAYER_REPEATS, PAPER_TABLE, PREPARE_TABLE } from "./settings/prepare.js";
 export type { EbbController } from "./machines/profile.js";
 export { STREAM_TABLE } from "./settings/stream.js";

@@ -37,6 +37,8 @@ const PIECE_TURN = 0.01;
 const SHARE_OF_ACCEL = 0.995;
 /** Shortest piece, s: a motor cannot follow anything shorter. */
 const SHORTEST_PIECE_S = 2e-5;
+/** An acceleration that leaves the motion as planned, mm/s². */
+const NO_BRAKING = 1e-9;
 /** Below this speed the carriage counts as at rest, mm/s. */
 const REST_SPEED = 1e-6;
 /** Below this curvature the path counts as straight, 1/mm. */
@@ -69,7 +71,9 @@ export function comeToRest(
   const speed = Math.hypot(state.vx, state.vy);
   const pieces = emptyPieces();
   if (speed <= REST_SPEED) return finish(trajectory, pieces, state, tS, -1, pen);
-  const accel = state.penUp ? limits.travelAccel : limits.drawAccel;
+  // A pen that comes down on the way to a stroke must not touch the paper before it: go on to the stroke's start.
+  const isLowering = !state.penUp && state.stroke < 0;
+  const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
   const planS = slowDown(trajectory, tS, speed * speed, accel, pieces);
   const end = stateAt(trajectory, planS);
   return finish(
@@ -215,7 +219,8 @@ function finish(
   const runCount = count > 0 ? 1 : 0;
   const lifts = pen !== null && !isPenUpBefore(original, planS);
   const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
-  const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, heightPct: pen?.upPct ?? 0 };
+  const heightPct = pen?.upPct ?? 0;
+  const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, moveS: waitS, heightPct };
   const trajectory: Trajectory = {
     blockCount: count,
     durationS: Float64Array.from(pieces.durationS),

@@ -81,8 +81,6 @@ describe.each(MACHINES)("the pen of %s", (machine) => {
   it.each([
     ["by time", DEFAULT_PEN],
     ["by rate", GENTLE],
-    ["by time, with hops", { ...DEFAULT_PEN, hop: { longestMm: 5, upPct: 40 } }],
-    ["by rate, with hops", { ...GENTLE, hop: { longestMm: 5, upPct: 40 } }],
     ["by layer", { ...DEFAULT_PEN, layers: { l1: { downPct: 10, dropMs: 120, liftMs: 120 } } }],
   ] as const)("has arrived before the carriage moves: %s", (_, pen) => {
     const dash = (x: number, y: number): Point[] => [

@@ -19,7 +19,10 @@ export const enSetup = {
     tryUp: "Try the height up",
     tryDown: "Try the height down",
     gentle: "Lower the pen gently",
-    hop: "Lift less for short hops",
+    overlaps: { off: "Off", safe: "Safe", fast: "Fast" },
+    tryContact: "Try the height at which the tip leaves the paper",
+    contactHint:
+      "Put paper under the pen, press Try, and lower the number until the tip just marks. 0 % is the height down, 100 % the height up.",
   },
 
   layers: {

@@ -194,15 +194,6 @@ describe("settings beyond speed and acceleration", () => {
     ]);
   });
 
-  it("lift the pen less for short hops, and start moving once it is clear", () => {
-    const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]], [[100, 100], [90, 90]]]); // prettier-ignore
-    const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
-    const lifts = penMovesOf(plan(strokes, base, pen)).filter((m) => m.up);
-    expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
-    expect(lifts[0].waitS).toBeCloseTo(0.25 / 3 / 2, 9);
-    expect(lifts[1].waitS).toBeCloseTo(0.125, 9);
-  });
-
   it("time the pen by its rate and delay", () => {
     const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
     const t = plan(strokeSetOf([square]), base, pen);
@@ -226,8 +217,8 @@ describe("settings beyond speed and acceleration", () => {
       [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
       [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
       [{}, { dropPctPerS: 0 }, /sinks at/],
-      [{}, { clearPct: 120 }, /clear after/],
-      [{}, { hop: { longestMm: 3, upPct: 20 } }, /hop height 20 % is not above/],
+      [{}, { contactPct: 120 }, /leaves the paper at is 120/],
+      [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
     ];
     for (const [motion, pen, message] of wrong) {

@@ -5,11 +5,14 @@
 import { checkProfile } from "../../../machines/check-profile.js";
 import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
+import { dropsInFlight } from "../../../plan/pen-flight.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { firmwareFeatures } from "./firmware.js";
 
 /** The servo moves during this part of the wait for it; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
+/** A drop in flight is as slow as its time says: a quicker one would touch the paper before the carriage arrives. */
+const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
 const STANDARD_PIN = 4;
@@ -46,6 +49,8 @@ export interface PenWay {
   readonly timeMs: number;
   /** Requested speed; null or left out: fast enough to arrive within `timeMs`. */
   readonly ratePctPerS?: number | null | undefined;
+  /** It comes down while the carriage moves. */
+  readonly inFlight?: boolean | undefined;
 }
 
 /** The move between the two heights of the settings. */
@@ -55,7 +60,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
   const delayMs = up ? pen.liftMs : pen.dropMs;
   const ratePctPerS = up ? pen.liftPctPerS : pen.dropPctPerS;
   const timeMs = ratePctPerS ? delayMs + (1_000 * wayPct) / ratePctPerS : delayMs;
-  return { up, heightPct, wayPct, timeMs, ratePctPerS };
+  return { up, heightPct, wayPct, timeMs, ratePctPerS, inFlight: !up && dropsInFlight(pen) };
 }
 
 /** Height and speed of SP in one direction. Empty if S2 moves the pen. */
@@ -82,11 +87,12 @@ export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number 
 export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
-function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
+function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS, inFlight }: PenWay): number {
   const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
+  const partOfWait = inFlight ? WHOLE_WAIT : SERVO_PART_OF_WAIT;
   const frames = ratePctPerS
     ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
-    : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
+    : Math.max(1, Math.floor((timeMs * partOfWait) / SERVO_FRAME_MS));
   const rate = ratePctPerS && wayPct === 0 ? 1 : (wayPct * unitsPerPct) / frames;
   return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
 }
