@@ -1,7 +1,13 @@
 import { defineConfig } from "vitest/config";
 
-/** Tests at the speed of a real board: other work beside them would disturb them. */
+/** Tests at the speed of a real board. They mostly wait; heavier work beside them would disturb them. */
 const REAL_TIME = ["test/serial/**/*.test.ts"];
+
+/** Keeps a server as busy as it may be while a board plots: nothing else runs then. */
+const LOAD = ["test/serial/load.test.ts"];
+
+/** Tests of functions. They leave nothing behind, so they share workers that have loaded the product once. */
+const FUNCTIONS = ["test/unit/**/*.test.ts", "test/property/**/*.test.ts", "test/architecture/**/*.test.ts"];
 
 /** Tests of the built product, in processes of their own, and in a browser. */
 const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test/**/*.alone.test.ts"];
@@ -22,9 +28,19 @@ export default defineConfig({
       {
         test: {
           ...COMMON,
+          name: "functions",
+          include: FUNCTIONS,
+          exclude: PROCESSES,
+          ...limits(60_000),
+          isolate: false,
+        },
+      },
+      {
+        test: {
+          ...COMMON,
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-          exclude: [...PROCESSES, ...REAL_TIME],
+          exclude: [...FUNCTIONS, ...PROCESSES, ...REAL_TIME],
           ...limits(60_000),
         },
       },
@@ -42,9 +58,18 @@ export default defineConfig({
           ...COMMON,
           name: "real-time",
           include: REAL_TIME,
+          exclude: LOAD,
           globalSetup: ["test/support/built.ts"],
           ...limits(120_000),
-          fileParallelism: false,
+        },
+      },
+      {
+        test: {
+          ...COMMON,
+          name: "load",
+          include: LOAD,
+          globalSetup: ["test/support/built.ts"],
+          ...limits(120_000),
         },
       },
     ],

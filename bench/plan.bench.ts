@@ -12,18 +12,17 @@
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import {
-  DEFAULT_FIT,
   DEFAULT_MOTION,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   importSvg,
-  MOTION_MODES,
   plan,
   prepare,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES } from "../src/internal.js";
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 

@@ -2,16 +2,14 @@
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import {
-  DEFAULT_FIT,
   DEFAULT_PEN,
-  MOTION_MODES,
   plan,
   stateAt,
-  type MotionMode,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../src/internal.js";
 import { cornersOf, type Point } from "../test/support/reference-planners/polyline.js";
 import { junctionDeviation } from "../test/support/reference-planners/systems.js";
 

@@ -25,9 +25,9 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** The projects of vitest.config.ts that may run beside the checks; "real-time" runs when nothing else does. */
-const SHARED_RUNS = ["together", "processes"];
-const REAL_TIME_RUN = "real-time";
+/** The projects of vitest.config.ts that may run beside the checks, and those that run after them. */
+const SHARED_RUNS = ["functions", "together", "processes"];
+const UNDISTURBED_RUNS = ["real-time", "load"];
 
 const failures = [];
 let passedCount = 0;
@@ -116,7 +116,7 @@ try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
   for (const name of SHARED_RUNS) await runTests(name, filters, folder);
   await checks;
-  await runTests(REAL_TIME_RUN, filters, folder);
+  for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }

@@ -2,7 +2,8 @@
  * `npx tsx scripts/true-corners.ts`: what one corner costs under each rule and at least, and how much longer blend takes for
  * whole polygons than junction, for docs/comparison.md.
  */
-import { DEFAULT_PEN, plan, type MotionMode, type StrokeSet } from "../src/index.js";
+import { DEFAULT_PEN, plan, type StrokeSet } from "../src/index.js";
+import type { MotionMode } from "../src/internal.js";
 import { blendLoss, junctionLoss, leastLoss } from "../test/support/corner-bound.js";
 
 const LIMITS = { accel: 500, deviation: 0.05 };

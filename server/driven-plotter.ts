@@ -1,5 +1,6 @@
 /** A plotter as the queue and the routes use it: a driver with an id, a name and a machine. */
-import { findMachine, PlotwrightError } from "../src/index.js";
+import { PlotwrightError } from "../src/index.js";
+import { findMachine, machineOf, driverOf } from "../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -72,7 +73,7 @@ export async function openPlotter(choice: DeviceChoice, settings: PlotSettings):
   const { connection, message } = plotter.snapshot();
   if (connection === "idle") return plotter;
   await plotter.close();
-  if (connection === "absent" && device === "auto") {
+  if (connection === "absent" && device === "auto" && driverOf(machineOf(settings)).usbIds.length > 0) {
     throw new PlotwrightError(
       "no-board",
       "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",

@@ -3,7 +3,7 @@ import { randomUUID } from "node:crypto";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
-import { machineOf } from "../src/index.js";
+import { machineOf } from "../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type Pairing,

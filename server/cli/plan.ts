@@ -2,19 +2,22 @@
 import {
   PlotwrightError,
   importDrawing,
-  machineOf,
   planJob,
-  pointCount,
-  strokeCount,
   trajectoryStats,
-  trajectoryToSvg,
-  svgOptionsOf,
-  toJson,
   toSvg,
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
-import { prepareJob, type PreparedJob } from "../../src/internal.js";
+import {
+  prepareJob,
+  type PreparedJob,
+  machineOf,
+  pointCount,
+  strokeCount,
+  trajectoryToSvg,
+  svgOptionsOf,
+  toJson,
+} from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readDrawing } from "../planning/read-drawing.js";

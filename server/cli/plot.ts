@@ -3,7 +3,8 @@
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
  */
 import { basename } from "node:path";
-import { PlotwrightError, machineOf } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { WorkerPlanner } from "../planning/planner.js";

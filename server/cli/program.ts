@@ -19,7 +19,8 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
     return exitCode;
   } catch (error) {
     if (error instanceof CommanderError) return error.exitCode === 0 ? 0 : BAD_USAGE;
-    const { ERROR_TABLE, PlotwrightError } = await import("../../src/index.js");
+    const { PlotwrightError } = await import("../../src/index.js");
+    const { ERROR_TABLE } = await import("../../src/internal.js");
     if (error instanceof PlotwrightError) {
       io.err(`plotwright: ${oneLine(error.message)}\n`);
       return ERROR_TABLE[error.code].exitCode;

@@ -1,7 +1,15 @@
 /** The settings that have an option on the command line: the flag, where its value goes, how it is read. */
 import { InvalidArgumentError } from "commander";
-import { PAPER_SIZES, type FourMargins, type PaperSize, type PlacedBox } from "../../src/index.js";
-import { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "../../src/internal.js";
+import { PAPER_SIZES } from "../../src/index.js";
+import {
+  SETTING_FLAGS,
+  flagInWords,
+  valuesInWords,
+  type SettingFlag,
+  type FourMargins,
+  type PaperSize,
+  type PlacedBox,
+} from "../../src/internal.js";
 import { length, sizeMm } from "./lengths.js";
 
 export interface SettingOption {

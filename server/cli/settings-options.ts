@@ -3,7 +3,8 @@
  * checked by the same schema as the web's; a fault names the flag, or the place in the file.
  */
 import { Option, type Command } from "commander";
-import { findMachine, PlotwrightError, type MachineProfile } from "../../src/index.js";
+import { PlotwrightError, type MachineProfile } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../data-dir.js";
 import { MachineFiles, machineOfText } from "../machines/machine-files.js";

@@ -1,7 +1,8 @@
 /** Answers every error as `{ error: { code, message } }` with its status in ERROR_TABLE. */
 import type { ErrorRequestHandler, RequestHandler } from "express";
 import type { ZodType } from "zod";
-import { ERROR_TABLE, PlotwrightError, type ErrorCode } from "../../src/index.js";
+import { PlotwrightError, type ErrorCode } from "../../src/index.js";
+import { ERROR_TABLE } from "../../src/internal.js";
 import { isDiskFault } from "../queue/disk-fault.js";
 
 /** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */

@@ -1,5 +1,5 @@
 /** The bounding box of a drawing's strokes on the machine, as placed by its settings. */
-import { machineOf } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
 import { WorkerPlanner } from "./planner.js";
 

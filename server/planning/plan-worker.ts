@@ -3,15 +3,8 @@
  * starts fast.
  */
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
-import {
-  importDrawing,
-  planJob,
-  pointCount,
-  strokeCount,
-  trajectoryStats,
-  type Prepared,
-} from "../../src/index.js";
-import { prepareJob } from "../../src/internal.js";
+import { importDrawing, planJob, trajectoryStats, type Prepared } from "../../src/index.js";
+import { prepareJob, pointCount, strokeCount } from "../../src/internal.js";
 import type { JobStats } from "../../src/schema/index.js";
 import { faultOf, type FromWorker, type ToWorker, type WorkerInput } from "./messages.js";
 import { withOnlyLayers } from "./only-layers.js";

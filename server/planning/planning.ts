@@ -1,6 +1,6 @@
 /** Planning for the queue: takes the id of a stored drawing and uses a few threads at a time. */
 import { stat } from "node:fs/promises";
-import { machineOf } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../queue/drawing-files.js";
 import type { Planning } from "../queue/queue-parts.js";

@@ -7,7 +7,7 @@ import { openSerial } from "../serial/serial-transport.js";
 
 export interface ConnectOptions {
   readonly driver: Driver;
-  /** "auto": the first EiBotBoard on USB, else the virtual one. "virtual", or a serial port's path. */
+  /** "auto": the first board on USB that is surely the driver's, else the virtual one. "virtual", or a serial port's path. */
   readonly device: string;
   /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
@@ -34,7 +34,7 @@ export interface Connection {
  */
 export async function connect(options: ConnectOptions): Promise<Connection> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
-  if (path === null && !options.virtualIfNone) throw unplugged();
+  if (path === null && !options.virtualIfNone) throw notFound(options.driver);
   if (path === null || path === "virtual") {
     const machine = await identified(options.virtualMachine().transport(), options);
     return { machine, kind: "virtual", device: null };
@@ -46,8 +46,8 @@ export async function connect(options: ConnectOptions): Promise<Connection> {
   return { machine, kind: "serial", device: path };
 }
 
-async function firstBoard({ isTaken = () => false }: ConnectOptions): Promise<string | null> {
-  const boards = await findBoards();
+async function firstBoard({ driver, isTaken = () => false }: ConnectOptions): Promise<string | null> {
+  const boards = await findBoards(driver.usbIds);
   return boards.find(({ path }) => !isTaken(path))?.path ?? null;
 }
 
@@ -62,5 +62,10 @@ function atDevice(error: unknown, device: string): unknown {
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 
-const unplugged = (): PlotwrightError =>
-  new PlotwrightError("no-board", "The plotter is no longer plugged in: check its USB cable and its power.");
+const notFound = ({ usbIds }: Driver): PlotwrightError =>
+  new PlotwrightError(
+    "no-board",
+    usbIds.length === 0
+      ? "This machine's controller can't be found by itself: name its port with --device."
+      : "The plotter is no longer plugged in: check its USB cable and its power.",
+  );

@@ -2,8 +2,8 @@
  * What may be asked of an idle plotter by hand, as data, and how the machine does it. Every move begins with the
  * pen up and stays within the machine; where nobody knows where the carriage is, it stands at home.
  */
-import { machineOf, planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
-import type { Machine } from "../../src/internal.js";
+import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import { type Machine, machineOf } from "../../src/internal.js";
 import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
 import { testPatch } from "./test-patch.js";
 

@@ -4,7 +4,8 @@
  * The drawing is planned from stop to stop, so that each part ends at home with the pen up. A stop is due
  * when the plot is about to start or resume at or after its stroke. It is answered when the user resumes.
  */
-import { penStopsOf, type PenStop, type Place, type StrokeSet } from "../../src/index.js";
+import type { Place, StrokeSet } from "../../src/index.js";
+import { penStopsOf, type PenStop } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
 export class PenStops {

@@ -10,14 +10,7 @@
  *
  * A drawing with pen changes is planned and streamed in parts, each from one change to the next.
  */
-import {
-  machineOf,
-  PlaceTimes,
-  PlotwrightError,
-  strokeCount,
-  type Place,
-  type StrokeSet,
-} from "../../src/index.js";
+import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
 import {
   movedPlace,
   placeBehindSent,
@@ -26,6 +19,9 @@ import {
   type Machine,
   type MachineRun,
   type MachineState,
+  machineOf,
+  PlaceTimes,
+  strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { PenStops } from "./pen-stops.js";

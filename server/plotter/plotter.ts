@@ -6,8 +6,15 @@
  *      ^                    │            │         │
  *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
  */
-import { machineOf, PlotwrightError, VirtualBoard, type Clock } from "../../src/index.js";
-import { driverOf, powerLost, powerLow, type Machine, type VirtualMachine } from "../../src/internal.js";
+import { PlotwrightError, type Clock } from "../../src/index.js";
+import {
+  driverOf,
+  powerLost,
+  powerLow,
+  type Machine,
+  type VirtualMachine,
+  machineOf,
+} from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -90,10 +97,9 @@ export class PlotterDriver {
     return this.current;
   }
 
-  /** The built-in virtual board while it is in use: gives access to the drawn line and simulated faults. */
-  get virtualBoard(): VirtualBoard | null {
-    const { virtual } = this;
-    return this.connection?.kind === "virtual" && virtual instanceof VirtualBoard ? virtual : null;
+  /** The built-in virtual machine while it is in use: gives access to the drawn line and simulated faults. */
+  get virtualMachine(): VirtualMachine | null {
+    return this.connection?.kind === "virtual" ? this.virtual : null;
   }
 
   onChange(listener: (state: PlotterState) => void): void {
@@ -118,7 +124,7 @@ export class PlotterDriver {
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    await this.connecting;
+    await this.connectFor(settings);
     const machine = this.idleMachine();
     this.settings = settings;
     this.machineChanged();
@@ -137,9 +143,10 @@ export class PlotterDriver {
 
   /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
   use(settings: PlotSettings): void {
-    machineOf(settings);
-    this.settings = settings;
-    this.machineChanged();
+    if (this.isConnectedFor(settings)) {
+      this.settings = settings;
+      this.machineChanged();
+    } else void this.connectFor(settings).catch(() => undefined);
   }
 
   async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
@@ -155,7 +162,7 @@ export class PlotterDriver {
    * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
   async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
-    machineOf(settings);
+    await this.connectFor(settings);
     await this.byHand((machine) => {
       this.settings = settings;
       return moveByHand(machine, move, settings);
@@ -225,6 +232,30 @@ export class PlotterDriver {
     if (run || this.movingByHand) await this.machine?.leave(this.settings).catch(() => undefined);
     await this.connection?.machine.close();
     this.virtual?.close();
+  }
+
+  private isConnectedFor(settings: PlotSettings): boolean {
+    return machineOf(settings).controller.kind === machineOf(this.settings).controller.kind;
+  }
+
+  /**
+   * Connects anew if the machine of these settings has another controller than the current one. Rejects if no such
+   * controller answers; the next attempt is made with the settings of before.
+   */
+  private async connectFor(settings: PlotSettings): Promise<void> {
+    await this.connecting;
+    if (this.isConnectedFor(settings) || this.run || this.movingByHand) return;
+    const before = this.settings;
+    this.settings = settings;
+    const { connection, virtual } = this;
+    this.machine = this.connection = this.virtual = null;
+    this.tell({ connection: "connecting", message: null, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    await connection?.machine.close().catch(() => undefined);
+    virtual?.close();
+    await this.startConnecting();
+    if (this.machine) return;
+    this.settings = before;
+    throw this.trouble ?? notStarted();
   }
 
   private startConnecting(): Promise<void> {

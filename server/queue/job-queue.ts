@@ -1,5 +1,6 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
-import { firmwareLimitsMotion, PlotwrightError } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { machineOf, firmwareFor, isPlannedAlike } from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
@@ -7,6 +8,7 @@ import {
   type JobChange,
   type JobPatch,
   type MovePlace,
+  type PlotSettings,
   type QueueSettings,
 } from "../../src/schema/index.js";
 import type { Requester } from "../planning/lane.js";
@@ -84,7 +86,7 @@ export class JobQueue {
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
-    const firmware = this.#firmwareOf(plotterId);
+    const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
     // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
@@ -123,20 +125,19 @@ export class JobQueue {
     requester: Requester,
   ): Promise<Partial<Job>> {
     const job = this.get(id);
-    const firmware = this.#firmwareOf(plotterId ?? job.plotterId);
-    const motionDiffers =
-      firmwareLimitsMotion(firmware) !== firmwareLimitsMotion(this.#firmwareOf(job.plotterId));
-    if (settings === undefined && !motionDiffers) return {};
     const wanted = settings ?? job.settings;
+    const firmware = this.#firmwareOf(plotterId ?? job.plotterId, wanted);
+    const before = this.#firmwareOf(job.plotterId, wanted);
+    if (settings === undefined && isPlannedAlike(machineOf(wanted), firmware, before)) return {};
     const drawing = this.#parts.store.drawingOf(id);
     const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
     this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
-  /** Null while the board is unknown. */
-  #firmwareOf(plotterId: string): string | null {
-    return this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null;
+  /** Null while the board is unknown, and where it has another controller than the machine of the settings. */
+  #firmwareOf(plotterId: string, settings: PlotSettings): string | null {
+    return firmwareFor(machineOf(settings), this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
   }
 
   move(id: string, beforeId: string | null): void {

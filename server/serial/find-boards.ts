@@ -1,8 +1,5 @@
 import { SerialPort } from "serialport";
-
-/** USB ids of every EiBotBoard (Microchip's vendor id, with a sublicensed product id). */
-const EBB_VENDOR = "04d8";
-const EBB_PRODUCT = "fd92";
+import { usbIds, type UsbId } from "../../src/internal.js";
 
 export interface FoundBoard {
   /** The path to pass to `--device`. */
@@ -12,12 +9,15 @@ export interface FoundBoard {
   readonly serialNumber: string | null;
 }
 
-/** All EiBotBoards on USB, sorted by path. */
-export async function findBoards(): Promise<readonly FoundBoard[]> {
+/** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
+export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {
   const ports = await SerialPort.list();
   return ports
-    .filter(
-      (port) => port.vendorId?.toLowerCase() === EBB_VENDOR && port.productId?.toLowerCase() === EBB_PRODUCT,
+    .filter((port) =>
+      ids.some(
+        ({ vendorId, productId }) =>
+          port.vendorId?.toLowerCase() === vendorId && port.productId?.toLowerCase() === productId,
+      ),
     )
     .map((port) => ({
       path: port.path,

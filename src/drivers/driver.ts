@@ -16,7 +16,15 @@ import type { MachineSettings, MachineState, PlannedPlot } from "./machine-job.j
 import type { PlotProgress, RunProgress } from "./run-progress.js";
 import type { Clock, Transport } from "./transport.js";
 
+/** A kind of USB device, in hexadecimal, lower case. */
+export interface UsbId {
+  readonly vendorId: string;
+  readonly productId: string;
+}
+
 export interface Driver {
+  /** Devices that are surely this controller: "auto" takes the first. None: the user names the port. */
+  readonly usbIds: readonly UsbId[];
   /** Learns who is at the other end. Closes the line and rejects when it is nobody that this driver knows. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** The controller in software, to plot without hardware. */

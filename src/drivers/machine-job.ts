@@ -67,10 +67,18 @@ export interface DriverPlanOptions {
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
 
+/** What of a controller's firmware decides a plan. */
+export interface FirmwareRules {
+  /** Whether a version that some machine has shown is one of this controller's. */
+  isOwn(firmware: string): boolean;
+  /** Whether plans for it are slower than the settings ask for; null: nobody has been asked. */
+  limitsMotion(firmware: string | null): boolean;
+}
+
 /** From strokes, and settings that already hold the codes of the layers' names, to a job. */
-export type PlanForMachine<Commands extends MachineCommands> = (
+export type PlanForMachine = (
   strokes: StrokeSet,
   settings: JobSettings,
   machine: MachineProfile,
   options: DriverPlanOptions,
-) => MachineJob<Commands>;
+) => MachineJob;

@@ -1,32 +1,45 @@
 /**
- * The drivers, by the `kind` of a machine's controller. Planning has a table of its own: a page that only plans does not
- * load what talks to a machine.
+ * The drivers, by the `kind` of a machine's controller. Planning and versions have tables of their own: a page that
+ * only plans does not load what talks to a machine.
  */
 import { PlotwrightError } from "../errors.js";
-import type { Controller, MachineProfile } from "../machines/profile.js";
-import type { Driver } from "./driver.js";
-import type { CommandStream } from "./ebb/compile/command-stream.js";
+import type { Controller } from "../machines/controllers.js";
+import type { MachineProfile } from "../machines/profile.js";
+import type { Driver, UsbId } from "./driver.js";
 import { planEbbJob } from "./ebb/compile/ebb-job.js";
 import { ebbDriver } from "./ebb/ebb-driver.js";
-import type { PlanForMachine } from "./machine-job.js";
+import { ebbFirmware } from "./ebb/protocol/firmware-motion.js";
+import type { FirmwareRules, PlanForMachine } from "./machine-job.js";
 
-/** What a job's commands can be, one type for each driver. */
-export type AnyCommands = CommandStream;
+type ByController<T> = Readonly<Partial<Record<Controller["kind"], T>>>;
 
-type ByController<T> = Readonly<Record<Controller["kind"], T>>;
-
-const PLANNERS: ByController<PlanForMachine<AnyCommands>> = { ebb: planEbbJob };
+const PLANNERS: ByController<PlanForMachine> = { ebb: planEbbJob };
+const FIRMWARES: ByController<FirmwareRules> = { ebb: ebbFirmware };
 const DRIVERS: ByController<Driver> = { ebb: ebbDriver };
 
 /** Plans jobs for a machine. Throws `bad-setting` for a profile whose controller is not known. */
-export const plannerOf = (machine: MachineProfile): PlanForMachine<AnyCommands> =>
-  ofController(PLANNERS, machine);
+export const plannerOf = (machine: MachineProfile): PlanForMachine => ofController(PLANNERS, machine);
 
 /** Connects machines. Throws `bad-setting` for a profile whose controller is not known. */
 export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
 
+/** The USB devices of all drivers. */
+export const usbIds = (): readonly UsbId[] => Object.values(DRIVERS).flatMap((driver) => driver.usbIds);
+
+/** The version to plan for: null where it is that of another controller than the machine's. */
+export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
+  return firmware !== null && ofController(FIRMWARES, machine).isOwn(firmware) ? firmware : null;
+}
+
+/** Whether a machine moves in the same way with either version. */
+export function isPlannedAlike(machine: MachineProfile, a: string | null, b: string | null): boolean {
+  const { limitsMotion } = ofController(FIRMWARES, machine);
+  return limitsMotion(firmwareFor(machine, a)) === limitsMotion(firmwareFor(machine, b));
+}
+
 function ofController<T>(table: ByController<T>, { name, controller }: MachineProfile): T {
-  if (Object.hasOwn(table, controller.kind)) return table[controller.kind];
+  const found = Object.hasOwn(table, controller.kind) ? table[controller.kind] : undefined;
+  if (found) return found;
   const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",

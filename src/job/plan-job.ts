@@ -6,7 +6,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
-import { plannerOf, type AnyCommands } from "../drivers/registry.js";
+import { plannerOf } from "../drivers/registry.js";
 import { checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
@@ -30,7 +30,7 @@ export function planJob(
   settings: JobSettings,
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
-): MachineJob<AnyCommands> {
+): MachineJob {
   checkProfile(machine);
   const coded = withLayerCodes(settings, strokes.layers);
   return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);

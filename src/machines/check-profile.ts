@@ -1,5 +1,7 @@
 /** Checks profiles written by hand in programs without types, which may lack required fields. */
 import { PlotwrightError } from "../errors.js";
+import { isAllowed, rangeInWords, type NumberSetting, type SettingsTable } from "../settings/setting.js";
+import { CONTROLLER_TABLES } from "./controllers.js";
 import type { MachineProfile } from "./profile.js";
 
 const isNumber = (value: unknown): boolean => Number.isFinite(value);
@@ -22,13 +24,29 @@ const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
   stepsPerMm: ABOVE_0,
   motors: { isRight: isOneOf("mixed", "direct"), what: '"mixed" or "direct"' },
 };
-const CONTROLLER_NEEDS: Readonly<Record<string, Need>> = {
-  kind: { isRight: isOneOf("ebb"), what: '"ebb"' },
+const EBB_NEEDS: Readonly<Record<string, Need>> = {
   microstepMode: { isRight: isOneOf(1, 2, 3, 4, 5), what: "1, 2, 3, 4 or 5" },
   servoPosAt0Pct: NUMBER,
   servoPosAt100Pct: NUMBER,
   servoPin: { isRight: isOneOf(4, 5), what: "4 or 5" },
 };
+
+const needOf = (row: NumberSetting): Need => ({
+  isRight: (value) => isAllowed(row, value as number),
+  what: rangeInWords(row),
+});
+const needsOf = (table: SettingsTable): Record<string, Need> =>
+  Object.fromEntries(
+    Object.entries(table).flatMap(([key, row]) => (row.kind === "number" ? [[key, needOf(row)]] : [])),
+  );
+
+/** By the controller's kind. */
+const CONTROLLER_NEEDS: Readonly<Record<string, Readonly<Record<string, Need>>>> = {
+  ebb: EBB_NEEDS,
+  ...Object.fromEntries(Object.entries(CONTROLLER_TABLES).map(([kind, table]) => [kind, needsOf(table)])),
+};
+const KINDS = Object.keys(CONTROLLER_NEEDS);
+const KIND: Need = { isRight: isOneOf(...KINDS), what: KINDS.map((kind) => `"${kind}"`).join(" or ") };
 
 /** @throws PlotwrightError "bad-setting" for the first field that is missing or invalid */
 export function checkProfile(machine: MachineProfile): void {
@@ -38,7 +56,9 @@ export function checkProfile(machine: MachineProfile): void {
   if (typeof controller !== "object" || controller === null) {
     throw bad(`The machine profile "${name}" has no controller: what drives its motors and its pen.`);
   }
-  check(name, "controller.", CONTROLLER_NEEDS, controller);
+  check(name, "controller.", { kind: KIND }, controller);
+  const { kind } = controller as { readonly kind: string };
+  check(name, "controller.", CONTROLLER_NEEDS[kind] ?? {}, controller);
 }
 
 function check(name: string, at: string, needs: Readonly<Record<string, Need>>, values: object): void {

@@ -1,5 +1,7 @@
+import type { Controller } from "./controllers.js";
+
 /** A plotter as data: what the compiler and the page need to know about it. */
-export interface MachineProfile {
+export interface MachineProfile<C extends Controller = Controller> {
   readonly id: string;
   readonly name: string;
   /** Travel limits, mm from home. */
@@ -14,38 +16,5 @@ export interface MachineProfile {
   readonly flipY?: boolean | undefined;
   /** x and y are exchanged, because of how the motors are plugged in or how the machine is placed. */
   readonly swapAxes?: boolean | undefined;
-  readonly controller: Controller;
+  readonly controller: C;
 }
-
-/** What drives the motors and the pen. `kind` selects the driver in src/drivers. */
-export type Controller = EbbController;
-
-/** EiBotBoard, used by AxiDraw, NextDraw, EggBot and others. */
-export interface EbbController {
-  readonly kind: "ebb";
-  /** 1 = 1/16 steps, 2 = 1/8, 3 = 1/4, 4 = 1/2, 5 = whole steps. */
-  readonly microstepMode: 1 | 2 | 3 | 4 | 5;
-  /** Servo positions at 0 % and 100 % height, units of 1/12 µs (83.3 ns). */
-  readonly servoPosAt0Pct: number;
-  readonly servoPosAt100Pct: number;
-  /** Servo output: 4 = RB1 (standard), 5 = RB2 (brushless upgrade). */
-  readonly servoPin: 4 | 5;
-  /** Switches at x = 0 and y = 0. Null or left out: home is where the user places the carriage. */
-  readonly homing?: HomingSwitches | null | undefined;
-}
-
-export interface HomingSwitches {
-  readonly x: SwitchInput;
-  readonly y: SwitchInput;
-}
-
-/** One input pin of the board. */
-export interface SwitchInput {
-  readonly port: (typeof INPUT_PORTS)[number];
-  /** 0 … 7. */
-  readonly pin: number;
-  /** The pin's level while the switch is pressed. */
-  readonly pressed: 0 | 1;
-}
-
-export const INPUT_PORTS = ["A", "B", "C", "D", "E"] as const;

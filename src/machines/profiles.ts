@@ -6,7 +6,10 @@
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
  */
 import { PlotwrightError } from "../errors.js";
-import type { EbbController, MachineProfile } from "./profile.js";
+import type { EbbController } from "./controllers.js";
+import type { MachineProfile } from "./profile.js";
+
+type EbbMachine = MachineProfile<EbbController>;
 
 const STANDARD_SERVO: EbbController = {
   kind: "ebb",
@@ -24,7 +27,7 @@ const BRUSHLESS_SERVO: EbbController = {
 };
 const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed" } as const;
 
-const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+const axidraw = (id: string, name: string, widthMm: number, heightMm: number): EbbMachine => ({
   id,
   name,
   widthMm,
@@ -32,7 +35,7 @@ const axidraw = (id: string, name: string, widthMm: number, heightMm: number): M
   ...BELT_DRIVE,
   controller: STANDARD_SERVO,
 });
-const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): EbbMachine => ({
   id,
   name,
   widthMm,
@@ -45,7 +48,7 @@ const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): 
 const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
-export const MACHINES: readonly MachineProfile[] = [
+export const MACHINES: readonly EbbMachine[] = [
   axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
   axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
   axidraw("axidraw-se-a4", "AxiDraw SE/A4", 300, 218),
@@ -79,7 +82,7 @@ export const MACHINES: readonly MachineProfile[] = [
 ];
 
 /** The profile with that id. Throws `bad-setting` with the list of known ids. */
-export function machineById(id: string): MachineProfile {
+export function machineById(id: string): EbbMachine {
   const machine = MACHINES.find((candidate) => candidate.id === id);
   if (machine === undefined) {
     const known = MACHINES.map((candidate) => candidate.id).join(", ");

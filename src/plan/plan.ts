@@ -17,7 +17,7 @@ import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
 import { dropTiming, liftTiming, penOfLayer } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
-import { RunWriter } from "./run-writer.js";
+import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
@@ -45,6 +45,11 @@ export interface PlanOptions {
   readonly endY?: number | undefined;
   /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
+  /**
+   * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself. It cannot be
+   * told to move the pen during a run.
+   */
+  readonly runs?: WritesRuns | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
@@ -63,8 +68,9 @@ export function plan(
 ): Trajectory {
   checkSettings(motion, pen);
   const from = checkPlace(options.from, strokeCount(strokes));
-  const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
-  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY);
+  const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
+  const penAtRuns = runs ? { ...pen, overlap: "off" as const } : pen;
+  const builder = new PlanBuilder(strokes, motion, penAtRuns, machine, startX, startY, runs);
   if (options.liftFirst ?? false) builder.liftAnyway();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
@@ -105,7 +111,7 @@ class PlanBuilder {
   private readonly blocks: BlockColumns;
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
-  private readonly writer: RunWriter;
+  private readonly writer: WritesRuns;
   private readonly penMoves: PenMoveWriter;
   private runCount = 0;
   private readonly firstBlock: Uint32Array;
@@ -134,6 +140,7 @@ class PlanBuilder {
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
+    runs?: WritesRuns,
   ) {
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
       throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
@@ -155,7 +162,7 @@ class PlanBuilder {
     this.penMoves = new PenMoveWriter(4 * count + 2);
     // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
     this.blocks = new BlockColumns(pointCount(strokes) + 1, motion.mode === "scurve");
-    this.writer = new RunWriter(motion.mode, motion.fit ?? null);
+    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null);
   }
 
   /**

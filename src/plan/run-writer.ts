@@ -12,7 +12,12 @@ import type { RunPath } from "./run-path.js";
 import { filteredPlan } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
 
-export class RunWriter {
+/** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
+export interface WritesRuns {
+  write(path: RunPath, limits: RunLimits, out: BlockColumns): void;
+}
+
+export class RunWriter implements WritesRuns {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);

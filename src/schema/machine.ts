@@ -1,7 +1,9 @@
 /** A plotter's profile, as sent, stored or written to a file. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
-import { INPUT_PORTS, type MachineProfile } from "../machines/profile.js";
+import { CONTROLLER_TABLES, INPUT_PORTS, type Controller } from "../machines/controllers.js";
+import type { MachineProfile } from "../machines/profile.js";
+import { shapeOf } from "./setting.js";
 
 const switchInputSchema = z.object({
   port: z.enum(INPUT_PORTS),
@@ -26,6 +28,14 @@ const ebbControllerSchema = z
     path: ["servoPosAt100Pct"],
   });
 
+const controllerSchema = z.discriminatedUnion("kind", [
+  ebbControllerSchema,
+  ...Object.entries(CONTROLLER_TABLES).map(([kind, table]) =>
+    z.object({ kind: z.literal(kind), ...shapeOf(table) }),
+  ),
+  // The tables are the types' source too, but their keys are lost in the list.
+]) as z.ZodType<Controller>;
+
 const profileShape = {
   /** Also used as a file name. */
   id: z.string().regex(/^[a-z0-9][a-z0-9-]{0,62}$/, "lower-case letters, digits and -, at most 63"),
@@ -37,7 +47,7 @@ const profileShape = {
   flipX: z.boolean().optional(),
   flipY: z.boolean().optional(),
   swapAxes: z.boolean().optional(),
-  controller: ebbControllerSchema,
+  controller: controllerSchema,
 };
 
 /** In format 1 the controller's fields are among the machine's; format 2 has `controller`. */

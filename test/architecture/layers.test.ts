@@ -12,7 +12,7 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   drawing: ["geometry", "units", "errors"],
   settings: ["drawing", "units", "errors"],
   import: ["drawing", "geometry", "units", "errors"],
-  machines: ["units", "errors"],
+  machines: ["settings", "units", "errors"],
   prepare: ["drawing", "geometry", "machines", "settings", "units", "errors"],
   plan: ["prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
   drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],

@@ -1,7 +1,8 @@
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { expect, it } from "vitest";
-import { BoardSession, Streamer, VirtualBoard } from "../../src/index.js";
+import { BoardSession, VirtualBoard } from "../../src/index.js";
+import { Streamer } from "../../src/internal.js";
 import { makeStream, type StreamRow } from "../support/make-stream.js";
 import { ManualClock } from "../support/manual-clock.js";
 

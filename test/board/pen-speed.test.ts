@@ -1,20 +1,14 @@
 /** The pen's servo goes as fast as the settings say, by hand and in plots, and has arrived when the carriage starts. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
-import {
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  machineById,
-  penCommand,
-  penMoveOf,
-  plan,
-  type PenSettings,
-} from "../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../src/index.js";
+import { penCommand, penMoveOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { FastBoard } from "../support/virtual-plots.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** One on the standard servo output (SP), one with a brushless lift (S2). */
 const MACHINES = ["axidraw-v3", "nextdraw-8511"];
@@ -28,7 +22,7 @@ async function driverOf(machine: string, pen: PenSettings) {
   const settings = { ...DEFAULT_PLOT_SETTINGS, machine, pen };
   const driver = new PlotterDriver({ device: "virtual", clock: world, settings });
   await world.run(driver.start());
-  return { world, driver, settings, board: driver.virtualBoard! };
+  return { world, driver, settings, board: virtualBoardOf(driver) };
 }
 
 /** A board just switched on may hold its pen anywhere. */

@@ -6,14 +6,12 @@ import {
   DEFAULT_PEN,
   machineById,
   plan,
-  Streamer,
   streamCommands,
-  type StreamProgress,
   VirtualBoard,
   type CommandStream,
   type PlotwrightError,
-  type StreamOptions,
 } from "../../src/index.js";
+import { Streamer, type StreamProgress, type StreamOptions } from "../../src/internal.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { makeStream, wavyRows, type StreamRow } from "../support/make-stream.js";
 import { ManualClock } from "../support/manual-clock.js";

@@ -3,15 +3,8 @@
  * is what happens, and what is drawn is the drawing.
  */
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  machineById,
-  motionForFirmware,
-  plan,
-  type MotionMode,
-  type Trajectory,
-} from "../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type Trajectory } from "../../src/index.js";
+import { motionForFirmware, type MotionMode } from "../../src/internal.js";
 import { SegmentGrid } from "../support/segment-grid.js";
 import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { FastBoard } from "../support/virtual-plots.js";

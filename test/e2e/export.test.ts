@@ -5,15 +5,13 @@ import {
   DEFAULT_PREPARE,
   importDrawing,
   importSvg,
-  machineOf,
   plan,
   prepare,
-  prepareSettingsOf,
   VirtualBoard,
-  withLayerCodes,
   type PrepareSettings,
   type StrokeSet,
 } from "../../src/index.js";
+import { machineOf, prepareSettingsOf, withLayerCodes } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { PageTest } from "../support/page-test.js";
 import { ascii } from "../support/virtual-plots.js";

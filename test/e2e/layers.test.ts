@@ -1,7 +1,8 @@
 /** Layers and pens on the page: what is set there reaches the plan, the job and the board. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { machineOf, VirtualBoard } from "../../src/index.js";
+import { VirtualBoard } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { chooseSample, colorCounts, dropFile, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";

@@ -3,7 +3,7 @@ import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { afterEach, describe, expect, it } from "vitest";
+import { describe, expect, it, type TestContext } from "vitest";
 import { PlotterDriver, type PlotterState } from "../../server/plotter/plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
 import type { PlotwrightError } from "../../src/index.js";
@@ -16,10 +16,11 @@ const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
 const WITHIN_S = 3;
 const clock = wakefulClock({ countsWork: true });
 
-const open: { close(): Promise<void> }[] = [];
-afterEach(async () => {
-  for (const thing of open.splice(0).reverse()) await thing.close();
-});
+/** What is opened is closed when its own test ends: other tests run beside it. */
+function closeAfter<T extends { close(): Promise<void> }>({ onTestFinished }: TestContext, thing: T): T {
+  onTestFinished(() => thing.close());
+  return thing;
+}
 
 interface Plot {
   readonly board: PtyBoard;
@@ -31,11 +32,9 @@ interface Plot {
 }
 
 /** A plot at real speed whose pen is just drawing. */
-async function drawing(firmware = "2.8.1"): Promise<Plot> {
-  const board = await PtyBoard.open({ firmware });
-  open.push(board);
-  const driver = new PlotterDriver({ device: board.path });
-  open.push(driver);
+async function drawing(test: TestContext, firmware = "2.8.1"): Promise<Plot> {
+  const board = closeAfter(test, await PtyBoard.open({ firmware }));
+  const driver = closeAfter(test, new PlotterDriver({ device: board.path }));
   await driver.start();
   const journal: JournalEntry[] = [];
   const run = await driver.plot(new LocalPlanner(LONG), DEFAULT_PLOT_SETTINGS, {
@@ -59,9 +58,10 @@ const state = (driver: PlotterDriver, is: (state: PlotterState) => boolean): Pro
     driver.onChange((now) => is(now) && resolve(now));
   });
 
-describe("in the middle of a plot", () => {
-  it("an unplugged board ends it as disconnected, with the place in the journal", async () => {
-    const { board, driver, journal, ended } = await drawing();
+// They mostly wait for the board, so some run side by side.
+describe.concurrent("in the middle of a plot", () => {
+  it("an unplugged board ends it as disconnected, with the place in the journal", async (test) => {
+    const { board, driver, journal, ended } = await drawing(test);
     board.tell({ type: "unplug" });
     const { outcome, afterS } = await ended();
     expect(outcome).toMatch(/^disconnected: .*USB cable/);
@@ -70,8 +70,8 @@ describe("in the middle of a plot", () => {
     expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
-  it("a board whose power fails for a moment ends it as disconnected, with the place in the journal", async () => {
-    const { board, driver, journal, ended } = await drawing();
+  it("a board whose power fails for a moment ends it as disconnected, with the place in the journal", async (test) => {
+    const { board, driver, journal, ended } = await drawing(test);
     board.tell({ type: "reset" });
     const { outcome, afterS } = await ended();
     expect(outcome).toMatch(/^disconnected: /);
@@ -81,8 +81,8 @@ describe("in the middle of a plot", () => {
     expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
-  it("a board that falls silent ends it as timed out, and is used again when it answers", async () => {
-    const { board, driver, ended } = await drawing();
+  it("a board that falls silent ends it as timed out, and is used again when it answers", async (test) => {
+    const { board, driver, ended } = await drawing(test);
     board.tell({ type: "mute", mute: true });
     const { outcome, afterS } = await ended();
     expect(outcome).toMatch(/^board-timeout: The board has stopped answering/);
@@ -94,10 +94,10 @@ describe("in the middle of a plot", () => {
     expect(idle.xMm).not.toBeNull();
   });
 
-  it.each(["2.8.1", "3.0.3"])(
+  it.for(["2.8.1", "3.0.3"])(
     "a board of firmware %s whose motion never ends is a fault that says so",
-    async (firmware) => {
-      const { board, driver, journal, ended } = await drawing(firmware);
+    async (firmware, test) => {
+      const { board, driver, journal, ended } = await drawing(test, firmware);
       board.tell({ type: "frozen", frozen: true });
       const { outcome, afterS } = await ended();
       expect(outcome).toMatch(
@@ -110,8 +110,8 @@ describe("in the middle of a plot", () => {
     },
   );
 
-  it("a board that stands blocked is cancelled at once all the same", async () => {
-    const { board, driver, run, ended } = await drawing();
+  it("a board that stands blocked is cancelled at once all the same", async (test) => {
+    const { board, driver, run, ended } = await drawing(test);
     board.tell({ type: "frozen", frozen: true });
     void run.cancel().catch(() => undefined);
     const { afterS } = await ended();
@@ -119,16 +119,16 @@ describe("in the middle of a plot", () => {
     expect(driver.state.connection).not.toBe("busy");
   });
 
-  it("a board that another program puts into its other syntax goes on, or is a fault that says so", async () => {
-    const { board, run, ended } = await drawing("3.0.3");
+  it("a board that another program puts into its other syntax goes on, or is a fault that says so", async (test) => {
+    const { board, run, ended } = await drawing(test, "3.0.3");
     board.tell({ type: "send", line: "CU,10,1\r" });
     await run.change({ speedPct: 200 });
     expect((await ended()).outcome).toBe("done");
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("a supply too low for the motors, as that of USB alone, ends it and is named", async () => {
-    const { board, driver, ended } = await drawing();
+  it("a supply too low for the motors, as that of USB alone, ends it and is named", async (test) => {
+    const { board, driver, ended } = await drawing(test);
     board.tell({ type: "volts", volts: 5 });
     const { outcome, afterS } = await ended();
     expect(outcome).toMatch(/^board-error: The motors have no power, or too little/);
@@ -137,8 +137,8 @@ describe("in the middle of a plot", () => {
     expect(await state(driver, ({ connection }) => connection === "idle")).toMatchObject({ xMm: null });
   });
 
-  it("motors without power end it as a board error that names the supply", async () => {
-    const { board, driver, ended } = await drawing();
+  it("motors without power end it as a board error that names the supply", async (test) => {
+    const { board, driver, ended } = await drawing(test);
     board.tell({ type: "volts", volts: 0 });
     const { outcome, afterS } = await ended();
     expect(outcome).toMatch(/^board-error: The motors have no power/);
@@ -146,8 +146,8 @@ describe("in the middle of a plot", () => {
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
   });
 
-  it("the board's button holds it", async () => {
-    const { board, run } = await drawing("3.0.3");
+  it("the board's button holds it", async (test) => {
+    const { board, run } = await drawing(test, "3.0.3");
     const held = new Promise<boolean>((resolve) => run.onHeld(resolve));
     const from = clock.nowS();
     board.tell({ type: "button" });
@@ -158,20 +158,20 @@ describe("in the middle of a plot", () => {
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it.each([
+  it.for([
     ["garbage on the line", { type: "garbage", bytes: [0xff, 0x21, 13, 0x80, 0x41, 13, 10] }],
     ["lost answers", { type: "lose", count: 2 }],
     ["a slow line", { type: "slow", bytesPerS: 4_000 }],
-  ] as const)("%s does not disturb it: the motors end where they should", async (_, fault) => {
-    const { board, run, ended } = await drawing();
+  ] as const)("%s does not disturb it: the motors end where they should", async ([, fault], test) => {
+    const { board, run, ended } = await drawing(test);
     board.tell(fault);
     await run.change({ speedPct: 200 });
     expect((await ended()).outcome).toBe("done");
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("a board moved by another program is noticed by its counters", async () => {
-    const { board, run, ended } = await drawing();
+  it("a board moved by another program is noticed by its counters", async (test) => {
+    const { board, run, ended } = await drawing(test);
     board.tell({ type: "send", line: "CS\r" });
     void run.cancel().catch(() => undefined);
     const { outcome, afterS } = await ended();
@@ -180,51 +180,47 @@ describe("in the middle of a plot", () => {
   });
 });
 
-describe("when connecting", () => {
-  const connected = async (path: string): Promise<PlotterState> => {
-    const driver = new PlotterDriver({ device: path });
-    open.push(driver);
+describe.concurrent("when connecting", () => {
+  const connected = async (test: TestContext, path: string): Promise<PlotterState> => {
+    const driver = closeAfter(test, new PlotterDriver({ device: path }));
     const from = clock.nowS();
     await driver.start();
     expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
     return driver.state;
   };
 
-  it("a device that is not there is absent", async () => {
-    expect(await connected("/dev/no-such-plotter")).toMatchObject({
+  it("a device that is not there is absent", async (test) => {
+    expect(await connected(test, "/dev/no-such-plotter")).toMatchObject({
       connection: "absent",
       message: expect.stringContaining("plug the plotter in"),
     });
   });
 
-  it("a board in use by another program is a fault that says so", async () => {
-    const { board, run } = await drawing();
-    expect(await connected(board.path)).toMatchObject({
+  it("a board in use by another program is a fault that says so", async (test) => {
+    const { board, run } = await drawing(test);
+    expect(await connected(test, board.path)).toMatchObject({
       connection: "fault",
       message: expect.stringContaining("Another program is using"),
     });
     await run.cancel();
   });
 
-  it("a silent board is a fault that says what to check", async () => {
-    const board = await PtyBoard.open();
-    open.push(board);
+  it("a silent board is a fault that says what to check", async (test) => {
+    const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "mute", mute: true });
     // Its answer to us says that it has heard.
     await board.report();
-    expect(await connected(board.path)).toMatchObject({
+    expect(await connected(test, board.path)).toMatchObject({
       connection: "fault",
       message: expect.stringContaining("Nothing answers on this port"),
     });
   });
 
-  it("a board without motor supply is a fault within 3 s that says where to look", async () => {
-    const board = await PtyBoard.open();
-    open.push(board);
+  it("a board without motor supply is a fault within 3 s that says where to look", async (test) => {
+    const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "volts", volts: 5 });
     await board.report();
-    const driver = new PlotterDriver({ device: board.path });
-    open.push(driver);
+    const driver = closeAfter(test, new PlotterDriver({ device: board.path }));
     const from = clock.nowS();
     await driver.start();
     const { message } = await state(driver, ({ connection }) => connection === "fault");
@@ -232,9 +228,8 @@ describe("when connecting", () => {
     expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
   });
 
-  it("a port that this account may not open is a fault that names group and udev rule", async () => {
-    const board = await PtyBoard.open();
-    open.push(board);
+  it("a port that this account may not open is a fault that names group and udev rule", async (test) => {
+    const board = closeAfter(test, await PtyBoard.open());
     chmodSync(board.path, 0);
     // Root may open everything: then somebody else tries.
     const child = fork(fileURLToPath(new URL("../support/connect-child.ts", import.meta.url)), [board.path], {
@@ -249,20 +244,18 @@ describe("when connecting", () => {
     await once(child, "exit");
   });
 
-  it("another machine that answers is no plotter, and says so", async () => {
-    const board = await PtyBoard.open();
-    open.push(board);
+  it("another machine that answers is no plotter, and says so", async (test) => {
+    const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "foreign", answer: "Grbl 1.1h ['$' for help]\r\nok\r\n" });
     await board.report();
-    expect(await connected(board.path)).toMatchObject({
+    expect(await connected(test, board.path)).toMatchObject({
       connection: "absent",
       message: expect.stringContaining("it is not an EiBotBoard: choose another device"),
     });
   });
 
-  it("a board in its other reply syntax is simply used", async () => {
-    const board = await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true });
-    open.push(board);
-    expect(await connected(board.path)).toMatchObject({ connection: "idle", firmware: "3.0.3" });
+  it("a board in its other reply syntax is simply used", async (test) => {
+    const board = closeAfter(test, await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true }));
+    expect(await connected(test, board.path)).toMatchObject({ connection: "idle", firmware: "3.0.3" });
   });
 });

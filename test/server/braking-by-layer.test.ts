@@ -1,14 +1,7 @@
 /** A stop in the middle of a stroke is made with the acceleration of that stroke's layer, whatever the others have. */
 import { describe, expect, it } from "vitest";
-import {
-  comeToRest,
-  DEFAULT_PEN,
-  plan,
-  stateAt,
-  type Place,
-  type StrokeSet,
-  type Trajectory,
-} from "../../src/index.js";
+import { DEFAULT_PEN, plan, stateAt, type Place, type StrokeSet, type Trajectory } from "../../src/index.js";
+import { comeToRest } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { brakingAt } from "../../src/drivers/ebb/machine/braking.js";
 

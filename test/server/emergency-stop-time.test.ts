@@ -6,6 +6,7 @@ import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const LOOK_MS = 2;
 
@@ -24,7 +25,7 @@ async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: 
     const stopped = run.emergencyStop();
     let steps = "";
     for (let ms = 0; ms < 1_000; ms += LOOK_MS) {
-      const { steps1, steps2 } = driver.virtualBoard!.state();
+      const { steps1, steps2 } = virtualBoardOf(driver).state();
       if (steps !== `${steps1},${steps2}`) mostMs = Math.max(mostMs, ms);
       steps = `${steps1},${steps2}`;
       await world.advance(LOOK_MS / 1_000);

@@ -3,6 +3,7 @@ import { PlotterDriver } from "../../server/plotter/plotter.js";
 import { machineById, type MachineProfile, type PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** All inputs of the virtual board are its button: one switch for both axes, pressed beyond these places. */
 const SWITCH_X_MM = -7.3;
@@ -20,7 +21,7 @@ async function newPlotter(pressed: (x: number, y: number) => boolean) {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
   await world.run(driver.start());
-  const board = driver.virtualBoard!;
+  const board = virtualBoardOf(driver);
   board.onChange(() => {
     const { xMm, yMm } = board.state();
     board.holdButton(pressed(xMm, yMm));

@@ -6,7 +6,8 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { runPlanInThread } from "../../server/cli/plan-thread.js";
 import { measureDrawing, WorkerPlanner } from "../../server/planning/planner.js";
 import { PLANNING_LIMITS } from "../../server/planning/planning-limits.js";
-import { ERROR_TABLE, PlotwrightError, machineOf } from "../../src/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { ERROR_TABLE, machineOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 
 const COUNT = 20_000;

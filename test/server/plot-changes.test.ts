@@ -1,6 +1,7 @@
 /** Changes of speeds and heights while a plot runs, and what is asked for right after them. */
 import { describe, expect, it } from "vitest";
-import { MOTION_MODES, type VirtualBoard } from "../../src/index.js";
+import type { VirtualBoard } from "../../src/index.js";
+import { MOTION_MODES } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 import { strokesOf } from "../support/local-planner.js";

@@ -14,6 +14,7 @@ import { seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const FIRMWARES = ["2.8.1", "3.0.3"];
 const COUNT = 10;
@@ -62,7 +63,7 @@ async function brokenOff(
   );
   await underWay(world, journal);
   await world.advance(afterS);
-  const board = driver.virtualBoard!;
+  const board = virtualBoardOf(driver);
   happen(board);
   const message = await world.run(
     run.finished.then(
@@ -179,11 +180,11 @@ it(
       await world.advance(1.5 + 4 * random());
       // A server that is killed writes nothing down at its end; the board plays what it has.
       const { place: from, sent } = journal[journal.length - 1];
-      driver.virtualBoard!.unplug();
+      virtualBoardOf(driver).unplug();
       await world.run(run.finished.catch(() => undefined));
       await world.advance(5);
       const { idleTicksTimed } = firmwareFeatures("3.0.3");
-      const ticks = ranTicks(driver.virtualBoard!) - (1 + idleTicksTimed);
+      const ticks = ranTicks(virtualBoardOf(driver)) - (1 + idleTicksTimed);
       const [plot] = planner.plots;
       const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
       const again = await world.run(

@@ -4,11 +4,13 @@
  */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
-import { MOTION_MODES, stateAt, type Trajectory } from "../../src/index.js";
+import { stateAt, type Trajectory } from "../../src/index.js";
+import { MOTION_MODES } from "../../src/internal.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { seeded, settingsOf } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks, RETRACED } from "../support/stop-truth.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const FIRMWARES = ["2.4.4", "2.5.3", "2.8.1", "3.0.0", "3.0.3"];
 /** Where a corner is rounded by so much, mm along its line are no surer than that. */
@@ -41,7 +43,7 @@ describe.each(MOTION_MODES)("an emergency stop among lines that lie on one anoth
       await world.advance(instant(plot.trajectory, random));
       await world.run(run.emergencyStop());
       // Reading the place back runs the motors for a tick, which makes no step.
-      const ticks = ranTicks(driver.virtualBoard!) - (hasClear ? 1 + idleTicksTimed : 0);
+      const ticks = ranTicks(virtualBoardOf(driver)) - (hasClear ? 1 + idleTicksTimed : 0);
       const truthMm = drawnUntilMm(RETRACED, plot, planSAfter(plot.commands, ticks));
       expect(Math.abs(mmOf(RETRACED, run.holdPlace!) - truthMm)).toBeLessThan(withinMm);
       await world.run(Promise.all([run.cancel(), run.finished]));

@@ -1,6 +1,6 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
-import { MOTION_MODES, type MotionMode } from "../../src/index.js";
+import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
 import { drawnMm, DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 
 /** Pause to held: what is in flight (a window and a command), slowing down from 150 mm/s, the lift, a poll. */

@@ -4,6 +4,7 @@ import { PlotterDriver } from "../../server/plotter/plotter.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const outcome = (promise: Promise<unknown>): Promise<unknown> =>
   promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
@@ -12,7 +13,7 @@ async function idle() {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world });
   await world.run(driver.start());
-  return { world, driver, board: driver.virtualBoard! };
+  return { world, driver, board: virtualBoardOf(driver) };
 }
 
 describe("a plotter that is closed", () => {

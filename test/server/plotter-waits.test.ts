@@ -4,6 +4,7 @@ import type { JournalEntry, PlotProgress, PlotStart } from "../../server/plotter
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings, type PlotWait } from "../../src/schema/index.js";
 import { layeredStrokes, LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const LAYERS = [
   { id: "sky", name: "Sky", color: "#0000ff" },
@@ -32,7 +33,7 @@ async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world });
   await world.run(driver.start());
-  const board = driver.virtualBoard!;
+  const board = virtualBoardOf(driver);
   const journal: JournalEntry[] = [];
   const begin = async (from: PlotStart) => {
     const run = await world.run(
@@ -116,7 +117,7 @@ describe("a plot with a change of pens", () => {
     expect(held[held.length - 1]).toEqual([true, null]);
     await world.run(run.resume());
     await world.advance(1);
-    driver.virtualBoard!.unplug();
+    virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
     const { place } = journal[journal.length - 1];
@@ -132,7 +133,7 @@ describe("a plot with a change of pens", () => {
     const { world, driver, run, nextHold, journal, begin, drawnRows } = await plotting();
     await world.run(nextHold());
     expect(journal[journal.length - 1].place).toEqual({ stroke: 3, alongMm: 0 });
-    driver.virtualBoard!.unplug();
+    virtualBoardOf(driver).unplug();
     void run.cancel().catch(() => undefined);
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);

@@ -5,6 +5,7 @@ import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet 
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const SETTINGS = DEFAULT_PLOT_SETTINGS;
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
@@ -15,7 +16,7 @@ async function newPlotter(firmware?: string) {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
-  const board = driver.virtualBoard!;
+  const board = virtualBoardOf(driver);
   const begin = async (strokes: StrokeSet = TWO_LINES) => {
     const planner = new LocalPlanner(strokes);
     const run = await world.run(driver.plot(planner, SETTINGS));

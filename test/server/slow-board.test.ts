@@ -4,6 +4,7 @@ import { PlotterDriver } from "../../server/plotter/plotter.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const { motion } = DEFAULT_PLOT_SETTINGS;
 /** Commands as long as they get: one line of 14 s. */
@@ -17,7 +18,7 @@ async function slowPlotter(virtualSpeed: number, firmware: string) {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, virtualSpeed });
   await world.run(driver.start());
-  return { world, driver, board: driver.virtualBoard! };
+  return { world, driver, board: virtualBoardOf(driver) };
 }
 
 describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) => {

@@ -1,6 +1,7 @@
 /** Generators shared by property tests: drawings and settings, ordinary and nasty. */
 import fc from "fast-check";
-import type { MotionLimits, StrokeSet } from "../../src/index.js";
+import type { StrokeSet } from "../../src/index.js";
+import type { MotionLimits } from "../../src/internal.js";
 
 export type Point = readonly [number, number];
 

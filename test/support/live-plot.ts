@@ -3,11 +3,13 @@ import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter.js";
 import type { LivePlotRun } from "../../server/plotter/types.js";
-import type { MotionMode, StrokeSet, VirtualBoard } from "../../src/index.js";
+import type { StrokeSet, VirtualBoard } from "../../src/index.js";
+import type { MotionMode } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 import { ManualClock } from "./manual-clock.js";
 import { farthest, SegmentGrid } from "./segment-grid.js";
+import { virtualBoardOf } from "./virtual-board-of.js";
 
 /** Curves, sharp corners, a reversal, short strokes: about ten seconds of plotting. */
 export const DRAWING: StrokeSet = strokesOf(
@@ -37,7 +39,7 @@ export async function plotting(mode: MotionMode, strokes = DRAWING, firmware = "
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
   const run = await world.run(driver.plot(new LocalPlanner(strokes), settingsOf(mode)));
-  return { world, driver, board: driver.virtualBoard!, run };
+  return { world, driver, board: virtualBoardOf(driver), run };
 }
 
 /** The lines drawn so far, pen down. */

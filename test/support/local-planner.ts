@@ -1,4 +1,5 @@
-import { machineOf, type StrokeLayer, type StrokeSet } from "../../src/index.js";
+import type { StrokeSet } from "../../src/index.js";
+import { machineOf, type StrokeLayer } from "../../src/internal.js";
 import { planAndCompile } from "../../server/planning/stages.js";
 import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../server/plotter/types.js";
 

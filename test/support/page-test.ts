@@ -1,6 +1,7 @@
 /** One browser, one server and one page for a browser test, and what a test asks them. */
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
-import { importSvg, prepare, prepareSettingsOf, type StrokeSet } from "../../src/index.js";
+import { importSvg, prepare, type StrokeSet } from "../../src/index.js";
+import { prepareSettingsOf } from "../../src/internal.js";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "./browser.js";
 import {

@@ -5,18 +5,16 @@
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import {
-  compareFirmware,
   DEFAULT_MOTION,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   importSvg,
   machineById,
-  motionForFirmware,
   plan,
   prepare,
-  type MotionMode,
   type StrokeSet,
 } from "../../src/index.js";
+import { compareFirmware, motionForFirmware, type MotionMode } from "../../src/internal.js";
 import { ROOT } from "../../scripts/setup.mjs";
 import { SegmentGrid } from "./segment-grid.js";
 import { FastBoard } from "./virtual-plots.js";

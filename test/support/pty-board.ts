@@ -1,7 +1,7 @@
 /** Starts virtual boards behind pseudo-terminals, in other processes, and ends them. */
 import { fork, type ChildProcess } from "node:child_process";
 import { fileURLToPath } from "node:url";
-import type { BoardStatistics, VirtualBoardState } from "../../src/index.js";
+import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is there again at the same path. */

@@ -4,7 +4,7 @@
  */
 import { commandLine } from "../../src/drivers/ebb/compile/compile.js";
 import type { CommandStream } from "../../src/drivers/ebb/compile/command-stream.js";
-import { pctFromServoPos } from "../../src/machines/pen.js";
+import { pctFromServoPos } from "../../src/drivers/ebb/protocol/servo-height.js";
 import type { MachineProfile } from "../../src/machines/profile.js";
 import { stateAt, type Trajectory } from "../../src/plan/trajectory.js";
 import type { PenSettings } from "../../src/settings/pen.js";

@@ -2,7 +2,8 @@
  * Looks at a trajectory from outside, at many instants inside every block, and reports the worst it found.
  * It knows nothing of how the planner works: only the columns, the formula of a block, and the drawing.
  */
-import type { MotionLimits, StrokeSet, Trajectory } from "../../src/index.js";
+import type { StrokeSet, Trajectory } from "../../src/index.js";
+import type { MotionLimits } from "../../src/internal.js";
 import { penMovesOf } from "../../src/plan/pen-moves.js";
 
 export interface Worst {

@@ -4,13 +4,13 @@ import {
   compile,
   setUpCommands,
   VirtualBoard,
-  type BoardState,
   type CommandStream,
   type Clock,
   type MachineProfile,
   type PenSettings,
   type Trajectory,
 } from "../../src/index.js";
+import type { BoardState } from "../../src/internal.js";
 
 /** Time stands still: a board of infinite speed does not need it. */
 const stillClock: Clock = { nowS: () => 0, after: () => () => undefined };

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { prepare, importSvg, penStopsOf, prepareSettingsOf } from "../../src/index.js";
+import { prepare, importSvg } from "../../src/index.js";
+import { penStopsOf, prepareSettingsOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema, type PlotSettings } from "../../src/schema/index.js";
 import { alignmentJob, CORNERS, markPlace } from "../../web/state/alignment-mark.js";
 import {

@@ -4,13 +4,18 @@ import { later } from "../text/later.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
-import { withController } from "./profile.js";
+import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 
 const words = later.profile;
 
 interface ProfileFormProps {
   readonly profile: MachineProfile;
   onChange(profile: MachineProfile): void;
+}
+
+interface EbbFieldsProps {
+  readonly profile: EbbMachine;
+  onChange(profile: EbbMachine): void;
 }
 
 /** Every field of a machine's profile, within the limits of its schema. */
@@ -21,8 +26,12 @@ export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
       <TextField label={words.name} value={profile.name} onChange={(name) => change({ name })} />
       <ReachFields profile={profile} onChange={onChange} />
       <MotorFields profile={profile} onChange={onChange} />
-      <ServoFields profile={profile} onChange={onChange} />
-      <HomingFields profile={profile} onChange={onChange} />
+      {isEbbMachine(profile) && (
+        <>
+          <ServoFields profile={profile} onChange={onChange} />
+          <HomingFields profile={profile} onChange={onChange} />
+        </>
+      )}
     </div>
   );
 };
@@ -80,18 +89,7 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
         digits={4}
         onChange={(stepsPerMm) => change({ stepsPerMm })}
       />
-      <Select
-        label={words.microsteps}
-        value={String(profile.controller.microstepMode)}
-        options={MICROSTEP_MODES.map((mode) => ({ value: String(mode), label: `1/${2 ** (5 - mode)}` }))}
-        onChange={(mode) =>
-          onChange(
-            withController(profile, {
-              microstepMode: MICROSTEP_MODES.find((one) => String(one) === mode) ?? 1,
-            }),
-          )
-        }
-      />
+      {isEbbMachine(profile) && <MicrostepField profile={profile} onChange={onChange} />}
       <Switch label={words.flipX} isOn={profile.flipX ?? false} onChange={(flipX) => change({ flipX })} />
       <Switch label={words.flipY} isOn={profile.flipY ?? false} onChange={(flipY) => change({ flipY })} />
       <Switch
@@ -103,7 +101,20 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
   );
 };
 
-const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
+const MicrostepField = ({ profile, onChange }: EbbFieldsProps) => (
+  <Select
+    label={words.microsteps}
+    value={String(profile.controller.microstepMode)}
+    options={MICROSTEP_MODES.map((mode) => ({ value: String(mode), label: `1/${2 ** (5 - mode)}` }))}
+    onChange={(mode) =>
+      onChange(
+        withController(profile, { microstepMode: MICROSTEP_MODES.find((one) => String(one) === mode) ?? 1 }),
+      )
+    }
+  />
+);
+
+const ServoFields = ({ profile, onChange }: EbbFieldsProps) => {
   const change = (part: Partial<EbbController>): void => onChange(withController(profile, part));
   return (
     <fieldset className="subgroup">
@@ -134,7 +145,7 @@ const ServoFields = ({ profile, onChange }: ProfileFormProps) => {
   );
 };
 
-export const ServoPin = ({ profile, onChange }: ProfileFormProps) => (
+export const ServoPin = ({ profile, onChange }: EbbFieldsProps) => (
   <Segments
     label={words.servoPin}
     value={String(profile.controller.servoPin) as "4" | "5"}
@@ -153,7 +164,7 @@ const FIRST_SWITCHES: NonNullable<EbbController["homing"]> = {
   y: { port: "B", pin: 2, pressed: 0 },
 };
 
-const HomingFields = ({ profile, onChange }: ProfileFormProps) => {
+const HomingFields = ({ profile, onChange }: EbbFieldsProps) => {
   const { homing } = profile.controller;
   return (
     <fieldset className="subgroup">

@@ -26,8 +26,14 @@ export const copyOf = (profile: MachineProfile, name: string, taken: readonly st
   name,
 });
 
+/** What the form and the wizard can set up of a controller. */
+export type EbbMachine = MachineProfile<EbbController>;
+
+export const isEbbMachine = (profile: MachineProfile): profile is EbbMachine =>
+  profile.controller.kind === "ebb";
+
 /** The profile with parts of its controller changed. */
-export const withController = (profile: MachineProfile, part: Partial<EbbController>): MachineProfile => ({
+export const withController = (profile: EbbMachine, part: Partial<EbbController>): EbbMachine => ({
   ...profile,
   controller: { ...profile.controller, ...part },
 });

@@ -1,5 +1,6 @@
 import { useState } from "react";
-import { DIRECTIONS, machineTurned, type Direction, type MachineProfile } from "../../src/index.js";
+import type { MachineProfile } from "../../src/index.js";
+import { DIRECTIONS, machineTurned, type Direction } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
 import { later } from "../text/later.js";
 import { useHand } from "./use-hand.js";

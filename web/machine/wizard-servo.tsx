@@ -1,6 +1,6 @@
 import { useId, useRef, useState } from "react";
 import { later } from "../text/later.js";
-import { withController } from "./profile.js";
+import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 import { ServoPin } from "./profile-form.js";
 import { TakeOrSkip } from "./take-or-skip.js";
 import { useHand } from "./use-hand.js";
@@ -10,8 +10,16 @@ const words = later.wizard;
 /** In 1/12 µs; a servo listens between about 0.4 and 2.6 ms. */
 const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
 
+/** Only an EiBotBoard has its servo set up here. */
+export const ServoStep = ({ profile, ...props }: StepProps) =>
+  isEbbMachine(profile) ? (
+    <EbbServoStep profile={profile} {...props} />
+  ) : (
+    <TakeOrSkip label={words.next} isOff onTake={() => undefined} onSkip={() => props.onNext(profile)} />
+  );
+
 /** The pen follows two sliders; where it has just the right height is the servo's range. */
-export const ServoStep = ({ profile, settingsWith, onNext }: StepProps) => {
+const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly profile: EbbMachine }) => {
   const [draft, setDraft] = useState(profile);
   const moveTo = useServo(() => settingsWith(draft));
   const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {

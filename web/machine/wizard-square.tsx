@@ -1,5 +1,6 @@
 import { useState } from "react";
-import { stepsPerMmMeasured, type MachineProfile } from "../../src/index.js";
+import type { MachineProfile } from "../../src/index.js";
+import { stepsPerMmMeasured } from "../../src/internal.js";
 import { later } from "../text/later.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";

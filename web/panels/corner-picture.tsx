@@ -1,4 +1,4 @@
-import type { MotionMode } from "../../src/index.js";
+import type { MotionMode } from "../../src/internal.js";
 
 /**
  * What a mode does to a corner, drawn: the line, and dots at equal times, so that close dots mean slow.

@@ -1,6 +1,6 @@
 import "../styles/setup.css";
 import { useState } from "react";
-import { currentPlotter } from "../state/store.js";
+import { boardFirmware } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { Select } from "../ui/choice.js";
@@ -17,7 +17,7 @@ const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: strin
 };
 
 export const ExportList = () => {
-  const connected = usePageState((state) => currentPlotter(state)?.firmware ?? null);
+  const connected = usePageState(boardFirmware);
   const [chosen, setChosen] = useState<string | null>(null);
   const { exportAs } = useActions();
   const firmwares = connected && !FIRMWARES.includes(connected) ? [connected, ...FIRMWARES] : FIRMWARES;

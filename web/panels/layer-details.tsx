@@ -1,4 +1,9 @@
 import {
+  DRAW_TABLE,
+  HATCH_TABLE,
+  LAYER_REPEATS,
+  LAYER_WAIT,
+  PEN_TABLE,
   parseLayerName,
   penOfLayer,
   speedOfCode,
@@ -6,8 +11,7 @@ import {
   type LayerMotion,
   type LayerPen,
   type PreparedLayer,
-} from "../../src/index.js";
-import { DRAW_TABLE, HATCH_TABLE, LAYER_REPEATS, LAYER_WAIT, PEN_TABLE } from "../../src/internal.js";
+} from "../../src/internal.js";
 import {
   hatchLayer,
   repeatLayer,

@@ -1,5 +1,5 @@
 import type { RefObject } from "react";
-import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/index.js";
+import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/internal.js";
 import { layerColor } from "../preview/color-map.js";
 import { isLayerShown, setLayerPen, showLayer } from "../state/layer-settings.js";
 import { usePageState } from "../state/use-store.js";

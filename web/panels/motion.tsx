@@ -1,6 +1,15 @@
 import { useId } from "react";
-import { DEFAULT_FIT, MOTION_MODES, type MotionLimits, type MotionMode } from "../../src/index.js";
-import { DRAW_TABLE, EASE_TABLE, FIT_TABLE, STREAM_TABLE, TRAVEL_TABLE } from "../../src/internal.js";
+import {
+  DRAW_TABLE,
+  EASE_TABLE,
+  FIT_TABLE,
+  STREAM_TABLE,
+  TRAVEL_TABLE,
+  DEFAULT_FIT,
+  MOTION_MODES,
+  type MotionLimits,
+  type MotionMode,
+} from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";

@@ -1,5 +1,5 @@
-import { PAPER_SIZES, type PaperName } from "../../src/index.js";
-import { PAPER_TABLE, PREPARE_TABLE } from "../../src/internal.js";
+import { PAPER_SIZES } from "../../src/index.js";
+import { PAPER_TABLE, PREPARE_TABLE, type PaperName } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { text } from "../text/text.js";

@@ -1,7 +1,6 @@
-import { PLOT_PEN_TABLE } from "../../src/internal.js";
+import { PLOT_PEN_TABLE, PEN_STOP_MODES, type PlotPen } from "../../src/internal.js";
 import "../styles/setup.css";
 import { useState } from "react";
-import { PEN_STOP_MODES, type PlotPen } from "../../src/index.js";
 import { CORNERS, type Corner } from "../state/alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../state/layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";

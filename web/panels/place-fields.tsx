@@ -5,7 +5,7 @@ import { frameNow } from "../preview/frame.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { setup } from "../text/setup.js";
 import { NumberField } from "../ui/number-field.js";
-import { orientedPaper } from "../../src/index.js";
+import { orientedPaper } from "../../src/internal.js";
 import { usePrepareChange } from "./paper.js";
 
 const words = setup.place;

@@ -1,5 +1,5 @@
 /** The desk under the strokes: paper with its shadow, a quiet grid, the margins, the machine's reach. */
-import type { FourMargins } from "../../src/index.js";
+import type { FourMargins } from "../../src/internal.js";
 import { rulerStepMm, type Size, type View } from "./view.js";
 
 export interface DeskColors {

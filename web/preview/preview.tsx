@@ -1,5 +1,6 @@
 import { useEffect, useRef, type RefObject } from "react";
-import { findMachine, penOf, stateAt, type StrokeLayer } from "../../src/index.js";
+import { stateAt } from "../../src/index.js";
+import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
 import { drawnUntilS } from "../state/drawn-until.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";

@@ -7,7 +7,8 @@
  *
  * One piece is PIECE_BYTES:  f32 x0 y0 x1 y1 (mm)  f32 t0 t1 (s)  u16 speed0 speed1 (of topMmPerS)  u16 layer 0
  */
-import type { StrokeLayer, Trajectory } from "../../src/index.js";
+import type { Trajectory } from "../../src/index.js";
+import type { StrokeLayer } from "../../src/internal.js";
 import { buildPickGrid, type PickGrid } from "./pick.js";
 
 export const PIECE_BYTES = 32;

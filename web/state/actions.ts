@@ -1,7 +1,7 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import { contentOf, type JobAction, type ApiClient } from "../api/client.js";
-import { MACHINES, type MachineProfile, type PlotPen } from "../../src/index.js";
-import { isDrawingName } from "../../src/internal.js";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { isDrawingName, type PlotPen } from "../../src/internal.js";
 import {
   machineProfileSchema,
   type Job,

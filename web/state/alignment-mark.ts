@@ -1,5 +1,5 @@
 /** A small cross as a job of its own, drawn with one pen: two pens' crosses show how far apart they draw. */
-import { orientedPaper, type PlotPen } from "../../src/index.js";
+import { orientedPaper, type PlotPen } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type NewJob, type PlotSettings } from "../../src/schema/index.js";
 
 export const CORNERS = ["topLeft", "topRight", "bottomLeft", "bottomRight"] as const;

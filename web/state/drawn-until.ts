@@ -1,5 +1,6 @@
 /** How far the drawing on the paper has been plotted, as far as it is known: on the page what follows is shown pale. */
-import { PlaceTimes, type Trajectory } from "../../src/index.js";
+import type { Trajectory } from "../../src/index.js";
+import { PlaceTimes } from "../../src/internal.js";
 import { ACTIVE_STATES, type PageState } from "./store.js";
 
 /** Made once for each plan: this is asked several times for each change of the page's state. */

@@ -1,5 +1,5 @@
 /** What the layers' and pens' controls make of the settings: pure functions, one step of undo each. */
-import { parseLayerName, type LayerMotion, type LayerPen, type PlotPen } from "../../src/index.js";
+import { parseLayerName, type LayerMotion, type LayerPen, type PlotPen } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
 type Prepare = PlotSettings["prepare"];

@@ -3,7 +3,7 @@
  * a stored value that does not fit, from an older version for example, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
-import { findMachine } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 
 const KEY = "plotwright.page.v1";

@@ -1,5 +1,6 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
+import { findMachine, firmwareFor } from "../../src/internal.js";
 import type {
   Job,
   ListedMachine,
@@ -148,8 +149,11 @@ export type PageStore = ReturnType<typeof createPageStore>;
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
-/** Of the current plotter's board; null: not known. */
-export const boardFirmware = (state: PageState): string | null => currentPlotter(state)?.firmware ?? null;
+/** Of the current plotter's board; null: not known, or of another controller than the machine's. */
+export const boardFirmware = (state: PageState): string | null => {
+  const machine = findMachine(state.settings);
+  return machine && firmwareFor(machine, currentPlotter(state)?.firmware ?? null);
+};
 
 /** The current plotter would do something now: it is there, free, and heard of. */
 export const isReady = (state: PageState): boolean =>

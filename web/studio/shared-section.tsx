@@ -1,5 +1,6 @@
 import { useEffect, useState } from "react";
-import { findMachine, MACHINES } from "../../src/index.js";
+import { MACHINES } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { later } from "../text/later.js";

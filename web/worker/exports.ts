@@ -1,5 +1,6 @@
 /** The prepared drawing as files. Fetched when the first one is saved, so the compiler is no part of the first load. */
-import { machineOf, planJob, svgOptionsOf, toJson, toSvg, type Prepared } from "../../src/index.js";
+import { planJob, toSvg, type Prepared } from "../../src/index.js";
+import { machineOf, svgOptionsOf, toJson } from "../../src/internal.js";
 import type { ExportFormat, PlanSettings } from "./protocol.js";
 
 export const exportText = (

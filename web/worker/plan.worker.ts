@@ -6,21 +6,23 @@
  * import the file again, and a change of margin does not either.
  */
 import {
-  machineOf,
-  penStopsOf,
-  placeDrawing,
   planJob,
-  pointCount,
   prepare,
-  prepareSettingsOf,
-  strokeCount,
   trajectoryStats,
   type Drawing,
-  type Placement,
   type Prepared,
   type Trajectory,
 } from "../../src/index.js";
-import { textOfBytes } from "../../src/internal.js";
+import {
+  textOfBytes,
+  machineOf,
+  penStopsOf,
+  placeDrawing,
+  pointCount,
+  prepareSettingsOf,
+  strokeCount,
+  type Placement,
+} from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";

@@ -1,13 +1,13 @@
 /** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
+import type { Trajectory } from "../../src/index.js";
 import type {
   DrawingWarning,
   PenStop,
   Placement,
   PreparedLayer,
   StrokeLayer,
-  Trajectory,
   TrajectoryStats,
-} from "../../src/index.js";
+} from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../preview/placing.js";
 import type { Picture } from "../preview/renderer.js";

@@ -1,13 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import {
-  comeToRest,
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  plan,
-  stateAt,
-  type Trajectory,
-} from "../../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../../../src/index.js";
+import { comeToRest } from "../../../src/internal.js";
 import { arbitraryGridStroke, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { NearStroke } from "../../support/trajectory-checks.js";
 

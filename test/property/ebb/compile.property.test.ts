@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PEN, machineById, MOTION_MODES, plan } from "../../../src/index.js";
+import { DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
+import { MOTION_MODES } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { FastBoard } from "../../support/virtual-plots.js";
 

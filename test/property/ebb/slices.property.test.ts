@@ -1,14 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import {
-  commandLine,
-  compile,
-  DEFAULT_PEN,
-  machineById,
-  MOTION_MODES,
-  plan,
-  stateAt,
-} from "../../../src/index.js";
+import { commandLine, compile, DEFAULT_PEN, machineById, plan, stateAt } from "../../../src/index.js";
+import { MOTION_MODES } from "../../../src/internal.js";
 import { motor1FromXy, motor2FromXy } from "../../../src/machines/motors.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 

@@ -6,10 +6,9 @@ import {
   DEFAULT_PEN,
   MACHINES,
   plan,
-  xFromMotors,
-  yFromMotors,
   type MachineProfile,
 } from "../../../src/index.js";
+import { xFromMotors, yFromMotors } from "../../../src/internal.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { cases } from "../../support/full-run.js";
 

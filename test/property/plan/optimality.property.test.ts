@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PEN, plan, type MotionLimits, type MotionMode } from "../../../src/index.js";
+import { DEFAULT_PEN, plan } from "../../../src/index.js";
+import type { MotionLimits, MotionMode } from "../../../src/internal.js";
 import { arbitraryLimits, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { optimalRunTime } from "../../support/path-optimum.js";
 import { cornersOf, distance, type Limits } from "../../support/reference-planners/polyline.js";

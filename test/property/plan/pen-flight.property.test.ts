@@ -14,14 +14,13 @@ import {
   DEFAULT_PREPARE,
   importSvg,
   machineById,
-  MOTION_MODES,
   plan,
   prepare,
   type MotionSettings,
-  type PenOverlap,
   type PenSettings,
   type StrokeSet,
 } from "../../../src/index.js";
+import { MOTION_MODES, type PenOverlap } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { cases } from "../../support/full-run.js";
 import { tipMarks, type TipMarks, type TipServo } from "../../support/tip-marks.js";

@@ -1,15 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_FIT,
-  DEFAULT_PEN,
-  MOTION_MODES,
-  plan,
-  stateAt,
-  trajectoryStats,
-  type MotionMode,
-  type MotionSettings,
-} from "../../../src/index.js";
+import { DEFAULT_PEN, plan, stateAt, trajectoryStats, type MotionSettings } from "../../../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
 import {
   arbitraryLimits,
   arbitraryGridStroke,

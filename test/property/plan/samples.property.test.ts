@@ -3,16 +3,14 @@ import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
 import {
-  DEFAULT_FIT,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   importSvg,
-  MOTION_MODES,
   plan,
   prepare,
-  type MotionMode,
   type Trajectory,
 } from "../../../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
 import { worstOf } from "../../support/trajectory-checks.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");

@@ -1,15 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_PREPARE,
-  NO_PENS,
-  ORDER_MODES,
-  penStopsOf,
-  prepare,
-  strokeCount,
-  type PrepareSettings,
-  type StrokeSet,
-} from "../../../src/index.js";
+import { DEFAULT_PREPARE, prepare, type PrepareSettings, type StrokeSet } from "../../../src/index.js";
+import { NO_PENS, ORDER_MODES, penStopsOf, strokeCount } from "../../../src/internal.js";
 import { drawingOf } from "../../support/drawings.js";
 import { cases } from "../../support/full-run.js";
 

@@ -1,12 +1,6 @@
 /** One drawing, planned under every system's rules and under ours, at the same A, V and δ. */
-import {
-  DEFAULT_FIT,
-  DEFAULT_PEN,
-  MOTION_MODES,
-  plan,
-  type MotionSettings,
-  type StrokeSet,
-} from "../../../src/index.js";
+import { DEFAULT_PEN, plan, type MotionSettings, type StrokeSet } from "../../../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES } from "../../../src/internal.js";
 import { distinct, worstCurveAccel, type Limits, type Point } from "./polyline.js";
 import { REFERENCE_PLANNERS } from "./systems.js";
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { AnswerQueue } from "../../../src/drivers/ebb/stream/answer-queue.js";
-import { LineSplitter } from "../../../src/drivers/ebb/protocol/replies.js";
+import { LineSplitter } from "../../../src/drivers/line-splitter.js";
 
 /** Lets the commands wait, feeds the bytes, and returns what was settled, in order, and the lines left over. */
 function settled(commands: readonly string[], bytes: string) {

@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
 import {
-  closingCommands,
   commandLine,
   compile,
   DEFAULT_MOTION,
@@ -12,6 +11,7 @@ import {
   type CommandStream,
   type MachineProfile,
 } from "../../../src/index.js";
+import { closingCommands } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
 const machine = machineById("axidraw-v3");

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { DEFAULT_MOTION, motionForFirmware, type MotionSettings } from "../../../src/index.js";
+import { DEFAULT_MOTION, type MotionSettings } from "../../../src/index.js";
+import { motionForFirmware } from "../../../src/internal.js";
 
 const QUICK: MotionSettings = {
   ...DEFAULT_MOTION,

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { commandName, LineSplitter, replyShape } from "../../../src/drivers/ebb/protocol/replies.js";
+import { commandName, replyShape } from "../../../src/drivers/ebb/protocol/replies.js";
+import { LineSplitter } from "../../../src/drivers/line-splitter.js";
 
 const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
 

@@ -3,18 +3,14 @@ import {
   DEFAULT_MOTION,
   DEFAULT_PEN,
   DEFAULT_PREPARE,
-  NO_PENS,
   importDrawing,
   importSvg,
   plan,
   prepare,
-  prepareSettingsOf,
-  svgOptionsOf,
-  toJson,
   toSvg,
-  trajectoryToSvg,
   type StrokeSet,
 } from "../../../src/index.js";
+import { NO_PENS, prepareSettingsOf, svgOptionsOf, toJson, trajectoryToSvg } from "../../../src/internal.js";
 import { drawingOf } from "../../support/drawings.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
 

@@ -1,15 +1,14 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { MACHINES, machineById } from "../../../src/index.js";
 import {
-  MACHINES,
-  machineById,
   motor1FromXy,
   motor2FromXy,
   pctFromServoPos,
   servoPosFromPct,
   xFromMotors,
   yFromMotors,
-} from "../../../src/index.js";
+} from "../../../src/internal.js";
 
 const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc.boolean() });
 const mm = fc.double({ min: -1_000, max: 1_000, noNaN: true });

@@ -1,10 +1,9 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { MACHINES, machineById, type MachineProfile } from "../../../src/index.js";
 import {
   DIRECTIONS,
-  MACHINES,
   findMachine,
-  machineById,
   machineOf,
   machineTurned,
   motor1FromXy,
@@ -13,8 +12,7 @@ import {
   xFromMotors,
   yFromMotors,
   type Direction,
-  type MachineProfile,
-} from "../../../src/index.js";
+} from "../../../src/internal.js";
 import { cases } from "../../support/full-run.js";
 
 const machines = fc

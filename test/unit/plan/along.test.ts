@@ -1,6 +1,7 @@
 /** mm along the drawing, which holds and stops go on from: where the pen is on it, at every instant of a ramp too. */
 import { describe, expect, it } from "vitest";
-import { DEFAULT_MOTION, DEFAULT_PEN, MOTION_MODES, plan, stateAt } from "../../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt } from "../../../src/index.js";
+import { MOTION_MODES } from "../../../src/internal.js";
 import { pointOfPlace } from "../../../src/plan/place-on-drawing.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { RETRACED } from "../../support/stop-truth.js";

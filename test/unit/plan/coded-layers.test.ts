@@ -1,14 +1,6 @@
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  NO_PENS,
-  codedLayerNames,
-  plan,
-  trajectoryStats,
-  withLayerCodes,
-  type StrokeSet,
-} from "../../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, plan, trajectoryStats, type StrokeSet } from "../../../src/index.js";
+import { NO_PENS, codedLayerNames, withLayerCodes } from "../../../src/internal.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 
 const SETTINGS = { ...NO_PENS, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };

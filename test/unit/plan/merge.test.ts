@@ -1,15 +1,7 @@
 /** Merging: pairs of blocks in the place of more, exact at their ends and within ε between. */
 import { describe, expect, it } from "vitest";
-import {
-  compile,
-  DEFAULT_FIT,
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  machineById,
-  plan,
-  type FitSettings,
-  type MotionMode,
-} from "../../../src/index.js";
+import { compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
+import { DEFAULT_FIT, type FitSettings, type MotionMode } from "../../../src/internal.js";
 import { BlockColumns } from "../../../src/plan/block-columns.js";
 import type { RunLimits } from "../../../src/plan/limits.js";
 import { mergeBlocks, type MergeRules } from "../../../src/plan/merge.js";

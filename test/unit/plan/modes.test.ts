@@ -1,16 +1,14 @@
 import { describe, expect, it } from "vitest";
 import {
-  DEFAULT_FIT,
   DEFAULT_MOTION,
   DEFAULT_PEN,
-  MOTION_MODES,
   plan,
   trajectoryStats,
-  type MotionMode,
   type MotionSettings,
   type PenSettings,
   type Trajectory,
 } from "../../../src/index.js";
+import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
 import { blockLength } from "../../../src/plan/trajectory.js";
 import { AXIDRAW_LIKE } from "../../support/machine.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PEN, plan, type MotionMode } from "../../../src/index.js";
+import { DEFAULT_PEN, plan } from "../../../src/index.js";
+import type { MotionMode } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { blendLoss, junctionLoss, leastLoss } from "../../support/corner-bound.js";
 

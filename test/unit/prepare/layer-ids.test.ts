@@ -1,13 +1,6 @@
 import { expect, it } from "vitest";
-import {
-  DEFAULT_PREPARE,
-  importSvg,
-  NO_PENS,
-  penStopsOf,
-  prepare,
-  prepareSettingsOf,
-  strokeCount,
-} from "../../../src/index.js";
+import { DEFAULT_PREPARE, importSvg, prepare } from "../../../src/index.js";
+import { NO_PENS, penStopsOf, prepareSettingsOf, strokeCount } from "../../../src/internal.js";
 
 it.each(["constructor", "toString", "__proto__"])("a layer called %s is drawn like any other", (id) => {
   const drawing = importSvg(

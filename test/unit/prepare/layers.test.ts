@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PREPARE, prepare, strokeCount, type PrepareSettings } from "../../../src/index.js";
+import { DEFAULT_PREPARE, prepare, type PrepareSettings } from "../../../src/index.js";
+import { strokeCount } from "../../../src/internal.js";
 import { drawingOf } from "../../support/drawings.js";
 
 const TRUE_SIZE: PrepareSettings = {

@@ -1,14 +1,12 @@
 import { describe, expect, it } from "vitest";
+import { DEFAULT_PREPARE, prepare, type PrepareSettings } from "../../../src/index.js";
 import {
-  DEFAULT_PREPARE,
   NO_PENS,
   penStopsOf,
-  prepare,
   prepareSettingsOf,
   type PenSetup,
   type PlotPen,
-  type PrepareSettings,
-} from "../../../src/index.js";
+} from "../../../src/internal.js";
 import { drawingOf } from "../../support/drawings.js";
 
 const TRUE_SIZE: PrepareSettings = {

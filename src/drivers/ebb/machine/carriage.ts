@@ -16,6 +16,7 @@ import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { planEbbWalk } from "../compile/ebb-walk.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
+import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
@@ -165,16 +166,17 @@ export class Carriage {
    */
   async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
     const { state, microstepMode } = this;
-    if (state && microstepMode === machine.controller.microstepMode) return state;
+    const wanted = ebbOf(machine).microstepMode;
+    if (state && microstepMode === wanted) return state;
     const { session, features } = this.connection;
     for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
     // Each mode's steps are half as many as those of the one before.
-    const share = state ? 2 ** (microstepMode - machine.controller.microstepMode) : 0;
+    const share = state ? 2 ** (microstepMode - wanted) : 0;
     const [steps1, steps2] = [
       Math.round((state?.steps1 ?? 0) * share),
       Math.round((state?.steps2 ?? 0) * share),
     ];
-    this.microstepMode = machine.controller.microstepMode;
+    this.microstepMode = wanted;
     this.origin = [steps1, steps2];
     await this.markHome();
     this.motorsOn = true;
@@ -345,7 +347,7 @@ export class Carriage {
   /** To a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is not known then. */
   async moveServo(machine: MachineProfile, pos: number): Promise<void> {
     const { session, boardClock } = this.connection;
-    await session.send(`S2,${pos},${machine.controller.servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
+    await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
     await new Promise<void>((resolve) => void boardClock.after(SERVO_MS / 1000 + SETTLE_S, resolve));
     this.penIsUnknown();
   }

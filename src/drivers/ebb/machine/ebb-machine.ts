@@ -3,6 +3,7 @@ import { machineOf } from "../../../machines/profiles.js";
 import type { ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
+import { ebbOf } from "../protocol/ebb-controller.js";
 import { Carriage } from "./carriage.js";
 import { sendLine } from "./console.js";
 import { EbbRun } from "./ebb-run.js";
@@ -26,7 +27,7 @@ export class EbbMachine extends Carriage implements Machine {
   }
 
   async findHome(settings: MachineSettings): Promise<boolean> {
-    const { homing } = machineOf(settings).controller;
+    const { homing } = ebbOf(machineOf(settings));
     if (!homing) return false;
     await seekHome(this, settings, homing);
     return true;

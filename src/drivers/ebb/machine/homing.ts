@@ -5,7 +5,8 @@
  * Asking between short moves needs nothing but the board's PI, which every firmware has.
  */
 import { PlotwrightError } from "../../../errors.js";
-import type { HomingSwitches, MachineProfile, SwitchInput } from "../../../machines/profile.js";
+import type { HomingSwitches, SwitchInput } from "../../../machines/controllers.js";
+import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { Carriage } from "./carriage.js";

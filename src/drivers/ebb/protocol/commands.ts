@@ -3,11 +3,12 @@
  * for the commands between.
  */
 import { checkProfile } from "../../../machines/check-profile.js";
-import { servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { dropsInFlight } from "../../../plan/pen-flight.js";
 import type { PenSettings } from "../../../settings/pen.js";
+import { ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
+import { servoPosFromPct } from "./servo-height.js";
 
 /** The servo moves during this part of the wait for it; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
@@ -21,7 +22,8 @@ const STANDARD_PIN = 4;
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
   checkProfile(machine);
   const features = firmwareFeatures(firmware);
-  const lines = [`EM,${machine.controller.microstepMode},${machine.controller.microstepMode}`];
+  const { microstepMode } = ebbOf(machine);
+  const lines = [`EM,${microstepMode},${microstepMode}`];
   // On older boards EM does not clear the accumulators: CS sets them to a known value.
   if (!features.enableClearsAccumulators && features.hasStepQuery) lines.push("CS");
   return [...lines, ...penSetUpCommands(machine, pen)];
@@ -65,7 +67,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
 
 /** Height and speed of SP in one direction. Empty if S2 moves the pen. */
 export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
-  if (machine.controller.servoPin !== STANDARD_PIN) return [];
+  if (ebbOf(machine).servoPin !== STANDARD_PIN) return [];
   const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
   return [
     `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
@@ -78,9 +80,9 @@ export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
  */
 export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
-  if (machine.controller.servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
+  if (ebbOf(machine).servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
   const position = servoPosFromPct(machine, way.heightPct);
-  return `S2,${position},${machine.controller.servoPin},${servoRate(machine, way)},${delayMs}`;
+  return `S2,${position},${ebbOf(machine).servoPin},${servoRate(machine, way)},${delayMs}`;
 }
 
 /** Max delay of SP and S2. */
@@ -88,7 +90,8 @@ export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
 function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS, inFlight }: PenWay): number {
-  const unitsPerPct = Math.abs(machine.controller.servoPosAt100Pct - machine.controller.servoPosAt0Pct) / 100;
+  const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
+  const unitsPerPct = Math.abs(servoPosAt100Pct - servoPosAt0Pct) / 100;
   const partOfWait = inFlight ? WHOLE_WAIT : SERVO_PART_OF_WAIT;
   const frames = ratePctPerS
     ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS

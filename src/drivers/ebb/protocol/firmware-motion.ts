@@ -1,5 +1,6 @@
 /** Limits that a firmware puts on the plan itself, before commands are compiled. */
 import type { LayerMotion, MotionLimits, MotionSettings } from "../../../settings/motion.js";
+import type { FirmwareRules } from "../../machine-job.js";
 import { firmwareFeatures } from "./firmware.js";
 
 /**
@@ -14,6 +15,12 @@ const SLICED_ACCEL_MM_PER_S2 = 500;
  */
 export const firmwareLimitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
+
+/** A version is a bare number here; other controllers' begin with their name. */
+export const ebbFirmware: FirmwareRules = {
+  isOwn: (firmware) => /^v?\d/.test(firmware),
+  limitsMotion: firmwareLimitsMotion,
+};
 
 /**
  * The settings limited to what this firmware can execute smoothly: before 2.5.3, which has only

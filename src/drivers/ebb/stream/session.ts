@@ -7,10 +7,11 @@
  * unanswered command, from the time it became the first, and each command states how long it may take.
  */
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
-import { commandName, LineSplitter, replyShape } from "../protocol/replies.js";
+import { LineSplitter } from "../../line-splitter.js";
+import { commandName, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
-import { SessionLog } from "./session-log.js";
+import { SessionLog } from "../../session-log.js";
 import type { Clock, Transport } from "../../transport.js";
 
 export interface SessionOptions {

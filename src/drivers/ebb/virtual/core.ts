@@ -6,9 +6,9 @@
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
-import { pctFromServoPos, servoPosFromPct } from "../../../machines/pen.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
+import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
 import { DrawnLine, type DrawnPolyline } from "./drawn-line.js";
 import { RunningMove, type Order } from "../model/orders.js";
 import { FRAME_TICKS, Servo } from "./servo.js";

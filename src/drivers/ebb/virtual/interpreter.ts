@@ -5,6 +5,7 @@
  * wait (for room in the queue; CU,4 and HM for the motors to stop) blocks everything behind it, as
  * in the board's parser.
  */
+import { ebbOf } from "../protocol/ebb-controller.js";
 import { commandName, replyShape } from "../protocol/replies.js";
 import { compareFirmware } from "../protocol/firmware.js";
 import type { BoardCore } from "./core.js";
@@ -257,7 +258,7 @@ export class Interpreter {
       rate: up ? core.servoRateUp : core.servoRateDown,
       ticks: delayMs * TICKS_PER_MS,
       penUp: up,
-      movesPen: core.machine.controller.servoPin === STANDARD_PIN,
+      movesPen: ebbOf(core.machine).servoPin === STANDARD_PIN,
       isPen: true,
     };
   }
@@ -291,7 +292,7 @@ export class Interpreter {
           rate,
           ticks: delayMs * TICKS_PER_MS,
           penUp,
-          movesPen: pin === this.core.machine.controller.servoPin,
+          movesPen: pin === ebbOf(this.core.machine).servoPin,
           isPen: false,
         },
       ],

@@ -13,7 +13,7 @@ import { firmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
-import { pctFromServoPos } from "../../../machines/pen.js";
+import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
 import type { Clock, Transport } from "../../transport.js";
 import { BoardCore, type BoardStatistics, type VirtualServo } from "./core.js";

@@ -1,5 +1,5 @@
 /** Log of the communication, newest last: a ring buffer of fixed size, so that memory use does not grow. */
-import type { Clock } from "../../transport.js";
+import type { Clock } from "./transport.js";
 
 export type LogDirection = "sent" | "received" | "note";
 
