@@ -65,6 +65,7 @@ export {
   DROP_RATE,
   LAYER_WAIT,
   OVERLAP_TABLE,
+  PEN_OVERLAPS,
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
