@@ -10,7 +10,6 @@
 import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
-import { dropsInFlight } from "../../../plan/pen-flight.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
 import type { PenMove, Trajectory } from "../../../plan/trajectory.js";
 import { TICKS_PER_MS } from "../../../units.js";
@@ -115,7 +114,7 @@ class Compiler {
   /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const way = this.wayOf(move, -1);
+    const way = this.wayOf(move, false, -1);
     this.still(
       penCommand(this.options.machine, way, waitMs),
       Math.max(1, waitMs * TICKS_PER_MS),
@@ -126,7 +125,7 @@ class Compiler {
 
   /** A pen move that costs the run a tick. */
   private penMoveInFlight(move: PenMove, run: number): void {
-    const way = this.wayOf(move, run);
+    const way = this.wayOf(move, !move.up, run);
     this.still(penCommand(this.options.machine, way, 0), 1, move.startS, run);
   }
 
@@ -137,7 +136,7 @@ class Compiler {
   }
 
   /** Sets the height and speed of a pen move if they changed. */
-  private wayOf(move: PenMove, run: number): PenWay {
+  private wayOf(move: PenMove, inFlight: boolean, run: number): PenWay {
     const { machine, pen } = this.options;
     const { heights } = this;
     const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
@@ -149,7 +148,7 @@ class Compiler {
       wayPct,
       timeMs: 1_000 * move.moveS,
       ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
-      inFlight: !move.up && dropsInFlight(pen),
+      inFlight,
     };
     this.setUp(penMoveSetUp(machine, way), move.startS, run);
     return way;

@@ -4,7 +4,6 @@
  */
 import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
-import { dropsInFlight } from "../../../plan/pen-flight.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
@@ -62,7 +61,7 @@ export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
   const delayMs = up ? pen.liftMs : pen.dropMs;
   const ratePctPerS = up ? pen.liftPctPerS : pen.dropPctPerS;
   const timeMs = ratePctPerS ? delayMs + (1_000 * wayPct) / ratePctPerS : delayMs;
-  return { up, heightPct, wayPct, timeMs, ratePctPerS, inFlight: !up && dropsInFlight(pen) };
+  return { up, heightPct, wayPct, timeMs, ratePctPerS };
 }
 
 /** Height and speed of SP in one direction. Empty if S2 moves the pen. */

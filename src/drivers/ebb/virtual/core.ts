@@ -133,16 +133,18 @@ export class BoardCore {
     return this.running === null || this.fifo.length < this.fifoDepth;
   }
 
-  /** Tick at which the running order ends or the tip touches or leaves the paper; Infinity if neither does. */
+  /**
+   * Tick at which the running order ends, or the tip touches or leaves the paper during it; Infinity if nothing runs or
+   * it never ends. While nothing runs the tip draws nothing: what it did meanwhile counts when the next order begins.
+   */
   get nextEventTick(): number {
-    return this.frozenTick === null
-      ? Math.min(this.running?.endTick ?? Infinity, this.contactTick)
-      : Infinity;
+    if (this.running === null || this.frozenTick !== null) return Infinity;
+    return Math.min(this.running.endTick, this.contactTick);
   }
 
   /** The event of `nextEventTick`. */
   happen(): void {
-    if (this.contactTick <= (this.running?.endTick ?? Infinity)) this.changeContact();
+    if (this.running !== null && this.contactTick <= this.running.endTick) this.changeContact();
     else this.finishRunning();
   }
 
