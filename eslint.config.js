@@ -81,6 +81,14 @@ export default tseslint.config(
           ],
         },
       ],
+      "no-restricted-syntax": [
+        "error",
+        {
+          selector:
+            ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'], TSParameterProperty)[accessibility='private']",
+          message: "In server a private member is written #name.",
+        },
+      ],
       "no-console": "off",
     },
   },
@@ -95,7 +103,7 @@ export default tseslint.config(
           patterns: [
             onlyEntryPoints("web"),
             {
-              group: ["**/server/**", "**/test/**", "node:*"],
+              group: ["**/server/**", "!**/backend/server/**", "**/test/**", "node:*"],
               message: "server and web never import each other; what they exchange is in src/schema.",
             },
           ],

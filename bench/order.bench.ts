@@ -13,7 +13,7 @@ import {
   type PrepareSettings,
   type StrokeSet,
 } from "../src/index.js";
-import { PointStrips } from "../src/geometry/point-strips.js";
+import { NearestPoints, PointGrid } from "../src/geometry/point-grid.js";
 import { randomFrom } from "../src/prepare/random.js";
 import { drawingOf } from "../test/support/drawings.js";
 
@@ -83,10 +83,13 @@ function measured(drawing: Drawing, settings: PrepareSettings): { mm: number; or
 function greedyForwards({ xy, offsets }: StrokeSet): number {
   const count = offsets.length - 1;
   const starts = Float64Array.from({ length: 2 * count }, (_, k) => xy[2 * offsets[k >> 1] + (k & 1)]);
-  const points = new PointStrips(starts);
+  const points = new PointGrid(starts);
+  const nearest = new NearestPoints(1);
   let [x, y, travel] = [0, 0, 0];
-  for (let i = points.nearest(x, y); i >= 0; i = points.nearest(x, y)) {
-    points.removeAll(i, i + 1);
+  for (let k = 0; k < count; k++) {
+    points.find(x, y, Infinity, nearest);
+    const [i] = nearest.ids;
+    points.remove(i);
     travel += Math.hypot(starts[2 * i] - x, starts[2 * i + 1] - y);
     const last = offsets[i + 1] - 1;
     [x, y] = [xy[2 * last], xy[2 * last + 1]];

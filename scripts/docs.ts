@@ -1,7 +1,8 @@
-/** `npm run docs`: writes the parts of docs/*.md that are made from the code. */
+/** `npm run docs`: writes what docs/*.md has from the code: parts of cli.md, and all of library-reference.md. */
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
+import { libraryReference } from "./library-reference.js";
 import { penGainsTable } from "./pen-gains.js";
 import { settingsTable } from "./settings-table.js";
 
@@ -10,6 +11,7 @@ const DOCS = path.join(import.meta.dirname, "..", "docs");
 writePart("cli.md", "settings", settingsTable());
 writePart("cli.md", "commands", await cliReference());
 writePart("motion.md", "pen gains", penGainsTable());
+writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
 
 function writePart(file: string, name: string, part: string): void {
   const at = path.join(DOCS, file);

@@ -4,7 +4,7 @@ import { positive, type Declare } from "./options.js";
 
 export const declareBoard: Declare = (command, { io }) => {
   command
-    .requiredOption("--pty <path>", "where the serial port shall appear")
+    .requiredOption("--pty <path>", "path where the serial port appears")
     .option("--firmware <version>", "firmware to be", "2.8.1")
     .addOption(
       new Option("--speed <factor>", "board seconds in one of ours (default: 1)").argParser(positive),

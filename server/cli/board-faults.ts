@@ -1,10 +1,10 @@
-/** Faults of the virtual board by a typed line: what a driver's author wants to see happen to a plotter. */
+/** Faults of the virtual board, triggered by typed lines, for authors of drivers. */
 import type { VirtualBoard } from "../../src/index.js";
 
 interface Fault {
   readonly usage: string;
   readonly does: string;
-  /** False when the value makes no sense. */
+  /** False if the value is invalid. */
   readonly apply: (board: VirtualBoard, value: string | undefined) => boolean;
 }
 
@@ -39,7 +39,7 @@ const FAULTS: Readonly<Record<string, Fault>> = {
   },
 };
 
-/** Makes the fault happen; returns what to tell the user. */
+/** Triggers the fault; returns a message for the user. */
 export function applyFault(board: VirtualBoard, line: string): string {
   const [word = "", value] = line.trim().toLowerCase().split(/\s+/);
   const fault = Object.hasOwn(FAULTS, word) ? FAULTS[word] : undefined;

@@ -1,6 +1,6 @@
 /**
  * `plotwright board --pty PATH`: a virtual EiBotBoard behind a pseudo-terminal, for any program that drives one.
- * On exit it tells what was drawn, and saves it as SVG.
+ * On exit it reports what was drawn, and saves it as SVG.
  */
 import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
@@ -9,14 +9,14 @@ import { applyFault, faultHelp } from "./board-faults.js";
 import type { CliIo } from "./io.js";
 
 export interface BoardCommandOptions {
-  /** Where the serial port shall appear: a link to the pseudo-terminal. */
+  /** Where the serial port appears: a link to the pseudo-terminal. */
   readonly pty: string;
   readonly firmware?: string;
-  /** Board seconds a second. */
+  /** Board seconds per second. */
   readonly speed?: number;
   /** Machine id. */
   readonly machine?: string;
-  /** What was drawn goes there; default: drawn.svg. */
+  /** File for the drawn lines; default: drawn.svg. */
   readonly svg?: string;
 }
 
@@ -28,15 +28,15 @@ export interface PtyBoardOptions {
 }
 
 export interface PtyBoard {
-  /** Serial port to open; another one after `replug`. */
+  /** Serial port to open; it changes after `replug`. */
   readonly path: string;
   readonly board: VirtualBoard;
-  /** After the board has dropped its line: it appears again, as a new port. False once it is closed. */
+  /** Plugs in the board again as a new port, after it dropped its connection. False if it is closed. */
   replug(): Promise<boolean>;
   close(): Promise<void>;
 }
 
-/** The pseudo-terminal library hands over raw bytes when its encoding is null, which its types do not say. */
+/** The pseudo-terminal library passes raw bytes if its encoding is null; its types lack this. */
 interface RawPty {
   onData(listener: (bytes: Uint8Array) => void): { dispose(): void };
   onExit(listener: () => void): { dispose(): void };
@@ -58,7 +58,7 @@ type PtyModule = typeof import("@lydell/node-pty");
 /**
  * A virtual board that any program can open as a serial port.
  *
- * @throws PlotwrightError "no-board" where there are no pseudo-terminals (Windows, or the optional package is missing)
+ * @throws PlotwrightError "no-board" if there are no pseudo-terminals (Windows, or the optional package is missing)
  */
 export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBoard> {
   const board = new VirtualBoard({ clock: nodeClock, ...options });
@@ -68,7 +68,7 @@ export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBo
   const plug = async (): Promise<void> => {
     const opened = await openPty();
     path = opened.path;
-    // A full board does not read: the kernel's buffer fills, and the sender's write waits, as with USB.
+    // A board with a full queue stops reading: the kernel's buffer fills, and the sender's write blocks, as with USB.
     opened.pty.onData((bytes) => {
       if (line !== opened) return;
       board.receive(bytes);
@@ -139,7 +139,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   io.err(`What it drew is in ${svg}.\n`);
 }
 
-/** A board that drops its line is plugged in again a second later. Rejects when it can't be. */
+/** Plugs in a board that dropped its connection again after a second. Rejects if that fails. */
 function watchDrops(ptyBoard: PtyBoard, path: string, io: CliIo): Promise<never> {
   const replug = async (): Promise<void> => {
     rmSync(path, { force: true });
@@ -170,7 +170,7 @@ function summary(board: VirtualBoard): string {
   return rows.map(([name, value]) => `${name.padEnd(14)}${value}\n`).join("");
 }
 
-/** The line as drawn, one path a stroke, travel dotted. */
+/** The drawn lines, one path per stroke, travel dotted. */
 function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
   const { widthMm, heightMm } = machine;
   const parts = [
@@ -191,7 +191,7 @@ function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
   return parts.join("");
 }
 
-/** A dot is a line of no length: with round ends it shows. */
+/** A dot is a line of zero length; round caps make it visible. */
 function pathOf(xy: Float64Array): string {
   let d = "";
   for (let i = 0; i < xy.length; i += 2) {
@@ -210,7 +210,7 @@ function writeDrawing(path: string, board: VirtualBoard, machine: MachineProfile
   }
 }
 
-/** Refuses to replace anything but a link. */
+/** Throws if `path` is anything but a link. */
 function checkLinkPlace(path: string): void {
   try {
     if (lstatSync(path).isSymbolicLink()) return;
@@ -242,7 +242,7 @@ function isLink(path: string): boolean {
 
 async function openPty(): Promise<OpenPty> {
   const module = await loadPty();
-  // Somebody has to hold the terminal's other end open while no program does, or reading it fails.
+  // Keep the other end of the terminal open: reading fails while no program has it open.
   const keeper = module.spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], {
     name: "dumb",
     encoding: null,

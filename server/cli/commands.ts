@@ -4,7 +4,7 @@ import type { Declare } from "./options.js";
 export interface CliCommand {
   readonly name: string;
   readonly about: string;
-  /** Of its help and of docs/cli.md; a test runs each of them. */
+  /** Shown in its help and in docs/cli.md; a test runs each of them. */
   readonly examples: readonly string[];
   readonly load: () => Promise<Declare>;
 }
@@ -14,7 +14,7 @@ const server = async (): Promise<typeof import("./server-commands.js")> => impor
 const queue = async (): Promise<typeof import("./queue-commands.js")> => import("./queue-commands.js");
 const list = async (): Promise<typeof import("./list-commands.js")> => import("./list-commands.js");
 
-/** What it does when no command is named. */
+/** The command that runs if none is given. */
 export const DEFAULT_COMMAND = "serve";
 
 export const COMMANDS: readonly CliCommand[] = [
@@ -64,31 +64,31 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "home",
-    about: "lift the pen and walk home",
+    about: "lift the pen and move to home",
     examples: ["plotwright home"],
     load: async () => (await hand()).declareHome,
   },
   {
     name: "jog",
-    about: "move by so many mm, pen up",
+    about: "move by a distance in mm, pen up",
     examples: ["plotwright jog 10 -5", "plotwright jog 1in 0"],
     load: async () => (await hand()).declareJog,
   },
   {
     name: "walk",
-    about: "go to a place in mm from home, pen up",
+    about: "move to a position in mm from home, pen up",
     examples: ["plotwright walk 100 5cm --travel-speed 80"],
     load: async () => (await hand()).declareWalk,
   },
   {
     name: "set-home",
-    about: "make home where the carriage stands",
+    about: "make the current position home",
     examples: ["plotwright set-home"],
     load: async () => (await hand()).declareSetHome,
   },
   {
     name: "align",
-    about: "lift the pen and switch the motors off, to put the carriage to home by hand",
+    about: "lift the pen and switch the motors off, to push the carriage home by hand",
     examples: ["plotwright align"],
     load: async () => (await hand()).declareAlign,
   },
@@ -100,13 +100,13 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "test-patch",
-    about: "draw a small pattern where the carriage stands",
+    about: "draw a small pattern at the current position",
     examples: ["plotwright test-patch"],
     load: async () => (await hand()).declareTestPatch,
   },
   {
     name: "frame",
-    about: "go around a drawing, pen up",
+    about: "move around the edge of a drawing, pen up",
     examples: ["plotwright frame drawing.svg --paper A5"],
     load: async () => (await hand()).declareFrame,
   },
@@ -118,7 +118,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "info",
-    about: "tell what the board says of itself",
+    about: "show the board and its firmware",
     examples: ["plotwright info --json"],
     load: async () => (await hand()).declareInfo,
   },
@@ -130,19 +130,19 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "machines",
-    about: "list the plotter models, yours too",
+    about: "list the plotter models, including your own",
     examples: ["plotwright machines"],
     load: async () => (await list()).declareMachines,
   },
   {
     name: "service",
-    about: "keep the server running by systemd",
+    about: "run the server as a systemd service",
     examples: ["plotwright service install --print -- --port 9381", "plotwright service status"],
     load: async () => (await server()).declareService,
   },
   {
     name: "logs",
-    about: "print what happened, to be sent to whoever helps",
+    about: "print the logs, to send with a question",
     examples: ["plotwright logs --out plotwright.log"],
     load: async () => (await server()).declareLogs,
   },

@@ -3,16 +3,17 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
+import { fileFault } from "../planning/read-drawing.js";
 import type { CliIo } from "./io.js";
 import { readStdin } from "./stdin.js";
 
 export const readText = (path: string): string =>
   path === "-" ? Buffer.from(readStdin()).toString("utf8") : readFileSync(path, "utf8");
 
-/** For people. */
+/** The name for messages. */
 export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
 
-/** The drawing as a file, for threads that read it by its path; what came by stdin is kept in one until `use` is over. */
+/** The drawing as a file, for threads that read it by its path. Stdin is written to a temporary file during `use`. */
 export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
   if (file !== "-") return use(resolve(file));
   const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
@@ -33,7 +34,7 @@ export function writeOut(path: string, text: string, io: Pick<CliIo, "out">): vo
   try {
     writeFileSync(path, text);
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, {
       cause,
     });
   }

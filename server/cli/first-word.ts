@@ -1,4 +1,4 @@
-/** The first word of a command line that is no command: what was probably meant. */
+/** The error for an unknown command, with what was probably meant. */
 import { PlotwrightError } from "../../src/index.js";
 
 const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;

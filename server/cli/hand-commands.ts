@@ -52,7 +52,7 @@ export const declareRaw: Declare = (command, { io }) => {
   );
 };
 
-/** The settings that a command follows; with others it would look as if they did something. */
+/** The settings that a command uses. It offers no others, since they would have no effect. */
 const PEN = ["machine", "pen"];
 const PEN_AND_TRAVEL = [...PEN, "motion.travel"];
 

@@ -1,37 +1,37 @@
-/** What a command needs of its process, given in so that tests can run commands without one. */
+/** What a command needs of its process. An interface, so that tests can run commands without a process. */
 import { isatty } from "node:tty";
 
 export interface CliIo {
-  /** Results: one call for each piece of text. */
+  /** Writes results. */
   out(text: string): void;
-  /** Messages and progress. */
+  /** Writes messages and progress. */
   err(text: string): void;
-  /** The user sees a terminal: a progress bar makes sense. */
+  /** Whether the output is a terminal, so that a progress bar makes sense. */
   readonly isTerminal: boolean;
-  /** There is somebody who can type: a question makes sense. */
+  /** Whether the input is a keyboard, so that a question makes sense. */
   readonly hasKeyboard: boolean;
   /**
-   * Called at each Ctrl-C; and once (`isFinal`) at SIGTERM, when the terminal is closed (SIGHUP), or when the program
-   * that started this one has ended. The returned function stops listening.
+   * Called at each Ctrl-C, and once with `isFinal` at SIGTERM, when the terminal is closed (SIGHUP), or when the
+   * parent process has ended. The returned function stops listening.
    */
   onInterrupt(listener: (isFinal: boolean) => void): () => void;
-  /** The process has no longer than that: what still keeps it alive then is named, and it ends all the same. */
+  /** Ends the process after this time, and names what still kept it alive. */
   endWithin(ms: number): void;
-  /** Called at each line typed while listening; the returned function stops it. */
+  /** Calls back for each typed line; the returned function stops listening. */
   onLine(listener: (line: string) => void): () => void;
 }
 
-/** "disconnect": the parent that opened a channel to us, as `npm start` does, is gone. */
+/** "disconnect": the parent that opened a channel to this process, as `npm start` does, has ended. */
 const ENDS = ["SIGTERM", "SIGHUP", "disconnect"] as const;
 
 export function processIo(): CliIo {
-  // Whoever reads us may have enough ("| head"), close the terminal, or fill the disk: a plot goes on without them.
+  // The reader may stop ("| head"), the terminal may close, the disk may be full: a plot continues regardless.
   for (const stream of [process.stdout, process.stderr]) stream.on("error", () => undefined);
   return {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),
     isTerminal: process.stderr.isTTY,
-    // Not process.stdin.isTTY: to open stdin as a stream makes a pipe answer "nothing yet" to whoever reads it whole.
+    // Not process.stdin.isTTY: opening stdin as a stream makes a pipe non-blocking, and reading it whole then fails.
     hasKeyboard: isatty(0),
     onInterrupt: (listener) => {
       const soft = (): void => listener(false);

@@ -9,7 +9,7 @@ function toMm(text: string): number {
   const [, amount, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+))\s*(mm|cm|in|"|)$/i.exec(text.trim()) ?? [];
   if (amount === undefined || unit === undefined) return NaN;
   const mm = Number(amount) * (MM_PER_UNIT[unit.toLowerCase()] ?? NaN);
-  // An inch is not a round number of binary mm: 8.5in shall be 215.9, not 215.89999999999998.
+  // An inch is not a round number of binary mm: 8.5in must be 215.9, not 215.89999999999998.
   return Number(mm.toFixed(9));
 }
 
@@ -19,7 +19,7 @@ export function length(text: string): number {
   return mm;
 }
 
-/** "210x297", "20x20cm", "8.5x11in": a unit at the end holds for both. Null where it is none. */
+/** "210x297", "20x20cm", "8.5x11in": a unit at the end applies to both. Null if malformed. */
 export function sizeMm(text: string): { readonly widthMm: number; readonly heightMm: number } | null {
   const [width, height, ...more] = text.trim().split(/\s*[x×]\s*/i);
   if (width === undefined || height === undefined || more.length > 0) return null;

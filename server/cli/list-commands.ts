@@ -1,6 +1,6 @@
-/** What there is: boards and plotter models. */
-import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles } from "../machines/machine-files.js";
+/** Commands that list boards and plotter models. */
+import { defaultDataDir } from "../storage/data-dir.js";
+import { MachineFiles } from "../storage/machine-files.js";
 import type { CliIo } from "./io.js";
 import { addData, addJson, type Declare } from "./options.js";
 

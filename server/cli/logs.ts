@@ -1,6 +1,6 @@
-/** `plotwright logs`: what happened, as one text to be sent to whoever helps. */
-import { defaultDataDir } from "../data-dir.js";
-import { bundleText, readLog } from "../log-book.js";
+/** `plotwright logs`: all logs as one text, to send with a question. */
+import { defaultDataDir } from "../storage/data-dir.js";
+import { bundleText, readLog } from "../storage/log-book.js";
 import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 
@@ -12,7 +12,7 @@ export interface LogsOptions {
 
 const PATIENCE_MS = 3_000;
 
-/** From the server while it runs here, with the boards' logs; else from its data folder. */
+/** From the running server, with the boards' logs; otherwise from its data folder. */
 export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
   const text =
     (options.data === undefined ? await fromServer(options.port) : null) ??

@@ -2,13 +2,13 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../plotter/hand-moves.js";
-import { openPlotter } from "../driven-plotter.js";
-import type { PlotterPort } from "../queue/plotter-port.js";
+import { openPlotter } from "../plotter/named-plotter.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import type { DeviceOptions } from "./options.js";
 
-/** Or a height in percent. */
+/** Up, down or a height in percent. */
 export type PenPlace = "up" | "down" | number;
 
 export interface FrameOptions extends DeviceOptions {
@@ -18,11 +18,11 @@ export interface FrameOptions extends DeviceOptions {
 export async function runPen(where: PenPlace, settings: PlotSettings, options: DeviceOptions): Promise<void> {
   const { upPct, downPct } = settings.pen;
   const heightPct = where === "up" ? upPct : where === "down" ? downPct : where;
-  // A height of one's own counts as down: whatever moves next lifts the pen first.
+  // A height in percent counts as down: the next move lifts the pen first.
   await withPlotter(options, settings, (plotter) => plotter.pen(where === "up", heightPct));
 }
 
-/** One line to the board, and what it answers. */
+/** Sends one line to the board and prints its answer. */
 export async function runRaw(
   line: string,
   settings: PlotSettings,
@@ -41,13 +41,13 @@ export async function runMove(move: HandMove, settings: PlotSettings, options: D
   await withPlotter(options, settings, (plotter) => plotter.move(move, settings));
 }
 
-/** Walks around where a drawing would come to lie. */
+/** Moves around the edge of the drawing on the paper. */
 export async function runFrame(file: string, settings: PlotSettings, options: FrameOptions): Promise<void> {
   const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
   await runMove({ kind: "frame", boxMm }, settings, options);
 }
 
-/** Motors off, so that the carriage can be put to home by hand. */
+/** Switches the motors off, so that the carriage can be pushed home by hand. */
 export async function runAlign(settings: PlotSettings, options: DeviceOptions): Promise<void> {
   await withPlotter(options, settings, async (plotter) => {
     await plotter.pen(true);

@@ -2,7 +2,7 @@
 import { InvalidArgumentError, Option, type Command } from "commander";
 import type { CliIo } from "./io.js";
 
-/** What a command's file is given to declare its options and what it does. */
+/** Passed to each command when it declares its options and action. */
 export interface CommandContext {
   readonly io: CliIo;
   readonly version: string;
@@ -27,7 +27,7 @@ export const addDevice = (command: Command): Command =>
 export const addData = (command: Command): Command =>
   command.option("--data <folder>", "folder for jobs and settings");
 
-/** Whose servo and steps these are: told, or as a server has kept them in its data folder. */
+/** The machine: given by an option, or stored by a server in its data folder. */
 export const addHandOptions = (command: Command): Command =>
   addData(addDevice(command))
     .option("--machine <id>", "plotter model (default: the one that the server's plotter has)")

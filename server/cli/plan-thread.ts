@@ -1,4 +1,4 @@
-/** `plotwright plan` in a thread of its own, which is ended when the file takes too long. */
+/** `plotwright plan` in a separate thread, which is ended if the file takes too long. */
 import { PlotwrightError } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { BoundedThread } from "../planning/bounded-thread.js";
@@ -24,7 +24,7 @@ export type FromPlanThread =
   | { readonly type: "begin"; readonly step: PlanStep }
   | { readonly type: "done"; readonly fault: Fault | null };
 
-/** Throws what `runPlan` throws, and `bad-file` or `too-large` where a step takes too long. */
+/** Throws what `runPlan` throws, and `bad-file` or `too-large` if a step takes too long. */
 export function runPlanInThread(
   input: PlanThreadInput,
   io: Pick<CliIo, "out">,

@@ -1,4 +1,4 @@
-/** `plotwright plan FILE.svg`: what a plot would be, without a board. Runs in a thread: see plan-thread.ts. */
+/** `plotwright plan FILE.svg`: time, distance and commands of a plot, without a board. Runs in a thread: see plan-thread.ts. */
 import {
   PlotwrightError,
   importDrawing,
@@ -60,14 +60,14 @@ interface Planned {
   readonly settings: PlotSettings;
   readonly job: PreparedJob;
   readonly trajectory: Trajectory;
-  /** All that a plot would send, from motors-on to motors-off. */
+  /** All commands of the plot, from motors-on to motors-off. */
   readonly lines: readonly string[];
 }
 
-/** What it needs of the thread that it runs in. */
+/** What it needs of its thread. */
 export interface PlanOutput {
   out(text: string): void;
-  /** A step has begun. */
+  /** Called when a step begins. */
   begin(step: PlanStep): void;
 }
 

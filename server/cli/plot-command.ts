@@ -15,9 +15,9 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       "wait so long for new paper between two plots, instead of for Enter",
       seconds,
     )
-    .option("--resume", "go on with the plot that was cut short by a crash")
-    .option("--anew", "forget a plot that was cut short")
-    .option("--quiet", "say nothing but errors")
+    .option("--resume", "resume the plot that a crash interrupted")
+    .option("--anew", "discard an interrupted plot")
+    .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
       if (options.resume === true) setExitCode(await resumePlot(files, options, io));
       else setExitCode(await runPlot(files, settingsFromOptions(options), options, io));

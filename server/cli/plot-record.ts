@@ -1,6 +1,6 @@
 /**
- * What a plot of the command line needs to go on after a crash: its drawing, its settings, and the journal that its
- * driver writes. One folder for each device; it is gone when the plot has ended.
+ * What a plot of the command line needs to resume after a crash: its drawing, its settings, and the journal that its
+ * driver writes. One folder per device, deleted when the plot has ended.
  */
 import {
   copyFileSync,
@@ -32,11 +32,11 @@ const entrySchema = z.object({
 export interface Plotted {
   readonly name: string;
   readonly settings: PlotSettings;
-  /** The layers that are drawn, by name; left out: all. */
+  /** The layers that are drawn, by name. Absent: all. */
   readonly only: readonly string[] | undefined;
 }
 
-/** A plot that was cut short. */
+/** An interrupted plot. */
 export interface CutShort extends Plotted {
   readonly from: JournalEntry["place"];
   /** 0 … 1. */
@@ -62,7 +62,7 @@ export class PlotRecord {
     this.takeOver(plot);
   }
 
-  /** Begun, or taken up again, by this process. */
+  /** Begun or resumed by this process. */
   takeOver({ name, settings, only }: Plotted): void {
     this.#write("plot.json", { name, settings, only, pid: process.pid });
   }
@@ -76,7 +76,7 @@ export class PlotRecord {
     rmSync(this.#folder, { recursive: true, force: true });
   }
 
-  /** Null where the last plot ended, had drawn nothing, or is still under way in another process. */
+  /** Null if the last plot ended, had drawn nothing, or still runs in another process. */
   find(): CutShort | null {
     const plot = plotSchema.safeParse(this.#read("plot.json"));
     const entry = entrySchema.safeParse(this.#read("journal.json"));
@@ -104,7 +104,7 @@ export class PlotRecord {
     }
   }
 
-  /** Whole or not at all, whenever the process ends. */
+  /** Writes the file atomically. */
   #write(name: string, value: unknown): void {
     const path = join(this.#folder, name);
     writeFileSync(`${path}.new`, JSON.stringify(value));

@@ -1,4 +1,4 @@
-/** What somebody sees of a plot under way, and what their keys do to it. */
+/** Progress of a running plot, and the keys that control it. */
 import { SingleBar } from "cli-progress";
 import type { PlotProgress, PlotRun } from "../plotter/types.js";
 import type { PlotWait } from "../../src/schema/index.js";
@@ -8,11 +8,11 @@ import { minutes } from "./plan.js";
 export interface Watched {
   readonly name: string;
   readonly isQuiet: boolean;
-  /** Taken up again after a crash; `isLost`: the board does not know its place any more. */
+  /** Resumed after a crash. `isLost`: the board no longer knows its position. */
   readonly resumed: { readonly isLost: boolean } | null;
 }
 
-/** Until it ends. Returns the exit code: 0, or 5 when it was cancelled. */
+/** Runs until the plot ends. Returns the exit code: 0, or 5 when it was cancelled. */
 export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, io: CliIo): Promise<number> {
   const say = isQuiet ? () => undefined : (text: string) => io.err(text);
   const isHeld = resumed !== null && io.hasKeyboard;
@@ -44,7 +44,7 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
 const LOST = "The board has lost its place: push the carriage to home by hand first.";
 const KNOWN = "The board still knows its place.";
 
-/** False when it was cancelled meanwhile. */
+/** False if it was cancelled meanwhile. */
 export async function waitForPaper(name: string, waitS: number | undefined, io: CliIo): Promise<boolean> {
   io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
   const forget: (() => void)[] = [];
@@ -67,13 +67,13 @@ export function cancelled(io: CliIo): number {
   return 5;
 }
 
-/** What the user's keys mean, by what went before. */
+/** The meaning of the user's keys, which depends on the state. */
 class Control {
   readonly #run: PlotRun;
   readonly #io: CliIo;
   #held: boolean;
   #cancelling = false;
-  /** Rejects when a request can't be carried out. */
+  /** Rejects if a request fails. */
   readonly failed: Promise<never>;
   #fail: (error: unknown) => void = () => undefined;
 
@@ -93,12 +93,12 @@ class Control {
       this.#run.cancel().catch(this.#fail);
     } else {
       this.#held = true;
-      this.#io.err("\nHolding. Enter goes on, Ctrl-C again cancels.\n");
+      this.#io.err("\nPaused. Enter resumes, Ctrl-C again cancels.\n");
       this.#run.pause().catch(this.#fail);
     }
   }
 
-  /** A stop of its own, for another pen. */
+  /** A planned stop, for another pen. */
   waitsFor({ penName, layerName }: PlotWait): void {
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;

@@ -1,16 +1,16 @@
 /**
- * `plotwright plot FILE…`: plots without a server. The first Ctrl-C holds (Enter goes on), a second one
+ * `plotwright plot FILE…`: plots without a server. The first Ctrl-C pauses (Enter resumes), a second one
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
  */
 import { basename } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
+import { defaultDataDir } from "../storage/data-dir.js";
 import { WorkerPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../plotter/types.js";
-import type { PlotterPort } from "../queue/plotter-port.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
 import { nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";
@@ -65,7 +65,7 @@ export async function runPlot(
   return 0;
 }
 
-/** Goes on with the plot that a crash has cut short, from where it was half a second before at most. */
+/** Resumes the plot that a crash interrupted, from its position at most half a second before. */
 export async function resumePlot(
   files: readonly string[],
   options: PlotCommandOptions,
@@ -74,7 +74,7 @@ export async function resumePlot(
   if (files.length > 0) {
     throw new PlotwrightError(
       "bad-setting",
-      "--resume goes on with the drawing that was begun: name no file.",
+      "--resume continues the drawing that was begun, so give no file.",
     );
   }
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
@@ -83,7 +83,7 @@ export async function resumePlot(
   return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
 }
 
-/** The carriage is somewhere in that drawing, and what is drawn is on its paper: to begin anew is rarely meant. */
+/** The carriage is in the middle of that drawing, and part of it is on the paper: beginning again is rarely meant. */
 function mustHaveEnded(record: PlotRecord, { anew }: PlotCommandOptions): void {
   const found = record.find();
   if (found === null || anew === true) return;

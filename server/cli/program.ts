@@ -1,4 +1,4 @@
-/** The command line: finds the command that is asked for, runs it, and makes errors one line and an exit code. */
+/** The command line: finds the command, runs it, and turns errors into one line and an exit code. */
 import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import type { CliIo } from "./io.js";
@@ -32,7 +32,7 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   }
 }
 
-/** All commands by name, and those of `wanted` with their options; the others are not loaded. */
+/** All commands by name; only those in `wanted` are loaded and have their options. */
 export async function buildProgram(wanted: readonly string[], context: CommandContext): Promise<Command> {
   const { io, version } = context;
   const program = new Command("plotwright")
@@ -43,7 +43,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
     .configureOutput({
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
-      outputError: (text, write) => write(`plotwright: ${oneLine(text.replace(/^error: /, ""))}\n`),
+      outputError: (text, write) => write(`plotwright: ${inWords(oneLine(text.replace(/^error: /, "")))}\n`),
     });
   for (const { name, about, examples, load } of COMMANDS) {
     const command = program
@@ -57,7 +57,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
   return program;
 }
 
-/** Options without a command are those of the default one, but for these, which the program itself answers. */
+/** Options without a command belong to the default command, except these, which the program itself handles. */
 const OF_PROGRAM = ["--help", "-h", "--version"];
 
 function wantedOf(args: readonly string[]): string[] {
@@ -73,5 +73,13 @@ async function mustBeCommand(word: string | undefined): Promise<void> {
   const { notACommand } = await import("./first-word.js");
   throw notACommand(word, names);
 }
+
+/** An extra word is usually an option without its name. */
+const inWords = (text: string): string =>
+  text.replace(
+    /^too many arguments for '(.+)'\. Expected (\d+) arguments? but got (\d+)\.$/,
+    (_, name: string, expected: string, got: string) =>
+      `${name} takes ${expected === "0" ? "no arguments" : `${expected} at most`}, got ${got}. Options begin with --, such as --port 9381; names with blanks need quotes. See plotwright ${name} --help.`,
+  );
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");

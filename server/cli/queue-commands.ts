@@ -2,9 +2,10 @@
 import { Option, type Command } from "commander";
 import { basename } from "node:path";
 import { importDrawing } from "../../src/index.js";
+import { textOfBytes } from "../../src/internal.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
-import { readDrawing } from "../planning/read-drawing.js";
+import { readBytes } from "../planning/read-drawing.js";
 import { nameOf, withDrawingFile } from "./files.js";
 import { addData, addJson, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
@@ -23,26 +24,26 @@ export const declareAdd: Declare = (command, { io }) => {
     .option("--only <layer...>", "draw these layers only, by name or id")
     .option("--copies <number>", "how often to plot each", copies, 1)
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
-    .option("--quiet", "say nothing but errors")
+    .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
       const { plotters } = await serverState(options);
       const plotter = plotters.find(({ id }) => id === (options.plotter ?? plotters[0]?.id));
-      // A plotter knows which model it is; who names one means that.
+      // The plotter's own model, unless the user names one.
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
       for (const file of files) {
-        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readDrawing(path)));
+        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readBytes(path)));
         const settings =
           options.only === undefined
             ? base
-            : withOnlyLayers(importDrawing(file, drawing), base, options.only);
-        const job = await addJob(options, {
+            : withOnlyLayers(importDrawing(file, textOfBytes(drawing)), base, options.only);
+        const wanted = {
           name: basename(nameOf(file)),
-          drawing: withoutEncoding(drawing),
           settings,
           copies: options.copies,
           ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
-        });
+        };
+        const job = await addJob(options, wanted, drawing);
         if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
       }
     });
@@ -58,10 +59,6 @@ export const declareQueue: Declare = (command, { io }) => {
   });
 };
 
-/** As text it goes in UTF-8, whatever the file said that it was in. */
-const withoutEncoding = (text: string): string =>
-  text.replace(/^(\s*<\?xml\s[^>]*?)\s+encoding\s*=\s*(?:"[^"]*"|'[^']*')/, "$1");
-
 const addServer = (command: Command): Command =>
   command
     .option("--url <url>", "where the server is", DEFAULT_URL)
@@ -70,6 +67,6 @@ const addServer = (command: Command): Command =>
 const line = (job: Job): string =>
   [job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name].join("\t");
 
-/** What is left of it, or all where it has not begun. */
+/** The time left, or the whole time if it has not begun. */
 const timeOf = ({ remainingS, expectedS, stats, state }: Job): string =>
   minutes(state === "queued" ? (expectedS ?? stats?.durationS ?? remainingS ?? 0) : (remainingS ?? 0));

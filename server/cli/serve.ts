@@ -1,16 +1,16 @@
-/** `plotwright serve`: runs until it is told to stop. */
+/** `plotwright serve`: runs until it is stopped. */
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../src/index.js";
-import { createServer, type PlotwrightServer, type ServerOptions } from "../index.js";
+import { createServer, type PlotwrightServer, type ServerOptions } from "../composition/create-server.js";
 import { lanAddresses, pairingText } from "../security/network.js";
 import type { CliIo } from "./io.js";
 
-/** After everything has been closed. */
+/** Time limit after everything has been closed. */
 const LINGER_MS = 3_000;
-/** To lift the pen, walk home and store; each part has a limit of its own (closing.ts). */
+/** Time to lift the pen, go home and store; each part has its own limit (closing.ts). */
 const CLOSING_MS = 55_000;
-/** To give up opening: nothing plots yet. */
+/** Time limit if it is stopped while opening: nothing plots yet. */
 const OPENING_MS = 5_000;
 
 export interface ServeCommandOptions {

@@ -1,21 +1,21 @@
 /**
- * `plotwright service`: keeps the server running on a computer of its own (a Raspberry Pi under the table) by
- * systemd: for one user, or with --system for the whole computer.
+ * `plotwright service`: runs the server as a systemd service, for example on a Raspberry Pi: for one user, or
+ * with --system for the whole computer.
  */
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { packagePath } from "../package-files.js";
+import { packagePath } from "../storage/package-files.js";
 import type { CliIo } from "./io.js";
 
 export interface ServiceOptions {
   /** For the whole computer, started at boot; needs root. */
   readonly system?: boolean;
-  /** Whose server it is, with `system`; whoever called sudo unless told. */
+  /** The user that runs the server, with `system`. Default: the user who called sudo. */
   readonly user?: string;
-  /** Only shows what would be written. */
+  /** Only print what would be written. */
   readonly print?: boolean;
 }
 
@@ -24,15 +24,15 @@ export interface CommandResult {
   readonly text: string;
 }
 
-/** What of the computer is touched, given in for tests. */
+/** The parts of the computer that it touches, as an interface for tests. */
 export interface ServiceHost {
   readonly platform: NodeJS.Platform;
   readonly env: NodeJS.ProcessEnv;
   readonly home: string;
   readonly isRoot: boolean;
-  /** Where units of the whole computer lie. */
+  /** Folder of the system's units. */
   readonly systemDir: string;
-  /** The program that runs now: node and its script. */
+  /** The running program: node and its script. */
   readonly node: string;
   readonly script: string;
   readonly run: (command: string, args: readonly string[]) => CommandResult;
@@ -58,7 +58,7 @@ function thisHost(): ServiceHost {
   };
 }
 
-/** `serveArgs`: as after `plotwright serve`; paths in them are made whole. */
+/** `serveArgs`: as after `plotwright serve`; their paths are made absolute. */
 export function installService(
   options: ServiceOptions,
   serveArgs: readonly string[],
@@ -82,7 +82,7 @@ export function installService(
   writeFileSync(path, unit);
   systemctl(options, host, ["daemon-reload"]);
   systemctl(options, host, ["enable", UNIT]);
-  // Not only started: an older one that runs must take the new unit.
+  // Restart, not start: a running server must use the new unit.
   systemctl(options, host, ["restart", UNIT]);
   io.out(`${path} is written, and the server runs. It starts again by itself.\n`);
   if (options.system === true) return;
@@ -98,14 +98,14 @@ export function uninstallService(options: ServiceOptions, io: CliIo, host: Servi
     throw new PlotwrightError("not-found", `There is no ${path}, so no service is installed.`);
   }
   mustHaveSystemd(options, host);
-  // A server that is not running is no reason to keep its unit.
+  // Remove the unit even if the server is not running.
   host.run("systemctl", [...scope(options), "disable", "--now", UNIT]);
   rmSync(path);
   systemctl(options, host, ["daemon-reload"]);
   io.out(`${path} is removed. Jobs and settings are kept.\n`);
 }
 
-/** 0 when it runs, 3 (as systemctl says it) when not. */
+/** 0 if it runs, otherwise 3, as systemctl returns. */
 export function serviceStatus(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): number {
   const path = unitPath(options, host);
   if (!existsSync(path)) {
@@ -153,11 +153,14 @@ function unitPath({ system }: ServiceOptions, { systemDir, env, home }: ServiceH
   return join(base, "systemd", "user", UNIT);
 }
 
-/** Never root: a server on a network needs no more than its files and its port. */
+/** Never root: a server on a network needs only its files and its port. */
 function userOf({ user }: ServiceOptions, { env }: ServiceHost): string {
   const name = user ?? env["SUDO_USER"] ?? "";
   if (name === "" || name === "root" || !/^[a-z_][a-z0-9_.-]*$/i.test(name)) {
-    throw new PlotwrightError("bad-setting", "Say whose server it shall be, not root's: --user NAME.");
+    throw new PlotwrightError(
+      "bad-setting",
+      "The server must not run as root: give its user with --user NAME.",
+    );
   }
   return name;
 }
@@ -170,7 +173,7 @@ function wholePaths(args: readonly string[]): string[] {
   });
 }
 
-/** As systemd reads it: quotes, and its own % and $. */
+/** Quoted for systemd, with its special % and $ escaped. */
 function quoted(arg: string): string {
   const text = arg.replace(/[\\"]/g, "\\$&").replace(/%/g, "%%").replace(/\$/g, "$$$$").replace(/\n/g, "\\n");
   return /^[\w@+=:,./-]+$/.test(arg) ? text : `"${text}"`;

@@ -1,4 +1,4 @@
-/** The settings that have an option on the command line: the flag, where its value goes, how it is read. */
+/** The settings that have an option on the command line: the flag, the path of its value, and its parser. */
 import { InvalidArgumentError } from "commander";
 import { PAPER_SIZES } from "../../src/index.js";
 import {
@@ -15,7 +15,7 @@ import { length, sizeMm } from "./lengths.js";
 export interface SettingOption {
   readonly flags: string;
   readonly about: string;
-  /** Where in PlotSettings. */
+  /** Path in PlotSettings. */
   readonly path: string;
   readonly parse?: (text: string) => unknown;
   readonly choices?: readonly string[];
@@ -55,7 +55,7 @@ function optionsOf(setting: SettingFlag): SettingOption[] {
   if (row.kind === "choice") return [{ flags: `${flag} <how>`, path, about, choices: row.choices }];
   return [
     { flags: flag, path, about },
-    { flags: flag.replace("--", "--no-"), path, about: row.aboutOff ?? "switches that off" },
+    { flags: flag.replace("--", "--no-"), path, about: row.aboutOff ?? "switch that off" },
   ];
 }
 
@@ -63,7 +63,7 @@ export const SETTING_OPTIONS: readonly SettingOption[] = [...STRUCTURED, ...SETT
 
 const NAMED_SIZES: readonly unknown[] = Object.values(PAPER_SIZES);
 
-/** A size given by numbers, which is meant as it is said, wide or high. */
+/** A size in numbers: its own orientation applies. */
 export const isOwnSize = (size: unknown): size is PaperSize =>
   size !== undefined && !NAMED_SIZES.includes(size);
 

@@ -1,21 +1,27 @@
 /**
  * From the command line to PlotSettings: defaults, then the file of --config, then the flags. Values are
- * checked by the same schema as the web's; a fault names the flag, or the place in the file.
+ * checked by the same schema as the web's; an error names the flag, or the field in the file.
  */
 import { Option, type Command } from "commander";
 import { PlotwrightError, type MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import { defaultDataDir } from "../data-dir.js";
-import { MachineFiles, machineOfText } from "../machines/machine-files.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  firstFault,
+  plotSettingsSchema,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+import { fileFault } from "../planning/read-drawing.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { MachineFiles, machineOfText } from "../storage/machine-files.js";
 import { readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
-/** What commander hands to an action: option names in camel case. */
+/** The option values that commander passes to an action: names in camel case. */
 export type OptionValues = Readonly<Record<string, unknown>>;
 
-/** `parts`: the settings that the command follows, by where they stand: "pen", "motion.travel"; left out: all. */
+/** @param parts paths of the settings that the command uses: "pen", "motion.travel". Absent: all. */
 export function addSettingOptions(command: Command, parts?: readonly string[]): Command {
   const isMeant = ({ path }: SettingOption): boolean =>
     parts === undefined || parts.some((part) => path === part || path.startsWith(`${part}.`));
@@ -46,14 +52,13 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
   const result = plotSettingsSchema.safeParse(settings);
   if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data, values);
-  const issue = result.error.issues[0];
-  const path = issue?.path.join(".") ?? "";
+  const { path, words } = firstFault(result.error);
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
   const where = option?.flags.split(" ")[0] ?? (typeof config === "string" ? `${config}: ${path}` : path);
-  throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+  throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
 }
 
-/** For moves by hand: where no machine is given, the one of the plotter that a server here has driven. */
+/** For moves by hand. If no machine is given, uses the one of the plotter that a server on this computer has driven. */
 export function handSettingsFromOptions(values: OptionValues): PlotSettings {
   const settings = settingsFromOptions(values);
   const { machine, machineFile, config, device } = values;
@@ -84,13 +89,11 @@ function readMachine(path: string): MachineProfile {
   try {
     return machineOfText(readText(path));
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${(cause as Error).message}.`, {
-      cause,
-    });
+    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${whyNotJson(cause)}.`, { cause });
   }
 }
 
-/** A machine of the user's own, made in the page of a server with that data folder. */
+/** Adds the user's own machine, which was made in the page of a server with that data folder. */
 const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
   new MachineFiles(dataDirOf(values)).withMachine(settings);
 
@@ -102,11 +105,15 @@ function readConfig(path: string): Record<string, unknown> {
     if (isRecord(value)) return value;
     throw new Error("it is not a JSON object");
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--config ${path}: ${(cause as Error).message}.`, { cause });
+    throw new PlotwrightError("bad-setting", `--config ${path}: ${whyNotJson(cause)}.`, { cause });
   }
 }
 
-/** Lays the file's values over the settings; a name that there is not is a mistake, not ignored. */
+/** Why a JSON file cannot be used. */
+const whyNotJson = (cause: unknown): string =>
+  cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
+
+/** Merges the file's values into the settings. An unknown name is an error. */
 function merge(
   target: Record<string, unknown>,
   over: Record<string, unknown>,

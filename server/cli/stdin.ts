@@ -1,4 +1,4 @@
-/** Stdin as it is. It can be read once, and may be asked for more than once (the settings of --config -). */
+/** The bytes of stdin. They are read once and stored, since several options may need them (--config -). */
 import { readFileSync } from "node:fs";
 
 let bytes: Uint8Array | null = null;

@@ -1,8 +1,8 @@
-/** Which machine a server has been told that its plotter is, for commands that run without it. */
+/** The machine that is set for a server's plotter, for commands that run without the server. */
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { Store } from "../queue/store.js";
+import { Store } from "../storage/store.js";
 
 /**
  * The machine of the plotter with that device; of the one that takes any board where none has it. Null where nothing

@@ -1,43 +1,46 @@
 /** Assembles the express app: guards first, then the API, then the page. */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
-import { queueSettingsSchema, type Pairing, type Snapshot } from "../../src/schema/index.js";
-import type { MachineFiles } from "../machines/machine-files.js";
+import { PlotwrightError } from "../../src/index.js";
+import type { Pairing } from "../../src/schema/index.js";
+import type { MachineFiles } from "../storage/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import { lane } from "../planning/lane.js";
-import type { DrawingFiles } from "../queue/drawing-files.js";
+import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import type { Notices } from "../queue/notices.js";
-import type { PlotterRegistry } from "../plotter-registry.js";
-import type { SharedQueue } from "../shared/shared-queue.js";
-import type { Webhooks } from "../webhooks/webhooks.js";
+import type { PlotterRegistry } from "../plotter/plotter-registry.js";
+import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
+import { ACCESS_ROUTES, accessRoutes } from "./access-routes.js";
+import type { ApiPart } from "./api-route.js";
 import { Browsers, requireOperator } from "./browser.js";
-import { errorResponder, notFound, parseWith } from "./errors.js";
-import { accessRoutes, limitRequests, pairRoutes, requireRole, roleOf } from "./auth.js";
+import { limitRequests, pairRoutes, requireRole } from "./auth.js";
+import { DRAWING_ROUTES, drawingRoutes } from "./drawing-routes.js";
+import { errorResponder, notFound } from "./errors.js";
 import type { EventHub } from "./events.js";
 import { guardHosts, guardPaths } from "./guard.js";
-import { handMovesRoutes, type HandMoveParts } from "./hand-moves-routes.js";
-import { jobsRoutes } from "./jobs-routes.js";
-import { machinesRoutes } from "./machines-routes.js";
+import { HAND_MOVE_ROUTES, handMoveRoutes, type HandMoveParts } from "./hand-move-routes.js";
+import { JOB_ROUTES, jobRoutes } from "./job-routes.js";
+import { MACHINE_ROUTES, machineRoutes } from "./machine-routes.js";
 import { openApiText } from "./openapi.js";
-import { plottersRoutes } from "./plotters-routes.js";
-import { sharedRoutes } from "./shared-routes.js";
-import { samplesRoutes } from "./samples.js";
-import { studioRoutes } from "./studio-routes.js";
+import { OPERATOR_ROUTES, operatorRoutes } from "./operator-routes.js";
+import { PLOTTER_ROUTES, plotterRoutes } from "./plotter-routes.js";
+import { SAMPLE_ROUTES, sampleRoutes } from "./sample-routes.js";
+import { STATE_ROUTES, stateRoutes } from "./state-routes.js";
 
 export interface AppParts {
   readonly version: string;
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
+  readonly uploads: UploadedDrawings;
   readonly registry: PlotterRegistry;
   readonly hub: EventHub;
   readonly operatorLock: OperatorLock;
-  readonly webhooks: Webhooks;
   readonly notices: Notices;
-  /** The queue shared with other servers; null without one. */
-  readonly shared: SharedQueue | null;
+  /** Routes of the plug-ins that are loaded. */
+  readonly plugins: readonly ApiPart[];
   /** Links that pair a device. */
   readonly pairing: () => Promise<Pairing>;
   /** The server's log so far. */
@@ -77,23 +80,25 @@ export function createApp(parts: AppParts): Express {
   return app;
 }
 
-/** The routers of the API, each with its path below /api/v1. */
-export function apiMounts(
+/** The parts of the API, those of the plug-ins included. */
+export function apiParts(
   parts: AppParts,
   browsers = new Browsers(parts.access),
-): readonly (readonly [string, Router])[] {
-  const { queue, registry } = parts;
+  openApi = (): Promise<string> => Promise.resolve("{}"),
+): readonly ApiPart[] {
+  const { queue, files, uploads, machines, registry } = parts;
   const plotters = registry.ports;
   return [
-    ["", stateRoutes(parts, browsers)],
-    ["", studioRoutes({ ...parts, plotters, browsers })],
-    ["", plottersRoutes(registry, queue, parts.log)],
-    ["/access", accessRoutes(parts.access)],
-    ["/jobs", jobsRoutes(queue, parts.files, parts.machines)],
-    ["/machines", machinesRoutes(parts.machines)],
-    ["/plotters", handMovesRoutes(handMoveParts(parts))],
-    ["/shared-jobs", sharedRoutes(parts.shared)],
-    ["/samples", samplesRoutes(parts.samplesDir)],
+    { path: "", router: stateRoutes(parts, browsers, openApi), routes: STATE_ROUTES },
+    { path: "", router: operatorRoutes({ ...parts, plotters, browsers }), routes: OPERATOR_ROUTES },
+    { path: "", router: plotterRoutes(registry, queue, parts.log), routes: PLOTTER_ROUTES },
+    { path: "/plotters", router: handMoveRoutes(handMoveParts(parts)), routes: HAND_MOVE_ROUTES },
+    { path: "/access", router: accessRoutes(parts.access), routes: ACCESS_ROUTES },
+    { path: "/drawings", router: drawingRoutes(uploads), routes: DRAWING_ROUTES },
+    { path: "/jobs", router: jobRoutes({ queue, files, uploads, machines }), routes: JOB_ROUTES },
+    { path: "/machines", router: machineRoutes(machines), routes: MACHINE_ROUTES },
+    { path: "/samples", router: sampleRoutes(parts.samplesDir), routes: SAMPLE_ROUTES },
+    ...parts.plugins,
   ];
 }
 
@@ -107,50 +112,33 @@ function handMoveParts({ registry, queue, machines }: AppParts): HandMoveParts {
   };
 }
 
+/** What to say where a plug-in that is not loaded would answer. */
+const WITHOUT_PLUGIN: Readonly<Record<string, string>> = {
+  "/shared-jobs": "This server has no shared queue. Start it with serve --shared-queue to use one.",
+  "/webhooks": "Webhooks are switched off on this server.",
+};
+
 function apiRoutes(parts: AppParts, browsers: Browsers): Router {
   const router = Router();
   router.use((_request, response, next) => {
     response.set("Cache-Control", "no-store");
     next();
   });
-  for (const [path, routes] of apiMounts(parts, browsers)) router.use(path === "" ? "/" : path, routes);
-  return router;
-}
-
-function stateRoutes(parts: AppParts, browsers: Browsers): Router {
-  const { queue, registry, operatorLock } = parts;
-  const router = Router();
-  const snapshot = (): Snapshot => ({
-    version: parts.version,
-    plotters: registry.list(),
-    queue: queue.settings(),
-    queues: queue.allSettings(),
-    operator: operatorLock.operator,
-    serverNotices: parts.notices.list(),
-    localName: parts.localName(),
-    jobs: queue.list(),
+  let text: Promise<string> | null = null;
+  const all = apiParts(parts, browsers, () => {
+    text ??= openApiText(
+      parts.version,
+      all.flatMap(({ routes }) => routes),
+    );
+    return text;
   });
-  router.get("/openapi.json", async (_request, response) => {
-    response.type("json").send(await openApiText(parts.version));
-  });
-  router.get("/state", (_request, response) => {
-    response.json(snapshot());
-  });
-  router.get("/events", (request, response) => {
-    const browser = browsers.of(request);
-    if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
-    parts.hub.open(request, response, snapshot);
-  });
-  router.get("/me", (request, response) => {
-    const { id = null, name = null } = browsers.of(request) ?? {};
-    response.json({ role: roleOf(request, parts.access), id, name });
-  });
-  router.get("/queue", (_request, response) => {
-    response.json(queue.settings());
-  });
-  router.patch("/queue", express.json({ limit: "10kb" }), (request, response) => {
-    response.json(queue.saveSettings(parseWith(queueSettingsSchema, request.body)));
-  });
+  for (const part of all) router.use(part.path === "" ? "/" : part.path, part.router);
+  for (const [path, message] of Object.entries(WITHOUT_PLUGIN)) {
+    if (all.some((part) => part.path === path)) continue;
+    router.use(path, () => {
+      throw new PlotwrightError("not-found", message);
+    });
+  }
   return router;
 }
 

@@ -1,14 +1,12 @@
 /**
- * Authenticates requests by their address, session or key, and enforces roles. Also pairing and access
- * routes.
+ * Authenticates requests by their address, session or key, and enforces roles. Also the pairing route.
  */
 import type { IncomingMessage } from "node:http";
-import express, { Router, type Request, type RequestHandler } from "express";
+import { Router, type Request, type RequestHandler } from "express";
 import { rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
-import { newKeySchema, type Role } from "../../src/schema/index.js";
+import type { Role } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
-import { parseWith } from "./errors.js";
 
 export const SESSION_COOKIE = "plotwright_session";
 const SESSION_DAYS = 90;
@@ -90,24 +88,6 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
     response
       .type("html")
       .send('<!doctype html><meta http-equiv="refresh" content="0;url=/"><a href="/">plotwright</a>');
-  });
-  return router;
-}
-
-/** /api/v1/access: sessions and keys, for operators. */
-export function accessRoutes(access: Access): Router {
-  const router = Router();
-  router.get("/", (_request, response) => {
-    response.json({ entries: access.list() });
-  });
-  router.post("/keys", express.json({ limit: "10kb" }), (request, response) => {
-    const { name, role } = parseWith(newKeySchema, request.body);
-    const { entry, secret } = access.createKey(name, role);
-    response.status(201).json({ entry, secret });
-  });
-  router.delete("/:id", (request, response) => {
-    access.revoke(request.params.id);
-    response.json({ ok: true });
   });
   return router;
 }

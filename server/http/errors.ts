@@ -3,15 +3,15 @@ import type { ErrorRequestHandler, RequestHandler } from "express";
 import type { ZodType } from "zod";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { ERROR_TABLE } from "../../src/internal.js";
-import { isDiskFault } from "../queue/disk-fault.js";
+import { firstFault } from "../../src/schema/index.js";
+import { isDiskFault } from "../storage/disk-fault.js";
 
 /** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */
 export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
   const result = schema.safeParse(value);
   if (result.success) return result.data;
-  const issue = result.error.issues[0];
-  const where = issue === undefined || issue.path.length === 0 ? "The request" : issue.path.join(".");
-  throw new PlotwrightError("bad-setting", `${where}: ${issue?.message ?? "not understood"}.`);
+  const { path, words } = firstFault(result.error);
+  throw new PlotwrightError("bad-setting", `${path === "" ? "The request" : path}: ${words}.`);
 }
 
 export const notFound: RequestHandler = (request) => {
@@ -47,7 +47,9 @@ function describe(error: unknown): { code: ErrorCode; message: string; status: n
   // Errors of express and its body parser have a status and a type such as "entity.parse.failed".
   const { status, type } = error as { status?: unknown; type?: unknown };
   if (status === 413) {
-    return { code: "too-large", message: "The request is larger than this server accepts.", status };
+    const message =
+      "The JSON of the request is larger than this server accepts. Send a large drawing as a file with POST /api/v1/drawings, then add the job with its drawingId.";
+    return { code: "too-large", message, status };
   }
   if (typeof status === "number" && status >= 400 && status < 500) {
     const message =

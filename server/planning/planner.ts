@@ -6,7 +6,7 @@
  */
 import { PlotwrightError, type StrokeSet } from "../../src/index.js";
 import type { JobStats } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot, PlotPlanner } from "../plotter/types.js";
+import type { PlanRequest, PlannedPlot, PlotPlanner } from "./plot-planner.js";
 import { BoundedThread } from "./bounded-thread.js";
 import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
 import {

@@ -1,6 +1,6 @@
 /** Plans a job in the worker. The machine is passed as a profile, so custom machines need no lookup here. */
 import { planJob, type MachineProfile, type Prepared } from "../../src/index.js";
-import type { PlanRequest, PlannedPlot } from "../plotter/types.js";
+import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
 
 /** The trajectory and commands for a request, in a form that can be sent between threads. */
 export function planAndCompile(

@@ -1,7 +1,7 @@
 /**
- * One plot on a machine: plan, stream, and what the user asks of it on the way.
+ * One plot on a machine: plans, streams, and handles the user's requests meanwhile.
  *
- *              ┌──────── resume: plan what is left, from the very place ────────┐
+ *              ┌──────── resume: plan the rest, from the same place ────────────┐
  *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
  *    ^          │ │ │  └──emergency──> stops at once, lifts ──> held
  *    │          │ │ └──cancel──> slows down, lifts, walks home ──> cancelled
@@ -26,16 +26,8 @@ import {
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { PenStops } from "./pen-stops.js";
 import { RunSettings } from "./run-settings.js";
-import type {
-  JournalEntry,
-  LivePlotRun,
-  PlannedPlot,
-  PlotChange,
-  PlotOutcome,
-  PlotPlanner,
-  PlotProgress,
-  PlotStart,
-} from "./types.js";
+import type { PlannedPlot, PlotPlanner } from "../planning/plot-planner.js";
+import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress, PlotStart } from "./types.js";
 import { Waiters } from "./waiters.js";
 
 /** Time between two progress reports, and between two journal entries, in real seconds. */
@@ -57,57 +49,59 @@ export class MachinePlot implements LivePlotRun {
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: Place | null;
 
-  private wish: Wish = "run";
-  private held = false;
+  #wish: Wish = "run";
+  #held = false;
   /** What the plot waits for, if it was not held by the user. */
-  private wait: PlotWait | null = null;
-  private readonly stream: MachineRun;
-  private readonly settings: RunSettings;
-  private readonly stops: PenStops;
-  private readonly strokes: StrokeSet;
-  private failure: PlotwrightError | null = null;
+  #wait: PlotWait | null = null;
+  readonly #stream: MachineRun;
+  readonly #settings: RunSettings;
+  readonly #stops: PenStops;
+  readonly #strokes: StrokeSet;
+  #failure: PlotwrightError | null = null;
   /** Planned time of the plot after the part being drawn. */
-  private afterPartS = 0;
+  #afterPartS = 0;
   /** Times of the whole plot, if it is drawn in several parts. */
-  private whole: Promise<PlaceTimes> | null = null;
-  private planningS = 0;
-  private changing: Promise<void> | null = null;
+  #whole: Promise<PlaceTimes> | null = null;
+  #planningS = 0;
+  #changing: Promise<void> | null = null;
   /** Moves to the hold point; nothing else may move until they have finished. */
-  private walking: Promise<void> = Promise.resolve();
-  private journalDueS = -Infinity;
-  private stopTicking: () => void = () => undefined;
-  private wakeWisher: (() => void) | null = null;
-  private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
-  private readonly heldListeners: HeldListener[] = [];
-  private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
-  private readonly waiters = new Waiters();
+  #walking: Promise<void> = Promise.resolve();
+  #journalDueS = -Infinity;
+  #stopTicking: () => void = () => undefined;
+  #wakeWisher: (() => void) | null = null;
+  #cancelPlanning: ((error: PlotwrightError) => void) | null = null;
+  readonly #heldListeners: HeldListener[] = [];
+  readonly #progressListeners: ((progress: PlotProgress) => void)[] = [];
+  readonly #waiters = new Waiters();
 
-  constructor(
-    private readonly machine: Machine,
-    private readonly planner: PlotPlanner,
-    settings: PlotSettings,
-    private readonly start: PlotStart = {},
-  ) {
-    this.strokes = planner.strokes;
-    this.settings = new RunSettings(settings);
-    this.stops = new PenStops(this.strokes, settings, start.from ?? null);
-    this.stream = machine.startRun({
-      strokes: this.strokes,
-      settings: () => this.settings.current,
+  readonly #machine: Machine;
+  readonly #planner: PlotPlanner;
+  readonly #start: PlotStart;
+
+  constructor(machine: Machine, planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}) {
+    this.#machine = machine;
+    this.#planner = planner;
+    this.#start = start;
+    this.#strokes = planner.strokes;
+    this.#settings = new RunSettings(settings);
+    this.#stops = new PenStops(this.#strokes, settings, start.from ?? null);
+    this.#stream = machine.startRun({
+      strokes: this.#strokes,
+      settings: () => this.#settings.current,
       events: {
-        tell: (progress) => this.tell(progress),
-        ended: (place) => this.streamEnded(place),
+        tell: (progress) => this.#tell(progress),
+        ended: (place) => this.#streamEnded(place),
       },
     });
-    this.holdPlace = start.from ? this.placeLeft(start.from) : null;
-    if (start.held ?? this.holdPlace !== null) this.wish = "hold";
-    this.finished = this.run().then(
+    this.holdPlace = start.from ? this.#placeLeft(start.from) : null;
+    if (start.held ?? this.holdPlace !== null) this.#wish = "hold";
+    this.finished = this.#run().then(
       (outcome) => {
-        this.waiters.end(true);
+        this.#waiters.end(true);
         return outcome;
       },
       (error: unknown) => {
-        this.waiters.end(error instanceof Error ? error : new Error(String(error)));
+        this.#waiters.end(error instanceof Error ? error : new Error(String(error)));
         throw error;
       },
     );
@@ -116,245 +110,245 @@ export class MachinePlot implements LivePlotRun {
   }
 
   get isHeld(): boolean {
-    return this.held;
+    return this.#held;
   }
 
   onProgress(listener: (progress: PlotProgress) => void): void {
-    this.progressListeners.push(listener);
-    if (this.stream.progress.latest) listener(this.stream.progress.latest);
+    this.#progressListeners.push(listener);
+    if (this.#stream.progress.latest) listener(this.#stream.progress.latest);
   }
 
   /** A stop before the first stroke may come before the listener is added, so it is reported here. */
   onHeld(listener: HeldListener): void {
-    this.heldListeners.push(listener);
-    if (this.held && this.wait) listener(true, this.wait);
+    this.#heldListeners.push(listener);
+    if (this.#held && this.#wait) listener(true, this.#wait);
   }
 
   pause(): Promise<void> {
-    if (this.wish === "run") this.ask("hold");
-    return this.waiters.until(() => this.held || this.wish === "cancel");
+    if (this.#wish === "run") this.#ask("hold");
+    return this.#waiters.until(() => this.#held || this.#wish === "cancel");
   }
 
   resume(): Promise<void> {
-    if (this.wish === "hold") this.ask("run");
-    return this.waiters.until(() => !this.held);
+    if (this.#wish === "hold") this.#ask("run");
+    return this.#waiters.until(() => !this.#held);
   }
 
   cancel(): Promise<void> {
-    this.ask("cancel");
-    this.cancelPlanning?.(cancelled());
-    return this.waiters.until(() => false);
+    this.#ask("cancel");
+    this.#cancelPlanning?.(cancelled());
+    return this.#waiters.until(() => false);
   }
 
   emergencyStop(): Promise<void> {
-    if (this.wish === "run") this.wish = "hold";
-    if (this.stream.playing) this.stream.stopAtOnce();
-    else this.machine.stopAtOnce();
-    return this.waiters.until(() => this.held || this.wish === "cancel");
+    if (this.#wish === "run") this.#wish = "hold";
+    if (this.#stream.playing) this.#stream.stopAtOnce();
+    else this.#machine.stopAtOnce();
+    return this.#waiters.until(() => this.#held || this.#wish === "cancel");
   }
 
   /** The board no longer follows commands: nothing more is sent, and `finished` rejects. */
   fail(error: PlotwrightError): void {
-    this.failure ??= error;
-    this.stream.fail(error);
-    this.wakeWisher?.();
+    this.#failure ??= error;
+    this.#stream.fail(error);
+    this.#wakeWisher?.();
   }
 
   async change(change: PlotChange): Promise<void> {
-    this.settings.change(change);
+    this.#settings.change(change);
     // Changes run one after the other; the last one plans with all requested changes.
-    const before = this.changing ?? Promise.resolve();
-    this.changing = before.catch(() => undefined).then(() => this.changeInMotion());
-    await this.changing;
+    const before = this.#changing ?? Promise.resolve();
+    this.#changing = before.catch(() => undefined).then(() => this.#changeInMotion());
+    await this.#changing;
   }
 
   moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
-    this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
-    this.stops.moved(this.holdPlace);
-    const wait = this.stops.due(this.holdPlace);
-    const moved = this.stream.progress.movedTo(this.holdPlace, this.standing());
-    if (moved) this.tell(moved);
-    if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
-    this.writeJournal(this.holdPlace);
+    this.holdPlace = movedPlace(this.#strokes, this.#heldPlace(), by);
+    this.#stops.moved(this.holdPlace);
+    const wait = this.#stops.due(this.holdPlace);
+    const moved = this.#stream.progress.movedTo(this.holdPlace, this.#standing());
+    if (moved) this.#tell(moved);
+    if (wait?.layerName !== this.#wait?.layerName) this.#setHeld(true, wait);
+    this.#writeJournal(this.holdPlace);
     return this.holdPlace;
   }
 
   async checkHoldPlace(): Promise<void> {
-    const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
-    const walk = this.walking.then(() => this.machine.walk(x, y, this.settings.current));
-    this.walking = walk.catch(() => undefined);
+    const { x, y } = pointOfPlace(this.#strokes, this.#heldPlace());
+    const walk = this.#walking.then(() => this.#machine.walk(x, y, this.#settings.current));
+    this.#walking = walk.catch(() => undefined);
     await walk;
   }
 
   /** Where an interrupted plot stopped, from the board's step counters if it still has them. */
-  private placeLeft(from: Place): Place {
-    const { left, speed } = this.machine;
-    const at = this.machine.place(machineOf(this.settings.current));
+  #placeLeft(from: Place): Place {
+    const { left, speed } = this.#machine;
+    const at = this.#machine.place(machineOf(this.#settings.current));
     if (!left || !at) return from;
-    const { draw, travel } = this.settings.current.motion;
+    const { draw, travel } = this.#settings.current.motion;
     const drawMmPerS = speed * draw.speedMmPerS;
     const mostMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
     const pen = { ...at, up: left.penUp };
-    const { sent } = this.start;
+    const { sent } = this.#start;
     return (
-      (sent && placeBehindSent(this.strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS)) ??
-      stoppedPlace(this.strokes, from, pen, LEFT_S * mostMmPerS, this.stops.strokes)
+      (sent && placeBehindSent(this.#strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS)) ??
+      stoppedPlace(this.#strokes, from, pen, LEFT_S * mostMmPerS, this.#stops.strokes)
     );
   }
 
-  private heldPlace(): Place {
-    if (!this.held || !this.holdPlace) {
+  #heldPlace(): Place {
+    if (!this.#held || !this.holdPlace) {
       throw new PlotwrightError("conflict", "The plot is not held: pause it first.");
     }
     return this.holdPlace;
   }
 
-  private ask(wish: Wish): void {
-    this.wish = wish;
-    if (wish !== "run") this.stream.slowToRest();
-    this.wakeWisher?.();
+  #ask(wish: Wish): void {
+    this.#wish = wish;
+    if (wish !== "run") this.#stream.slowToRest();
+    this.#wakeWisher?.();
   }
 
-  private async run(): Promise<PlotOutcome> {
-    if (strokeCount(this.strokes) === 0) {
+  async #run(): Promise<PlotOutcome> {
+    if (strokeCount(this.#strokes) === 0) {
       throw new PlotwrightError(
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
-    await this.liftWhatWasLeft();
+    await this.#liftWhatWasLeft();
     for (;;) {
-      if (this.wish === "run" && this.stops.due(this.holdPlace)) this.wish = "hold";
-      if (this.wish === "hold") await this.hold();
-      if (this.wish === "cancel") return this.goHome();
-      const until = this.stops.nextAfter(this.holdPlace);
-      const plot = await this.planFromRest().catch((error: unknown) => {
-        if (this.wish === "cancel") return null;
+      if (this.#wish === "run" && this.#stops.due(this.holdPlace)) this.#wish = "hold";
+      if (this.#wish === "hold") await this.#hold();
+      if (this.#wish === "cancel") return this.#goHome();
+      const until = this.#stops.nextAfter(this.holdPlace);
+      const plot = await this.#planFromRest().catch((error: unknown) => {
+        if (this.#wish === "cancel") return null;
         throw error;
       });
-      if (!plot) return this.goHome();
-      if (this.wish !== "run") continue;
-      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
-      const next = this.stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
+      if (!plot) return this.#goHome();
+      if (this.#wish !== "run") continue;
+      await this.#stream.play(plot, this.#afterPartS, () => this.#streamBegun());
+      const next = this.#stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
       if (next) this.holdPlace = next;
-      else if (this.stream.stopped) return this.endedOnItsWayHome();
+      else if (this.#stream.stopped) return this.#endedOnItsWayHome();
       else return { kind: "done" };
     }
   }
 
   /** Lifts the pen, which an interrupted plot may have left on the paper. */
-  private async liftWhatWasLeft(): Promise<void> {
-    if (!this.start.from) return;
+  async #liftWhatWasLeft(): Promise<void> {
+    if (!this.#start.from) return;
     // Plan now, while the user checks pen and paper.
-    this.timesOfWhole().catch(() => undefined);
-    if (this.machine.state && this.machine.penUp !== true) {
-      await this.machine.movePen(true, this.settings.current);
+    this.#timesOfWhole().catch(() => undefined);
+    if (this.#machine.state && this.#machine.penUp !== true) {
+      await this.#machine.movePen(true, this.#settings.current);
     }
   }
 
-  private async planFromRest(): Promise<PlannedPlot> {
-    const machine = machineOf(this.settings.current);
-    const board = await this.machine.ready(machine, this.settings.current.pen);
-    const { x, y } = this.machine.place(machine)!;
-    const planning = this.plan(this.holdPlace, x, y, board);
+  async #planFromRest(): Promise<PlannedPlot> {
+    const machine = machineOf(this.#settings.current);
+    const board = await this.#machine.ready(machine, this.#settings.current.pen);
+    const { x, y } = this.#machine.place(machine)!;
+    const planning = this.#plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
-      this.cancelPlanning = reject;
+      this.#cancelPlanning = reject;
     });
     try {
       return await Promise.race([planning, cancel]);
     } finally {
-      this.cancelPlanning = null;
+      this.#cancelPlanning = null;
       planning.catch(() => undefined);
     }
   }
 
-  /** Plans on from a place, to the next change of pens. */
-  private async plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
-    const until = this.stops.nextAfter(from);
-    if (until !== null || this.start.from) {
-      const times = await this.timesOfWhole();
-      this.afterPartS = until === null ? 0 : times.leftFrom({ stroke: until, alongMm: 0 });
-    } else this.afterPartS = 0;
-    const clock = this.machine.clock;
+  /** Plans from a place to the next pen change. */
+  async #plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
+    const until = this.#stops.nextAfter(from);
+    if (until !== null || this.#start.from) {
+      const times = await this.#timesOfWhole();
+      this.#afterPartS = until === null ? 0 : times.leftFrom({ stroke: until, alongMm: 0 });
+    } else this.#afterPartS = 0;
+    const clock = this.#machine.clock;
     const startS = clock.nowS();
-    const plot = await this.planner.plan({
+    const plot = await this.#planner.plan({
       from,
       until,
       startXMm: x,
       startYMm: y,
-      settings: this.settings.planned,
-      firmware: this.machine.firmware,
+      settings: this.#settings.planned,
+      firmware: this.#machine.firmware,
       board,
     });
-    this.planningS = clock.nowS() - startS;
+    this.#planningS = clock.nowS() - startS;
     return plot;
   }
 
   /** Times of the whole plot, since progress refers to the whole even if only a part is being drawn. */
-  private timesOfWhole(): Promise<PlaceTimes> {
+  #timesOfWhole(): Promise<PlaceTimes> {
     const request = {
       from: null,
       until: null,
       startXMm: 0,
       startYMm: 0,
-      settings: this.settings.planned,
-      firmware: this.machine.firmware,
+      settings: this.#settings.planned,
+      firmware: this.#machine.firmware,
     };
-    this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
+    this.#whole ??= this.#planner.plan(request).then(({ trajectory }) => {
       const times = new PlaceTimes(trajectory);
-      this.stream.progress.isPartOf(trajectory, times, this.start.from ?? null);
+      this.#stream.progress.isPartOf(trajectory, times, this.#start.from ?? null);
       return times;
     });
-    return this.whole;
+    return this.#whole;
   }
 
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
-  private async changeInMotion(): Promise<void> {
-    const { speed, clock } = this.machine;
-    for (let tries = 0; this.wish === "run" && tries < CHANGE_TRIES;) {
-      const { playing } = this.stream;
-      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** tries);
+  async #changeInMotion(): Promise<void> {
+    const { speed, clock } = this.#machine;
+    for (let tries = 0; this.#wish === "run" && tries < CHANGE_TRIES;) {
+      const { playing } = this.#stream;
+      const over = this.#stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.#planningS * 2 ** tries);
       if (over) {
         tries++;
-        const plot = await this.plan(over.from, over.x, over.y, over.board);
-        if (this.wish !== "run" || this.stream.playing !== playing) return;
-        if (over.goOver(plot, this.afterPartS)) return;
-      } else if (!this.stream.isGoingOver) return;
+        const plot = await this.#plan(over.from, over.x, over.y, over.board);
+        if (this.#wish !== "run" || this.#stream.playing !== playing) return;
+        if (over.goOver(plot, this.#afterPartS)) return;
+      } else if (!this.#stream.isGoingOver) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
   }
 
-  private async hold(): Promise<void> {
-    this.setHeld(true, this.stops.due(this.holdPlace));
-    if (this.wait) this.writeJournal(this.holdPlace);
-    while (this.wish === "hold" && !this.failure) {
+  async #hold(): Promise<void> {
+    this.#setHeld(true, this.#stops.due(this.holdPlace));
+    if (this.#wait) this.#writeJournal(this.holdPlace);
+    while (this.#wish === "hold" && !this.#failure) {
       await new Promise<void>((resolve) => {
-        this.wakeWisher = resolve;
+        this.#wakeWisher = resolve;
       });
     }
-    this.wakeWisher = null;
-    await this.untilWalked();
-    if (this.failure) throw this.failure;
-    if (this.wish === "run") this.stops.answer(this.holdPlace);
-    this.setHeld(false, null);
+    this.#wakeWisher = null;
+    await this.#untilWalked();
+    if (this.#failure) throw this.#failure;
+    if (this.#wish === "run") this.#stops.answer(this.holdPlace);
+    this.#setHeld(false, null);
   }
 
-  private async untilWalked(): Promise<void> {
-    for (let last: Promise<void> | null = null; last !== this.walking;) {
-      last = this.walking;
+  async #untilWalked(): Promise<void> {
+    for (let last: Promise<void> | null = null; last !== this.#walking;) {
+      last = this.#walking;
       await last;
     }
   }
 
   /** Handles a stop after everything was drawn, on the way home. */
-  private async endedOnItsWayHome(): Promise<PlotOutcome> {
-    const { kind } = await this.goHome();
-    return { kind: this.wish === "cancel" ? kind : "done" };
+  async #endedOnItsWayHome(): Promise<PlotOutcome> {
+    const { kind } = await this.#goHome();
+    return { kind: this.#wish === "cancel" ? kind : "done" };
   }
 
-  private async goHome(): Promise<PlotOutcome> {
+  async #goHome(): Promise<PlotOutcome> {
     try {
-      await this.machine.walk(0, 0, this.settings.current);
+      await this.#machine.walk(0, 0, this.#settings.current);
     } catch (error) {
       // An emergency stop on the way home: the carriage stays where it is.
       if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
@@ -362,33 +356,33 @@ export class MachinePlot implements LivePlotRun {
     return { kind: "cancelled" };
   }
 
-  private setHeld(held: boolean, wait: PlotWait | null): void {
-    this.held = held;
-    this.wait = wait;
-    for (const listener of this.heldListeners) listener(held, wait);
-    this.waiters.check();
+  #setHeld(held: boolean, wait: PlotWait | null): void {
+    this.#held = held;
+    this.#wait = wait;
+    for (const listener of this.#heldListeners) listener(held, wait);
+    this.#waiters.check();
   }
 
-  private streamBegun(): void {
+  #streamBegun(): void {
     // A request that came before the stream existed.
-    if (this.wish !== "run") this.stream.slowToRest();
-    this.stopTicking = this.tick();
+    if (this.#wish !== "run") this.#stream.slowToRest();
+    this.#stopTicking = this.#tick();
   }
 
-  private streamEnded(place: Place | null): void {
-    this.stopTicking();
-    this.writeJournal(place ?? this.stream.progress.place);
+  #streamEnded(place: Place | null): void {
+    this.#stopTicking();
+    this.#writeJournal(place ?? this.#stream.progress.place);
   }
 
-  private tick(): () => void {
-    const { clock, speed } = this.machine;
+  #tick(): () => void {
+    const { clock, speed } = this.#machine;
     let cancel = (): void => undefined;
     const next = (): void => {
-      const now = this.stream.now();
+      const now = this.#stream.now();
       if (now) {
-        this.tell(now);
-        if (clock.nowS() >= this.journalDueS) {
-          this.writeJournal(this.stream.progress.place, this.stream.sentPlace);
+        this.#tell(now);
+        if (clock.nowS() >= this.#journalDueS) {
+          this.#writeJournal(this.#stream.progress.place, this.#stream.sentPlace);
         }
       }
       cancel = clock.after(PROGRESS_S * speed, next);
@@ -397,23 +391,23 @@ export class MachinePlot implements LivePlotRun {
     return () => cancel();
   }
 
-  private tell(progress: PlotProgress): void {
-    for (const listener of this.progressListeners) listener(progress);
+  #tell(progress: PlotProgress): void {
+    for (const listener of this.#progressListeners) listener(progress);
   }
 
-  private writeJournal(left: Place | null, sent?: Place): void {
-    const { latest } = this.stream.progress;
-    const { clock, speed } = this.machine;
-    this.journalDueS = clock.nowS() + JOURNAL_S * speed;
+  #writeJournal(left: Place | null, sent?: Place): void {
+    const { latest } = this.#stream.progress;
+    const { clock, speed } = this.#machine;
+    this.#journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!left) return;
-    const { xMm, yMm, penUp, elapsedS } = latest ?? this.standing();
-    this.start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
+    const { xMm, yMm, penUp, elapsedS } = latest ?? this.#standing();
+    this.#start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */
-  private standing(): Omit<JournalEntry, "place"> {
-    const { x, y } = this.machine.place(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
-    return { xMm: x, yMm: y, penUp: this.machine.penUp ?? true, elapsedS: 0 };
+  #standing(): Omit<JournalEntry, "place"> {
+    const { x, y } = this.#machine.place(machineOf(this.#settings.current)) ?? { x: 0, y: 0 };
+    return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
   }
 }
 

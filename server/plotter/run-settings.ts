@@ -1,9 +1,9 @@
-/** The settings of a plot under way, as they were changed on the way. */
+/** The settings of a running plot, with the changes made while it runs. */
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./types.js";
 
 export class RunSettings {
-  private speedPct = 100;
+  #speedPct = 100;
 
   constructor(public current: PlotSettings) {}
 
@@ -13,12 +13,12 @@ export class RunSettings {
       pen: pen ?? this.current.pen,
       motion: motion ?? this.current.motion,
     };
-    this.speedPct = speedPct ?? this.speedPct;
+    this.#speedPct = speedPct ?? this.#speedPct;
   }
 
   /** The settings for planning, with the speeds scaled by the percentage. */
   get planned(): PlotSettings {
-    const share = this.speedPct / 100;
+    const share = this.#speedPct / 100;
     if (share === 1) return this.current;
     const { draw, travel, layers = {} } = this.current.motion;
     const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>

@@ -3,33 +3,11 @@
  * driver is given a planner and returns a run. It never plans; the planner (a worker thread) never accesses
  * the board.
  */
-import type { MotionSettings, PenSettings, Place, StrokeSet } from "../../src/index.js";
-import type { MachineState, PlannedPlot, PlotProgress } from "../../src/internal.js";
-import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
+import type { MotionSettings, PenSettings, Place } from "../../src/index.js";
+import type { PlotProgress } from "../../src/internal.js";
+import type { PlotWait } from "../../src/schema/index.js";
 
-export type { PlannedPlot, PlotProgress } from "../../src/internal.js";
-
-export interface PlanRequest {
-  /** Where in the drawing to start; null: at its beginning. */
-  readonly from: Place | null;
-  /** Stroke before which to stop and go home; null: at the end of the drawing. */
-  readonly until: number | null;
-  /** Position of the carriage, mm from home. */
-  readonly startXMm: number;
-  readonly startYMm: number;
-  /** May differ from the job's original settings, because they can change while the plot is held. */
-  readonly settings: PlotSettings;
-  readonly firmware: string;
-  /** How the machine stands there; left out: at home, with its motors just switched on. */
-  readonly board?: MachineState | undefined;
-}
-
-/** A prepared drawing in a worker thread, ready to be planned from any place. */
-export interface PlotPlanner {
-  readonly strokes: StrokeSet;
-  plan(request: PlanRequest): Promise<PlannedPlot>;
-  close(): Promise<void>;
-}
+export type { PlotProgress } from "../../src/internal.js";
 
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };
 

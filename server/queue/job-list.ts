@@ -8,11 +8,11 @@
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
-import { DISK_FULL, isDiskFault } from "./disk-fault.js";
-import type { StoredDrawing } from "./drawing-files.js";
+import { DISK_FULL, isDiskFault } from "../storage/disk-fault.js";
+import type { StoredDrawing } from "../storage/drawing-files.js";
 import { applyJobEvent, type JobEvent } from "./job-machine.js";
 import type { QueueParts } from "./queue-parts.js";
-import type { WatchedFile } from "./store.js";
+import type { WatchedFile } from "../storage/store.js";
 
 type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 

@@ -15,14 +15,14 @@ import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
 import { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
-import { PlotRuns, plotterOf } from "./plot-runs.js";
+import { RunningPlots, plotterOf } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 import { queuedJob } from "./queued-job.js";
 
 export class JobQueue {
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
-  readonly #runs: PlotRuns;
+  readonly #runs: RunningPlots;
   /** Starts in progress, by job id. */
   readonly #beginning = new Map<string, Promise<Job | string>>();
 
@@ -30,7 +30,7 @@ export class JobQueue {
   constructor(parts: QueueParts) {
     this.#parts = parts;
     this.#jobs = new JobList(parts);
-    this.#runs = new PlotRuns(parts, this.#jobs, (job) => this.#done(job));
+    this.#runs = new RunningPlots(parts, this.#jobs, (job) => this.#done(job));
   }
 
   /** Queue order first, then history, newest first. */

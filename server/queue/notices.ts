@@ -3,7 +3,7 @@ import { randomUUID } from "node:crypto";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { noticeSchema, type Notice, type ServerEvent } from "../../src/schema/index.js";
-import type { Store } from "./store.js";
+import type { Store } from "../storage/store.js";
 
 export interface NoticeParts {
   readonly store: Pick<Store, "setting" | "saveSetting">;

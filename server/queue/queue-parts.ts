@@ -1,21 +1,9 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
-import type { Job, JobStats, PlotSettings, ServerEvent } from "../../src/schema/index.js";
-import type { Requester } from "../planning/lane.js";
-import type { PlotPlanner } from "../plotter/types.js";
-import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
-import type { PlotterPort } from "./plotter-port.js";
-import type { Store, WatchedFile } from "./store.js";
-
-export interface Planning {
-  /** `firmware` of the board that will plot it; null: unknown. */
-  measure(
-    drawing: string,
-    settings: PlotSettings,
-    firmware: string | null,
-    requester?: Requester,
-  ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
-  open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
-}
+import type { Job, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { Planning } from "../planning/planning.js";
+import type { DrawingFiles, StoredDrawing } from "../storage/drawing-files.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { Store, WatchedFile } from "../storage/store.js";
 
 export interface Claims {
   /**
@@ -27,7 +15,17 @@ export interface Claims {
   release(jobId: string): Promise<void>;
 }
 
-export interface QueueParts {
+/** What others do when a job changes. */
+export interface JobHooks {
+  /** Writes whatever else a job's change requires, in the same transaction. */
+  readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
+  /** Called after the change has been announced. */
+  readonly afterChange?: (() => void) | undefined;
+  /** With a shared queue: ensures that no other server plots the same job. */
+  readonly claims?: Claims | undefined;
+}
+
+export interface QueueParts extends JobHooks {
   readonly store: Store;
   readonly files: DrawingFiles;
   readonly planning: Planning;
@@ -37,12 +35,6 @@ export interface QueueParts {
   readonly nowIso: () => string;
   /** Logs problems that can't be reported otherwise, such as a full disk during a plot. */
   readonly log?: ((line: string) => void) | undefined;
-  /** Writes whatever else a job's change requires, in the same transaction. */
-  readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
-  /** With a shared queue: ensures that no other server plots the same job. */
-  readonly claims?: Claims | undefined;
-  /** Called after the change has been announced. */
-  readonly afterChange?: (() => void) | undefined;
 }
 
 export interface NewQueueJob {

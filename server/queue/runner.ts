@@ -4,15 +4,9 @@
  */
 import { PlotwrightError, type Place } from "../../src/index.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import type {
-  JournalEntry,
-  LivePlotRun,
-  PlotChange,
-  PlotOutcome,
-  PlotPlanner,
-  PlotProgress,
-} from "../plotter/types.js";
-import type { PlotterPort } from "./plotter-port.js";
+import type { PlotPlanner } from "../planning/plot-planner.js";
+import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress } from "../plotter/types.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
 
 export type OpenPlanner = (signal: AbortSignal) => Promise<PlotPlanner>;
 

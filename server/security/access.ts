@@ -12,7 +12,7 @@ import { createHash, randomBytes, timingSafeEqual } from "node:crypto";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { accessEntrySchema, type AccessEntry, type Role } from "../../src/schema/index.js";
-import type { Store } from "../queue/store.js";
+import type { Store } from "../storage/store.js";
 
 const storedSchema = z.array(accessEntrySchema.extend({ secretSha256: z.string() }));
 type StoredEntry = z.infer<typeof storedSchema>[number];

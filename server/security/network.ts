@@ -3,6 +3,9 @@ import { networkInterfaces } from "node:os";
 import qrcode from "qrcode";
 import type { Pairing } from "../../src/schema/index.js";
 
+/** The server's name on its network is plotwright.local, or plotwright-2.local if that is taken. */
+export const LOCAL_NAME = "plotwright";
+
 /** This computer's addresses on its networks, IPv4 first. */
 export function lanAddresses(): string[] {
   const all = Object.values(networkInterfaces()).flatMap((list) => list ?? []);

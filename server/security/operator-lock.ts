@@ -10,7 +10,7 @@
  */
 import { PlotwrightError } from "../../src/index.js";
 import { operatorSchema, type Operator } from "../../src/schema/index.js";
-import type { Store } from "../queue/store.js";
+import type { Store } from "../storage/store.js";
 
 export interface OperatorLockParts {
   readonly store: Pick<Store, "setting" | "saveSetting">;

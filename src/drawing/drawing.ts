@@ -25,10 +25,13 @@ export const RULE_EVENODD = 1;
  * (indices into the arrays themselves). A shape may have several subpaths, each started by VERB_MOVE.
  */
 export interface DrawingPaths {
+  /** Number of shapes. */
   readonly count: number;
+  /** 0 move (1 point), 1 line (1 point), 2 cubic curve (2 control points and the end), 3 close (no point). */
   readonly verbs: Uint8Array;
   /** mm, x then y. Always finite. */
   readonly coords: Float64Array;
+  /** count + 1 entries, as for `coordOffsets`. */
   readonly verbOffsets: Uint32Array;
   readonly coordOffsets: Uint32Array;
   /** Index into `Drawing.groups`. */
@@ -37,6 +40,7 @@ export interface DrawingPaths {
   readonly stroke: Int32Array;
   /** Index into `Drawing.colors`; −1 if it has no fill. */
   readonly fill: Int32Array;
+  /** 0 nonzero, 1 even-odd. */
   readonly fillRule: Uint8Array;
   /** mm on the page. */
   readonly strokeWidth: Float32Array;
@@ -58,7 +62,9 @@ export interface DrawingGroup {
 
 /** SVG stroke-dasharray and offset, in mm on the page. Even number of lengths, sum > 0. */
 export interface DashPattern {
+  /** Dash, gap, dash, gap … */
   readonly lengths: readonly number[];
+  /** Where in the pattern the line begins. */
   readonly offset: number;
   /**
    * For a shape that was stretched together with its dashes: for measuring dashes, a vector dx, dy on
@@ -68,6 +74,7 @@ export interface DashPattern {
   readonly measure?: LinearMap;
 }
 
+/** (x, y) becomes (a x + c y, b x + d y). */
 export interface LinearMap {
   readonly a: number;
   readonly b: number;
@@ -77,6 +84,7 @@ export interface LinearMap {
 
 /** The union of its shapes under `rule`, intersected with `parent` (index into `Drawing.clips`; −1: none). */
 export interface ClipRegion {
+  /** As in `DrawingPaths`. */
   readonly verbs: Uint8Array;
   readonly coords: Float64Array;
   /** One rule for each subpath, in order of VERB_MOVE: RULE_NONZERO or RULE_EVENODD. */
@@ -95,19 +103,30 @@ export interface DrawingWarning {
   readonly code: string;
   /** What it is, how many there are, and what to do about it. Plain text. */
   readonly message: string;
+  /** How many there are. */
   readonly count: number;
   /** Positions of the first few: boxes x0, y0, x1, y1 in page mm (may be empty). */
   readonly boxes: readonly (readonly [number, number, number, number])[];
 }
 
+/**
+ * What a file draws, in mm on its own page: origin top left, x right, y down. Curves are still curves; `prepare`
+ * flattens them on the paper.
+ */
 export interface Drawing {
+  /** Size of the file's page. */
   readonly widthMm: number;
   readonly heightMm: number;
+  /** The file's layers. */
   readonly groups: readonly DrawingGroup[];
   /** "#rrggbb", lower case, distinct, in order of first use. */
   readonly colors: readonly string[];
+  /** Referred to by `paths.dash`. */
   readonly dashes: readonly DashPattern[];
+  /** Referred to by `paths.clip`. */
   readonly clips: readonly ClipRegion[];
+  /** The shapes, in paint order. */
   readonly paths: DrawingPaths;
+  /** One for each feature that is not drawn as it appears on screen. */
   readonly warnings: readonly DrawingWarning[];
 }

@@ -1,7 +1,7 @@
 /** Lines that a program has computed, as what the planner takes. */
 import type { StrokeLayer, StrokeSet } from "./stroke-set.js";
 
-/** mm from home, in the order in which they are drawn. */
+/** Points of one line in drawing order, mm from home. */
 export type Line = readonly (readonly [x: number, y: number])[];
 
 const ONE_LAYER: StrokeLayer = { id: "lines", name: "Lines", color: null };
@@ -9,7 +9,7 @@ const ONE_LAYER: StrokeLayer = { id: "lines", name: "Lines", color: null };
 /**
  * Strokes of one layer from lines of points, in their order. A line of one point is a dot.
  *
- * @throws RangeError for a line without points, and for a coordinate that is not a finite number
+ * @throws RangeError for a line without points, and for a coordinate that is not a finite number.
  */
 export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER): StrokeSet {
   const offsets = new Uint32Array(lines.length + 1);

@@ -1,9 +1,10 @@
-/** Paper sizes in mm, portrait (width ≤ height). ISO 216; the American sizes from ANSI/ASME Y14.1. */
+/** mm, portrait: width ≤ height. */
 export interface PaperSize {
   readonly widthMm: number;
   readonly heightMm: number;
 }
 
+/** The common papers in mm, portrait. ISO 216; the American sizes are from ANSI/ASME Y14.1. */
 export const PAPER_SIZES = {
   A1: { widthMm: 594, heightMm: 841 },
   A2: { widthMm: 420, heightMm: 594 },

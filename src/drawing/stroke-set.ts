@@ -14,6 +14,7 @@ export interface StrokeSet {
   readonly offsets: Uint32Array;
   /** By stroke: index into `layers`. Strokes of a layer are contiguous, layers in order. */
   readonly layer: Uint16Array;
+  /** The layers that `layer` refers to. */
   readonly layers: readonly StrokeLayer[];
 }
 

@@ -8,7 +8,9 @@ import type { PenSettings } from "../settings/pen.js";
 
 /** The part of a job's settings that decides its motion. */
 export interface JobSettings {
+  /** Speeds, accelerations, corners. */
   readonly motion: MotionSettings;
+  /** Pen heights and waits. */
   readonly pen: PenSettings;
 }
 
@@ -33,10 +35,11 @@ export interface MachineCommands {
   readonly warnings: readonly string[];
 }
 
+/** A planned job: its motion, and its commands for one machine. */
 export interface MachineJob<Commands extends MachineCommands = MachineCommands> {
   /** The motion that the machine will perform: for a controller that plans by itself, a model of what it does. */
   readonly trajectory: Trajectory;
-  /** Made on the first call: a preview needs the motion only. */
+  /** The commands of the machine's driver. Computed on the first call, because a preview needs only the motion. */
   commands(): Commands;
   /** The whole plot as text, one command a line, with what begins and ends it. */
   lines(): string[];

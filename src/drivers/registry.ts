@@ -9,13 +9,15 @@ import type { Driver, UsbId } from "./driver.js";
 import { planEbbJob } from "./ebb/compile/ebb-job.js";
 import { ebbDriver } from "./ebb/ebb-driver.js";
 import { ebbFirmware } from "./ebb/protocol/firmware-motion.js";
+import { grblFirmware, planGrblJob } from "./grbl/grbl-job.js";
+import { grblDriver } from "./grbl/grbl-driver.js";
 import type { FirmwareRules, PlanForMachine } from "./machine-job.js";
 
-type ByController<T> = Readonly<Partial<Record<Controller["kind"], T>>>;
+type ByController<T> = Readonly<Record<Controller["kind"], T>>;
 
-const PLANNERS: ByController<PlanForMachine> = { ebb: planEbbJob };
-const FIRMWARES: ByController<FirmwareRules> = { ebb: ebbFirmware };
-const DRIVERS: ByController<Driver> = { ebb: ebbDriver };
+const PLANNERS: ByController<PlanForMachine> = { ebb: planEbbJob, grbl: planGrblJob };
+const FIRMWARES: ByController<FirmwareRules> = { ebb: ebbFirmware, grbl: grblFirmware };
+const DRIVERS: ByController<Driver> = { ebb: ebbDriver, grbl: grblDriver };
 
 /** Plans jobs for a machine. Throws `bad-setting` for a profile whose controller is not known. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofController(PLANNERS, machine);
@@ -38,8 +40,7 @@ export function isPlannedAlike(machine: MachineProfile, a: string | null, b: str
 }
 
 function ofController<T>(table: ByController<T>, { name, controller }: MachineProfile): T {
-  const found = Object.hasOwn(table, controller.kind) ? table[controller.kind] : undefined;
-  if (found) return found;
+  if (Object.hasOwn(table, controller.kind)) return table[controller.kind];
   const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",

@@ -1,7 +1,4 @@
-/**
- * What the driver needs from a serial port and a clock. Injected by the host (serialport, Web Serial or the
- * virtual board; a real or a manual clock), because src has no access to either.
- */
+/** A connection to a board: a serial port, Web Serial or the virtual board. Provided by the host. */
 export interface Transport {
   /**
    * Queues bytes for the board. Resolves when the system has accepted them. Rejects with a PlotwrightError if
@@ -12,9 +9,11 @@ export interface Transport {
   onData(listener: (bytes: Uint8Array) => void): void;
   /** Called once when the connection is closed or lost; `error` is undefined after a plain close(). */
   onClose(listener: (error?: Error) => void): void;
+  /** Closes the connection. Resolves when the port is free. */
   close(): Promise<void>;
 }
 
+/** Time, provided by the host: a real clock, or one that a test moves by hand. */
 export interface Clock {
   /** Seconds since an arbitrary start. Never runs backwards. */
   nowS(): number;

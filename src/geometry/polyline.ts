@@ -5,7 +5,6 @@
  * if its last point equals its first. Each line carries a tag (the shape or layer that it
  * belongs to), which every step passes on. Lengths in mm.
  */
-import type { Affine } from "./affine.js";
 import { grown } from "./growable.js";
 
 export interface Lines {
@@ -85,114 +84,9 @@ export class LineBuilder {
   copy(lines: Lines, i: number, tag: number, reversed = false): void {
     const first = lines.offsets[i];
     const last = lines.offsets[i + 1] - 1;
-    if (this.copyWhole(lines.xy, first, last, reversed)) return this.end(tag);
     if (reversed) for (let p = last; p >= first; p--) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
     else for (let p = first; p <= last; p++) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
     this.end(tag);
-  }
-
-  /**
-   * Adds a whole line without a call per point. Returns false and adds nothing if a point would be dropped.
-   */
-  private copyWhole(xy: Float64Array, first: number, last: number, reversed: boolean): boolean {
-    if (this.points > this.first) return false;
-    let at = 2 * this.points;
-    this.reserve(last - first + 1);
-    const out = this.xy;
-    const step = reversed ? -2 : 2;
-    let from = 2 * (reversed ? last : first);
-    let x = (out[at] = xy[from]);
-    let y = (out[at + 1] = xy[from + 1]);
-    for (let left = last - first; left > 0; left--) {
-      from += step;
-      at += 2;
-      const dx = xy[from] - x;
-      const dy = xy[from + 1] - y;
-      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return false;
-      x = out[at] = xy[from];
-      y = out[at + 1] = xy[from + 1];
-    }
-    this.points += last - first + 1;
-    return true;
-  }
-
-  /** Adds lines [from, to), each with its own tag. */
-  copyRange(lines: Lines, from: number, to: number): void {
-    for (let i = from; i < to; i++) {
-      i = this.copyWholeLines(lines, i, to);
-      if (i < to) this.copy(lines, i, lines.tag[i]);
-    }
-  }
-
-  /**
-   * Adds lines from `from` on, up to the first in which a point would be dropped. Returns its index, or `to`.
-   */
-  private copyWholeLines({ xy, offsets, tag }: Lines, from: number, to: number): number {
-    if (this.points > this.first) return from;
-    this.reserve(offsets[to] - offsets[from]);
-    this.reserveLines(to - from);
-    const { xy: out, offsets: outOffsets, tags } = this;
-    let { points, lines } = this;
-    let i = from;
-    for (; i < to; i++) {
-      const end = 2 * offsets[i + 1];
-      let at = 2 * points;
-      let x = Infinity;
-      let y = Infinity;
-      let k = 2 * offsets[i];
-      for (; k < end; k += 2) {
-        const dx = xy[k] - x;
-        const dy = xy[k + 1] - y;
-        if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) break;
-        x = out[at++] = xy[k];
-        y = out[at++] = xy[k + 1];
-      }
-      if (k < end) break;
-      points = at / 2;
-      tags[lines] = tag[i];
-      outOffsets[++lines] = points;
-    }
-    this.points = this.first = points;
-    this.lines = lines;
-    return i;
-  }
-
-  /**
-   * Adds polylines as separate lines, mapped by `map`, without a call per point. Polyline i in [from, to) has
-   * the numbers [offsets[i], offsets[i + 1]) of `coords` and gets the tag i. Stops at the first polyline in
-   * which a point would be dropped and returns its index; it is not added. Returns `to` if all were added.
-   */
-  addMapped(coords: Float64Array, offsets: Uint32Array, from: number, to: number, map: Affine): number {
-    if (this.points > this.first) return from;
-    this.reserve((offsets[to] - offsets[from]) / 2);
-    this.reserveLines(to - from);
-    const { a, b, c, d, e, f } = map;
-    const { xy: out, offsets: outOffsets, tags } = this;
-    let { points, lines } = this;
-    let i = from;
-    for (; i < to; i++) {
-      const end = offsets[i + 1];
-      let at = 2 * points;
-      let x = Infinity;
-      let y = Infinity;
-      let k = offsets[i];
-      for (; k < end; k += 2) {
-        const px = a * coords[k] + c * coords[k + 1] + e;
-        const py = b * coords[k] + d * coords[k + 1] + f;
-        const dx = px - x;
-        const dy = py - y;
-        if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) break;
-        x = out[at++] = px;
-        y = out[at++] = py;
-      }
-      if (k < end) break;
-      points = at / 2;
-      tags[lines] = i;
-      outOffsets[++lines] = points;
-    }
-    this.points = this.first = points;
-    this.lines = lines;
-    return i;
   }
 
   private reserve(points: number): void {

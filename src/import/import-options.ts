@@ -5,6 +5,7 @@ import type { TextFont } from "./text/text-font.js";
 export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
 export type TextMode = (typeof TEXT_MODES)[number];
 
+/** How to read a file. Every option has a default. */
 export interface ImportOptions {
   /** SVG: px per inch, also for numbers without unit: 96 by CSS; 72 or 90 in files of some programs. */
   readonly pxPerInch?: number;

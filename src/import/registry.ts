@@ -10,7 +10,7 @@ import { importDxf } from "./dxf/import-dxf.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import type { ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
-import { importSvgSteps, type Pause } from "./svg/import-svg.js";
+import { importSvgSteps } from "./svg/import-svg.js";
 
 export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
@@ -89,8 +89,9 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
 }
 
 /**
- * The drawing in the text of a file. Throws PlotwrightError("bad-file").
+ * Reads the text of an SVG, DXF, HPGL or JSON file. The format is detected from the text and the file's name.
  *
+ * @throws PlotwrightError "bad-file" for an unknown format or a damaged file
  * @example
  * const drawing = importDrawing("box.dxf", text);
  */
@@ -99,24 +100,6 @@ export function importDrawing(name: string, text: string, options: ImportOptions
   for (;;) {
     const step = steps.next();
     if (step.done) return step.value;
-  }
-}
-
-/**
- * Like `importDrawing`, but pauses after every few milliseconds of an SVG's work; other formats take one
- * step.
- */
-export async function importDrawingWithPauses(
-  name: string,
-  text: string,
-  pause: Pause,
-  options: ImportOptions = {},
-): Promise<Drawing> {
-  const steps = readerOf(name, text)(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-    await pause();
   }
 }
 

@@ -33,6 +33,14 @@ const WORDS = {
     `${many(n, "fill", "fills")} with a pattern${details}: taken as one colour, the pattern is not drawn.`,
   "blend-ignored": (n: number, details: string) =>
     `${many(n, "blend mode is", "blend modes are")} ignored${details}: a pen cannot mix colours like a screen.`,
+  "effect-ignored": (n: number, details: string) =>
+    `${many(n, "effect is", "effects are")} not drawn${details}.`,
+  "text-style-ignored": (n: number, details: string) =>
+    `${many(n, "style of text is", "styles of text are")} not drawn${details}. Convert the text to paths to keep it.`,
+  "color-unknown": (n: number, details: string) =>
+    `${many(n, "colour is", "colours are")} not known and ignored${details}. Give a plain colour.`,
+  "opacity-ignored": (n: number) =>
+    `${many(n, "object is", "objects are")} partly transparent: drawn in solid lines.`,
   "paint-order-ignored": (n: number, details: string) =>
     `${many(n, "paint order is", "paint orders are")} ignored${details}: fills are drawn first, then lines.`,
   "paint-missing": (n: number, details: string) =>
@@ -55,6 +63,8 @@ const WORDS = {
     `${many(n, "copy contains", "copies contain")} itself and ${n === 1 ? "is" : "are"} not drawn${details}.`,
   "clip-ignored": (n: number, details: string) =>
     `${many(n, "clip is", "clips are")} not supported and ignored${details}: what ${n === 1 ? "it hides" : "they hide"} is drawn. Use a clip path of shapes.`,
+  "clip-text": (n: number) =>
+    `${many(n, "clip has", "clips have")} the shape of text, so what ${n === 1 ? "it shows" : "they show"} is not drawn. Give a font file and draw text as outlines, or convert the text to paths.`,
   "style-fault": (n: number, details: string) =>
     `${many(n, "style rule", "style rules")} could not be read and ${n === 1 ? "is" : "are"} ignored${details}.`,
   "style-external": (n: number) =>

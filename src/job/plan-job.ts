@@ -13,6 +13,7 @@ import { withLayerCodes } from "../plan/coded-layers.js";
 
 export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
 
+/** Where a job begins and ends, and for which firmware. Every option has a default. */
 export interface JobOptions extends DriverPlanOptions {
   /** Number of the stroke before which to stop and go home; default: the end of the drawing. */
   readonly until?: number | null | undefined;

@@ -9,18 +9,29 @@ import { DEFAULT_PREPARE, type PrepareSettings } from "../settings/prepare.js";
 import { planJob, type JobOptions, type JobSettings, type MachineJob } from "./plan-job.js";
 import { prepareJob } from "./prepare-job.js";
 
-/** What is left out has the page's initial value. A job's complete settings are accepted too. */
+/**
+ * Settings of `planSvg`. What is left out has its default, as on the page; complete settings of a job
+ * (`PlotSettings` of `plotwright/schema`) fit too.
+ */
 export interface SvgSettings extends Partial<JobSettings & MachineChoice & PenSetup> {
+  /** Paper, placing, hatching, order of strokes … Default: `DEFAULT_PREPARE`. */
   readonly prepare?: PrepareSettings;
 }
 
+/** A job, and the strokes that it draws. */
 export interface PlannedSvg extends MachineJob {
+  /** The strokes on the paper, with their layers and lengths. */
   readonly prepared: Prepared;
   /** What is not drawn from the file, and what the paper cuts off. */
   readonly warnings: readonly string[];
 }
 
-/** @throws PlotwrightError "bad-file" (also if nothing is left to draw), "out-of-bounds", "bad-setting", "cancelled" */
+/**
+ * Turns SVG text into motion and commands for a machine: import, prepare, check that the machine reaches
+ * everything, and plan. The default machine is an AxiDraw V3, the default paper A4 in landscape.
+ *
+ * @throws PlotwrightError "bad-file" (also if nothing is left to draw), "out-of-bounds", "bad-setting", "cancelled"
+ */
 export function planSvg(text: string, settings: SvgSettings = {}, options: JobOptions = {}): PlannedSvg {
   const whole = {
     machine: "axidraw-v3",

@@ -30,7 +30,11 @@ export function prepareJob(
   const prepared = prepare(drawing, prepareSettingsOf(settings), work);
   const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
   if (strokeCount(prepared.strokes) === 0) {
-    throw new PlotwrightError("bad-file", `There is nothing to draw. ${warnings.join(" ")}`.trim());
+    // An empty drawing says so itself, and then the preparation has nothing to add.
+    const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
+    const reasons = drawing.warnings.map(({ message }) => message);
+    const why = isEmpty ? reasons : ["There is nothing to draw.", ...warnings];
+    throw new PlotwrightError("bad-file", why.join(" "));
   }
   checkBounds(prepared.strokes, machine);
   return { prepared, warnings };

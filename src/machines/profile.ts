@@ -2,7 +2,9 @@ import type { Controller } from "./controllers.js";
 
 /** A plotter as data: what the compiler and the page need to know about it. */
 export interface MachineProfile<C extends Controller = Controller> {
+  /** Stored in settings: "axidraw-v3". */
   readonly id: string;
+  /** Shown to people: "AxiDraw V3". */
   readonly name: string;
   /** Travel limits, mm from home. */
   readonly widthMm: number;
@@ -16,5 +18,6 @@ export interface MachineProfile<C extends Controller = Controller> {
   readonly flipY?: boolean | undefined;
   /** x and y are exchanged, because of how the motors are plugged in or how the machine is placed. */
   readonly swapAxes?: boolean | undefined;
+  /** What drives the motors and the pen. */
   readonly controller: C;
 }

@@ -48,6 +48,7 @@ const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): 
 const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
+/** The built-in plotters. */
 export const MACHINES: readonly EbbMachine[] = [
   axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
   axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
@@ -81,7 +82,11 @@ export const MACHINES: readonly EbbMachine[] = [
   },
 ];
 
-/** The profile with that id. Throws `bad-setting` with the list of known ids. */
+/**
+ * The built-in plotter with that id.
+ *
+ * @throws PlotwrightError "bad-setting" for an unknown id, with the list of known ids
+ */
 export function machineById(id: string): EbbMachine {
   const machine = MACHINES.find((candidate) => candidate.id === id);
   if (machine === undefined) {
@@ -91,8 +96,11 @@ export function machineById(id: string): EbbMachine {
   return machine;
 }
 
+/** The machine in a job's settings. */
 export interface MachineChoice {
+  /** Id of a profile. Default "axidraw-v3". */
   readonly machine: string;
+  /** A profile of your own, used if its id is `machine`. */
   readonly customMachine?: MachineProfile | null | undefined;
 }
 

@@ -67,33 +67,20 @@ export class BlendPlanner {
     tangent[0] = tangent[n] = 0;
     sine[0] = sine[n] = 0;
     maxSpeed[0] = maxSpeed[n] = 0;
-    let x0 = ux[0];
-    let y0 = uy[0];
-    let before = length[0];
-    let cap0 = cap2[0];
     for (let i = 1; i < n; i++) {
-      const x1 = ux[i];
-      const y1 = uy[i];
-      const after = length[i];
-      const cap1 = cap2[i];
-      const bx = x1 - x0;
-      const by = y1 - y0;
+      const bx = ux[i] - ux[i - 1];
+      const by = uy[i] - uy[i - 1];
       const s = Math.sqrt(bx * bx + by * by) / 2;
-      const cap = Math.min(cap0, cap1);
+      const cap = Math.min(cap2[i - 1], cap2[i]);
       if (s > STRAIGHT) {
-        const half = Math.min(before, after) / 2;
-        const reach = line.reach(i, bx, by, s, half);
-        tangent[i] = reach;
+        const half = Math.min(length[i - 1], length[i]) / 2;
+        tangent[i] = line.reach(i, bx, by, s, half);
         sine[i] = s;
-        maxSpeed[i] = Math.sqrt(Math.min(cap, (accel * reach) / s));
+        maxSpeed[i] = Math.sqrt(Math.min(cap, (accel * tangent[i]) / s));
       } else {
         tangent[i] = sine[i] = 0;
         maxSpeed[i] = Math.sqrt(cap);
       }
-      x0 = x1;
-      y0 = y1;
-      before = after;
-      cap0 = cap1;
     }
   }
 
@@ -107,19 +94,18 @@ export class BlendPlanner {
     vIn[n] = vOut[n] = change[n] = 0;
     let left = 0;
     for (let i = n - 1; i > 0; i--) {
-      // The shortcut of `solve` for the backward pass, where no limit from before the corner is known yet and
-      // the one behind it is not reached.
       const v = maxSpeed[i];
       const q = 2 * sine[i] * v;
       const behind = left + twoA * length[i];
+      // `solve` begins with the same check; without it here, planning takes 5 % longer.
       if (v * (v + q) <= behind) {
         vIn[i] = vOut[i] = v;
         change[i] = q;
-        left = v * (v - q);
       } else {
+        // No limit from before the corner is known yet.
         corners.solve(i, Infinity, behind, accel);
-        left = vIn[i] * (vIn[i] - change[i]);
       }
+      left = vIn[i] * (vIn[i] - change[i]);
     }
     left = 0;
     for (let i = 1; i < n; i++) {

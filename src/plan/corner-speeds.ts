@@ -121,11 +121,11 @@ const SAME = 2e-15;
  */
 function guess(E: number, m: number, R: number, c: number): number {
   let b = E / R;
-  const least = R / (m * m);
+  const min = R / (m * m);
   let p1 = 2 * (b - 2 * b * c * c + c);
   let p2 = 2 * b * c + 1 - b * b;
   let p3 = 2 * (b + c);
-  if (1 + least * (p1 - least * (p2 + least * p3)) > 0) {
+  if (1 + min * (p1 - min * (p2 + min * p3)) > 0) {
     return Math.sqrt(R * rootOf(1, p1, p2, p3, 1 / (b + 1)));
   }
   b = E / (m * m);

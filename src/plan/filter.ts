@@ -32,6 +32,8 @@ export interface Kernel {
   readonly of: "motion" | "integral";
   /** Mean delay of the output, s. */
   readonly meanDelayS: number;
+  /** Delay of the last tap, s: how much longer the output is than the input. */
+  readonly lengthS: number;
 }
 
 export function boxKernel(widthS: number): Kernel {
@@ -40,12 +42,12 @@ export function boxKernel(widthS: number): Kernel {
     { delayS: 0, weight },
     { delayS: widthS, weight: -weight },
   ];
-  return { taps, of: "integral", meanDelayS: widthS / 2 };
+  return { taps, of: "integral", meanDelayS: widthS / 2, lengthS: widthS };
 }
 
 export function impulseKernel(taps: readonly Tap[]): Kernel {
   const meanDelayS = taps.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
-  return { taps, of: "motion", meanDelayS };
+  return { taps, of: "motion", meanDelayS, lengthS: Math.max(...taps.map(({ delayS }) => delayS)) };
 }
 
 /** Block ends closer in time than this are treated as one, s. */

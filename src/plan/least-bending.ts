@@ -19,36 +19,27 @@ const ROUNDS = 4;
 const BOUND = 0.3;
 const RELAXATION = 1.8;
 
-/**
- * The fields of each point, adjacent in memory: the half-solved system; 1/D and the two subdiagonals of L in
- * this column; the value carried from one round to the next; the right-hand side; the weight of the bounds, 0
- * for a fixed point; the bounds.
- */
-const FIELDS = 9;
-const HALFWAY = 0;
-const INVERSE = 1;
-const BELOW1 = 2;
-const BELOW2 = 3;
-const CARRY = 4;
-const RIGHT = 5;
-const HELD = 6;
-const LOW = 7;
-const HIGH = 8;
-/**
- * Before factoring, the same slots hold: the weight; weight × turn; 1 for a free point and 0 for a fixed one;
- * 1/ℓ.
- */
-const WEIGHT = HALFWAY;
-const BENDING = INVERSE;
-const FREE = BELOW1;
-const PER_LENGTH = BELOW2;
-
 export class LeastBending {
   y = new Float64Array(0);
   low = new Float64Array(0);
   high = new Float64Array(0);
   turn = new Float64Array(0);
-  private rows = new Float64Array(0);
+  /** w, and w times the turn. */
+  private weight = new Float64Array(0);
+  private bending = new Float64Array(0);
+  /** 1/ℓ of each segment; 1 for each point that is not fixed. */
+  private perLength = new Float64Array(0);
+  private isFree = new Uint8Array(0);
+  /** The system L D Lᵀ: 1/D, and the two subdiagonals of L by column. */
+  private inverse = new Float64Array(0);
+  private below1 = new Float64Array(0);
+  private below2 = new Float64Array(0);
+  /** The right-hand side, and the weight of the bounds; both 0 for a fixed point. */
+  private right = new Float64Array(0);
+  private held = new Float64Array(0);
+  /** The half-solved system, and the values carried from one round to the next. */
+  private halfway = new Float64Array(0);
+  private carry = new Float64Array(0);
 
   reserve(points: number): void {
     if (this.y.length > points) return;
@@ -57,192 +48,120 @@ export class LeastBending {
     this.low = new Float64Array(size);
     this.high = new Float64Array(size);
     this.turn = new Float64Array(size);
-    this.rows = new Float64Array(FIELDS * size);
+    this.weight = new Float64Array(size);
+    this.bending = new Float64Array(size);
+    this.perLength = new Float64Array(size);
+    this.isFree = new Uint8Array(size);
+    this.inverse = new Float64Array(size);
+    this.below1 = new Float64Array(size);
+    this.below2 = new Float64Array(size);
+    this.right = new Float64Array(size);
+    this.held = new Float64Array(size);
+    this.halfway = new Float64Array(size);
+    this.carry = new Float64Array(size);
   }
 
   /** Sets `y` from `low`, `high` and `turn` of the n + 1 points between n segments. */
   solve(n: number, length: Float64Array): void {
-    this.begin(n, length);
-    this.factor(n, this.rows);
-    for (let round = 1; round < ROUNDS; round++) {
-      this.goBack(n);
-      this.goForth(n);
+    this.weigh(n, length);
+    this.factor(n);
+    this.halfway.set(this.right.subarray(0, n));
+    this.carry.fill(0, 0, n);
+    for (let round = 0; round < ROUNDS; round++) {
+      this.substituteForward(n);
+      this.substituteBackward(n);
     }
-    this.finish(n);
+    this.y[0] = this.low[0];
+    this.y[n] = this.low[n];
   }
 
-  /**
-   * Fills the rows with weights and turns. Points that are fixed away from the line contribute to the turns.
-   */
-  private begin(n: number, length: Float64Array): void {
-    const { low, high, turn, rows } = this;
-    let before = length[0];
-    let a = 1 / before;
-    let free1 = isFree(low[1], high[1]);
+  /** Fills weights and turns. Points that are fixed away from the line contribute to the turns. */
+  private weigh(n: number, length: Float64Array): void {
+    const { low, high, turn, weight, bending, perLength, isFree } = this;
+    weight[0] = bending[0] = weight[n] = bending[n] = 0;
+    isFree[0] = isFree[n] = 0;
+    perLength[0] = 1 / length[0];
+    for (let i = 1; i < n; i++) {
+      isFree[i] = low[i] === high[i] ? 0 : 1;
+      perLength[i] = 1 / length[i];
+    }
     let y0 = low[0];
-    let y1 = (1 - free1) * low[1];
-    rows[WEIGHT] = rows[BENDING] = rows[FREE] = 0;
-    rows[PER_LENGTH] = a;
-    let r = FIELDS;
-    for (let i = 1; i < n; i++, r += FIELDS) {
-      const after = length[i];
-      const c = 1 / after;
+    let y1 = isFree[1] === 1 ? 0 : low[1];
+    for (let i = 1; i < n; i++) {
+      const a = perLength[i - 1];
+      const c = perLength[i];
+      const y2 = isFree[i + 1] === 1 ? 0 : low[i + 1];
       const max = Math.max(a, c);
-      const weight = ((before + after) / 2) * max * max;
-      const low2 = low[i + 1];
-      const high2 = high[i + 1];
-      const free2 = isFree(low2, high2);
-      const y2 = (1 - free2) * low2;
-      rows[r + WEIGHT] = weight;
-      rows[r + BENDING] = weight * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
-      rows[r + FREE] = free1;
-      rows[r + PER_LENGTH] = c;
-      rows[r + FIELDS + LOW] = low2;
-      rows[r + FIELDS + HIGH] = high2;
-      before = after;
-      a = c;
-      free1 = free2;
+      weight[i] = ((length[i - 1] + length[i]) / 2) * max * max;
+      bending[i] = weight[i] * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
       y0 = y1;
       y1 = y2;
     }
-    rows[FIELDS + LOW] = low[1]!;
-    rows[FIELDS + HIGH] = high[1]!;
-    rows[r + WEIGHT] =
-      rows[r + BENDING] =
-      rows[r + FREE] =
-      rows[r + PER_LENGTH] =
-      rows[r + FIELDS + FREE] =
-        0;
   }
 
-  /**
-   * Factors the system, and does the first forward substitution, where no point has moved yet. Multiplying by
-   * 0 or 1 is faster here than branching, because fixed and free points alternate often. Nothing is read
-   * before the loop: V8 may compile this function during its first run, and would discard that code at values
-   * it has not seen yet.
-   */
-  private factor(n: number, rows: Float64Array): void {
-    // D times L's first subdiagonal in the previous column, and the second one in the previous two; the same
-    // for L; the half-solved system.
+  private factor(n: number): void {
+    const { weight, bending, perLength, isFree, inverse, below1, below2, right, held } = this;
+    // D times the first subdiagonal of L in the previous column, and the second one in the previous two.
     let first1 = 0;
     let second1 = 0;
     let second2 = 0;
-    let below1 = 0;
-    let below2 = 0;
-    let below2Before = 0;
-    let s1 = 0;
-    let s2 = 0;
-    // Of the previous point and of the current point.
-    let weight0 = 0;
-    let weight1 = 0;
-    let bending0 = 0;
-    let bending1 = 0;
-    let free1 = 0;
-    let a = 0;
-    for (let r = 0; r < FIELDS * n; r += FIELDS) {
-      const next = r + FIELDS;
-      const c = rows[r + PER_LENGTH];
-      const free2 = rows[next + FREE];
-      const weight2 = rows[next + WEIGHT];
-      const bending2 = rows[next + BENDING];
-      const e = rows[next + PER_LENGTH];
-      const free3 = rows[next + FIELDS + FREE];
-      const around = a + c;
-      const own = weight1 * around;
-      const before = weight0 * a;
-      const after = weight2 * c;
-      const right = free1 * (bending1 * around - bending0 * a - bending2 * c);
-      const diagonal = before * a + own * around + after * c;
-      const held = free1 * BOUND * diagonal;
-      const d = free1 * (diagonal + held - below2Before * second2 - below1 * first1 - 1) + 1;
-      const first = free1 * (free2 * (-own * c - after * (c + e)) - below1 * second1);
-      const second = free1 * free3 * after * e;
-      const s = free1 * (right - below2Before * s2 - below1 * s1);
-      const inverse = 1 / d;
-      below2Before = below2;
-      below1 = first * inverse;
-      below2 = second * inverse;
+    for (let i = 0; i < n; i++) {
+      let d = 1;
+      let first = 0;
+      let second = 0;
+      right[i] = held[i] = 0;
+      if (isFree[i] === 1) {
+        const a = perLength[i - 1];
+        const c = perLength[i];
+        const own = weight[i] * (a + c);
+        const before = weight[i - 1] * a;
+        const after = weight[i + 1] * c;
+        const diagonal = before * a + own * (a + c) + after * c;
+        right[i] = bending[i] * (a + c) - bending[i - 1] * a - bending[i + 1] * c;
+        held[i] = BOUND * diagonal;
+        d = diagonal + held[i] - (i > 1 ? below2[i - 2] * second2 : 0) - below1[i - 1] * first1;
+        // The last point is fixed, so these read no segment beyond it.
+        if (isFree[i + 1] === 1) first = -own * c - after * (c + perLength[i + 1]) - below1[i - 1] * second1;
+        if (i + 2 < n && isFree[i + 2] === 1) second = after * perLength[i + 1];
+      }
+      inverse[i] = 1 / d;
+      below1[i] = first * inverse[i];
+      below2[i] = second * inverse[i];
       first1 = first;
       second2 = second1;
       second1 = second;
+    }
+  }
+
+  private substituteForward(n: number): void {
+    const { halfway, below1, below2 } = this;
+    // The first point is fixed, with 0 in the system.
+    let s1 = halfway[1];
+    let s2 = 0;
+    for (let i = 2; i < n; i++) {
+      const s = halfway[i] - below2[i - 2] * s2 - below1[i - 1] * s1;
+      halfway[i] = s;
       s2 = s1;
       s1 = s;
-      rows[r + HALFWAY] = s;
-      rows[r + INVERSE] = inverse;
-      rows[r + BELOW1] = below1;
-      rows[r + BELOW2] = below2;
-      rows[r + CARRY] = 0;
-      rows[r + RIGHT] = right;
-      rows[r + HELD] = held;
-      weight0 = weight1;
-      weight1 = weight2;
-      bending0 = bending1;
-      bending1 = bending2;
-      free1 = free2;
-      a = c;
     }
   }
 
   /**
    * Backward substitution, then clamps each point to its bounds: y is the over-relaxed solution plus
-   * everything clamped off before (the dual variable). Afterwards HALFWAY holds the next right-hand side.
+   * everything clamped off before (the dual variable). Afterwards `halfway` holds the next right-hand side.
    */
-  private goBack(n: number): void {
-    const { rows } = this;
+  private substituteBackward(n: number): void {
+    const { y, low, high, inverse, below1, below2, right, held, halfway, carry } = this;
     let x1 = 0;
     let x2 = 0;
-    for (let r = FIELDS * (n - 1); r > 0; r -= FIELDS) {
-      const x = rows[r + HALFWAY] * rows[r + INVERSE] - rows[r + BELOW2] * x2 - rows[r + BELOW1] * x1;
+    for (let i = n - 1; i > 0; i--) {
+      const x = halfway[i] * inverse[i] - below2[i] * x2 - below1[i] * x1;
       x2 = x1;
       x1 = x;
-      const low = rows[r + LOW];
-      const high = rows[r + HIGH];
-      const free = RELAXATION * x + rows[r + CARRY];
-      const y = Math.min(high, Math.max(low, free));
-      rows[r + CARRY] = free - RELAXATION * y;
-      rows[r + HALFWAY] = rows[r + RIGHT] + rows[r + HELD] * (2 * y - free);
+      const free = RELAXATION * x + carry[i];
+      y[i] = Math.min(high[i], Math.max(low[i], free));
+      carry[i] = free - RELAXATION * y[i];
+      halfway[i] = right[i] + held[i] * (2 * y[i] - free);
     }
   }
-
-  /** Forward substitution. */
-  private goForth(n: number): void {
-    const { rows } = this;
-    // The first and the last point are fixed, with 0 in the system.
-    let s1 = 0;
-    let s2 = 0;
-    let below1 = 0;
-    let below2 = 0;
-    let below2Before = 0;
-    for (let r = FIELDS; r < FIELDS * n; r += FIELDS) {
-      const s = rows[r + HALFWAY] - below2Before * s2 - below1 * s1;
-      rows[r + HALFWAY] = s;
-      s2 = s1;
-      s1 = s;
-      below1 = rows[r + BELOW1]!;
-      below2Before = below2;
-      below2 = rows[r + BELOW2]!;
-    }
-  }
-
-  /** The last `goBack`, which writes the result. */
-  private finish(n: number): void {
-    const { rows, y } = this;
-    y[0] = this.low[0]!;
-    y[n] = this.low[n]!;
-    let x1 = 0;
-    let x2 = 0;
-    for (let i = n - 1, r = FIELDS * i; i > 0; i--, r -= FIELDS) {
-      const x = rows[r + HALFWAY] * rows[r + INVERSE] - rows[r + BELOW2] * x2 - rows[r + BELOW1] * x1;
-      x2 = x1;
-      x1 = x;
-      const free = RELAXATION * x + rows[r + CARRY];
-      const low = rows[r + LOW];
-      const high = rows[r + HIGH];
-      y[i] = Math.min(high, Math.max(low, free));
-    }
-  }
-}
-
-function isFree(low: number, high: number): number {
-  return low === high ? 0 : 1;
 }

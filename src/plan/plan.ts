@@ -22,6 +22,7 @@ import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
+/** Where a plan begins and ends. Every option has a default. */
 export interface PlanOptions {
   /** Where in the drawing to begin, possibly in the middle of a stroke; default: the start of the drawing. */
   readonly from?: Place | undefined;
@@ -46,8 +47,9 @@ export interface PlanOptions {
   /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
   /**
-   * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself. It cannot be
-   * told to move the pen during a run.
+   * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself.
+   *
+   * @internal
    */
   readonly runs?: WritesRuns | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
@@ -57,7 +59,7 @@ export interface PlanOptions {
 /**
  * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points.
  *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other, "cancelled"
+ * @throws PlotwrightError "bad-setting" for settings that contradict each other; "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
  */
 export function plan(
@@ -69,8 +71,7 @@ export function plan(
   checkSettings(motion, pen);
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
-  const penAtRuns = runs ? { ...pen, overlap: "off" as const } : pen;
-  const builder = new PlanBuilder(strokes, motion, penAtRuns, machine, startX, startY, runs);
+  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
   if (options.liftFirst ?? false) builder.liftAnyway();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");

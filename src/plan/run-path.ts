@@ -54,6 +54,13 @@ export class RunPath {
     this.easeFrom = Infinity;
   }
 
+  /** Segment i of another path, `alongMm` along its stroke. */
+  setSegment(other: RunPath, i: number, alongMm: number): void {
+    this.setLine(other.x[i], other.y[i], other.x[i + 1], other.y[i + 1]);
+    this.startAlong = alongMm;
+    this.easeUntil = i < other.easeUntil || i >= other.easeFrom ? 1 : 0;
+  }
+
   /**
    * Loads points [first, end) of `xy`, starting `fromAlong` mm along them. Afterwards `segmentCount` is 0 if
    * nothing is left to draw; x[0], y[0] is the start in any case.

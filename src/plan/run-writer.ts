@@ -8,8 +8,8 @@ import { writeFiltered } from "./filter.js";
 import { writeJunctionRun } from "./junction.js";
 import type { RunLimits } from "./limits.js";
 import { mergeBlocks, type MergeRules } from "./merge.js";
-import type { RunPath } from "./run-path.js";
-import { filteredPlan } from "./scurve.js";
+import { RunPath } from "./run-path.js";
+import { filteredPlan, stopsAreFaster } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
 
 /** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
@@ -21,6 +21,7 @@ export class RunWriter implements WritesRuns {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
+  private readonly straight = new RunPath();
   private readonly rules: MergeRules | null;
 
   constructor(
@@ -46,7 +47,19 @@ export class RunWriter implements WritesRuns {
     const { unfiltered } = this;
     unfiltered.clear();
     this.writeBlocks(path, limits, unfiltered);
-    writeFiltered(unfiltered, path.end(), kernel, out);
+    if (path.segmentCount > 1 && stopsAreFaster(path, runLimits, unfiltered.clockS + kernel.lengthS)) {
+      this.writeWithStops(path, runLimits, out);
+    } else writeFiltered(unfiltered, path.end(), kernel, out);
+  }
+
+  private writeWithStops(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    const { straight } = this;
+    let along = path.startAlong;
+    for (let i = 0; i < path.segmentCount; i++) {
+      straight.setSegment(path, i, along);
+      this.writeFiltered(straight, limits, out);
+      along += path.length[i];
+    }
   }
 
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {

@@ -1,20 +1,23 @@
 /** Summary figures of a trajectory, for people and for `plan --json`. */
 import { blockLength, type Trajectory } from "./trajectory.js";
 
+/** What `trajectoryStats` finds. */
 export interface TrajectoryStats {
   /** Distance with the pen down, mm. */
   readonly drawMm: number;
   /** Distance with the pen up, mm. */
   readonly travelMm: number;
+  /** Lifts of a pen that was down. */
   readonly penLiftCount: number;
-  /** mm/s */
+  /** Max speed, mm/s. */
   readonly maxSpeed: number;
-  /** mm/s², within blocks; excludes the velocity jump at a `junction` corner. */
+  /** Max acceleration, mm/s², within blocks; excludes the velocity jump at a `junction` corner. */
   readonly maxAccel: number;
+  /** Total duration, pen waits included. */
   readonly durationS: number;
 }
 
-/** Linear in the number of blocks. */
+/** Distances, pen lifts, duration and maxima of a trajectory. Linear in the number of blocks. */
 export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   const { runs } = trajectory;
   let drawMm = 0;

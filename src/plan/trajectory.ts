@@ -1,16 +1,17 @@
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.
  *
- *   t from a block's start:  p(t) = p0 + v0 t + a t²/2 + j t³/6
+ *     t from a block's start:  p(t) = p0 + v0 t + a t²/2 + j t³/6
  *
  * Blocks are grouped in runs. A run begins and ends at rest, with the pen up (travel) or down (draw). Between
  * two runs the pen may move, and the carriage waits for it:
  *
- *   run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
+ *     run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
  *
  * With the setting `pen.overlap`, a lift goes on during the travel after it, and a drop begins in the travel before.
  */
 export interface Trajectory {
+  /** Number of blocks. */
   readonly blockCount: number;
   /** Seconds each block takes. All columns have `blockCount` used entries (arrays may be longer). */
   readonly durationS: Float64Array;
@@ -30,8 +31,9 @@ export interface Trajectory {
   readonly startS: Float64Array;
   /** mm along the run's source polyline at the block's start. */
   readonly alongMm: Float64Array;
+  /** Which blocks belong to which stroke. */
   readonly runs: RunColumns;
-  /** In order of time; `penMovesOf` returns them as objects. */
+  /** In order of time. */
   readonly penMoves: PenMoveColumns;
   /** Total duration, pen waits included. */
   readonly totalS: number;
@@ -40,6 +42,7 @@ export interface Trajectory {
   readonly endY: number;
 }
 
+/** The runs of a trajectory, as columns. */
 export interface RunColumns {
   readonly count: number;
   /** count + 1: run r has blocks [firstBlock[r], firstBlock[r+1]). */
@@ -78,11 +81,13 @@ export interface PenMove {
 
 /** A place in the drawing from which a plan can resume: a stroke, and mm along its polyline. */
 export interface Place {
+  /** Index of the stroke. */
   readonly stroke: number;
+  /** mm along the stroke's polyline. */
   readonly alongMm: number;
 }
 
-/** One instant of a trajectory. */
+/** One instant of a trajectory: mm in the machine frame, mm/s, mm/s². */
 export interface MotionState {
   x: number;
   y: number;

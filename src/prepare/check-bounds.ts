@@ -7,7 +7,12 @@ import type { MachineProfile } from "../machines/profile.js";
 /** mm; rounding and the play of the carriage are no reason to refuse a plot. */
 const SLACK = 0.01;
 
-/** Throws `out-of-bounds`, with the figures, if a stroke leaves the machine's travel. */
+/**
+ * Checks that a machine reaches every stroke, with 0.01 mm to spare for rounding. `planSvg` does it; call it yourself
+ * when you use the steps.
+ *
+ * @throws PlotwrightError "out-of-bounds", with the figures
+ */
 export function checkBounds(
   strokes: StrokeSet,
   machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,

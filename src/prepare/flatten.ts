@@ -1,5 +1,5 @@
 /** Shapes to polylines: curves become chords within a tolerance in mm, after mapping to the paper. */
-import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
+import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { flattenCubic } from "../geometry/cubic.js";
 import { PointBuffer } from "../geometry/growable.js";
@@ -28,40 +28,20 @@ export function flattenShapes(
   work: Work,
 ): Lines {
   const builder = new LineBuilder();
-  let shape = 0;
-  const tagOf = (): number => shape;
-  const range = { verbs: paths.verbs, verbFrom: 0, verbTo: 0, coords: paths.coords, coordFrom: 0 };
-  for (let end = 0; shape < paths.count; shape++) {
+  const { verbs, verbOffsets, coords, coordOffsets, stroke } = paths;
+  for (let shape = 0; shape < paths.count; shape++) {
     stopIfCancelled(work);
-    if (shape >= end) end = polylinesEnd(paths, wanted, shape);
-    shape = builder.addMapped(paths.coords, paths.coordOffsets, shape, end, map);
-    if (shape === paths.count || wanted[shape] === 0) continue;
-    range.verbFrom = paths.verbOffsets[shape];
-    range.verbTo = paths.verbOffsets[shape + 1];
-    range.coordFrom = paths.coordOffsets[shape];
-    flattenVerbs(range, map, toleranceMm, paths.stroke[shape] < 0, builder, tagOf);
+    if (wanted[shape] === 0) continue;
+    const range = {
+      verbs,
+      verbFrom: verbOffsets[shape],
+      verbTo: verbOffsets[shape + 1],
+      coords,
+      coordFrom: coordOffsets[shape],
+    };
+    flattenVerbs(range, map, toleranceMm, stroke[shape] < 0, builder, () => shape);
   }
   return builder.finish();
-}
-
-/** Max shapes added in one call. */
-const MAX_AT_ONCE = 1 << 16;
-
-/** The first shape from `shape` on that is not wanted, or is not an open stroke of straight segments only. */
-function polylinesEnd(
-  { count, verbs, verbOffsets, stroke }: DrawingPaths,
-  wanted: Uint8Array,
-  shape: number,
-): number {
-  const max = Math.min(count, shape + MAX_AT_ONCE);
-  for (; shape < max && wanted[shape] === 1 && stroke[shape] >= 0; shape++) {
-    const end = verbOffsets[shape + 1];
-    let v = verbOffsets[shape] + 1;
-    if (v >= end) break;
-    while (v < end && verbs[v] === VERB_LINE) v++;
-    if (v < end) break;
-  }
-  return shape;
 }
 
 /** Adds a line for each subpath; `tagOf` gets the number of the subpath, counted by VERB_MOVE. */

@@ -27,7 +27,9 @@ export interface PlotPen {
   readonly offsetYMm: number;
 }
 
+/** The user's pens, which layer uses which, and where the plot stops to change them. */
 export interface PenSetup {
+  /** The pens that `layerPens` refers to. */
   readonly pens: readonly PlotPen[];
   /** Pen id by layer id. A layer without one is drawn with the pen that is in the holder. */
   readonly layerPens: Readonly<Record<string, string>>;

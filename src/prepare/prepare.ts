@@ -47,16 +47,20 @@ import { spreadLines } from "./spread.js";
 import { linesOfTour, travelAsDrawn } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
+/** The result of `prepare`: the strokes, and what the page tells about them. */
 export interface Prepared {
+  /** What the pen draws, in drawing order. */
   readonly strokes: StrokeSet;
   /** All layers of the file under the layer mode, including hidden ones, in drawing order. */
   readonly layers: readonly PreparedLayer[];
   /** The paper after `landscape` is applied. */
   readonly paperWidthMm: number;
   readonly paperHeightMm: number;
-  /** Pen-up travel from home through all strokes and back home: in the file's order, and as drawn. */
+  /** Distance with the pen up from home through all strokes and back home, in the file's order. */
   readonly travelMmUnordered: number;
+  /** The same in the order in which they are drawn. */
   readonly travelMm: number;
+  /** Distance with the pen down. */
   readonly drawMm: number;
   /** What is left out with this paper and these settings; the drawing's own warnings are not repeated. */
   readonly warnings: readonly string[];
@@ -64,7 +68,8 @@ export interface Prepared {
 
 /**
  * Places the drawing on the paper and turns it into strokes in drawing order (mm in the machine frame).
- * Throws PlotwrightError `bad-setting` (no room inside the margins) and `cancelled`.
+ *
+ * @throws PlotwrightError "bad-setting" if the margins leave no room; "cancelled"
  */
 export function prepare(
   drawing: Drawing,

@@ -42,16 +42,7 @@ export function shapesOnPaper(
   let outside = 0;
   let far = 0;
   for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {
-    const x0 = boxes[at];
-    const y0 = boxes[at + 1];
-    const x1 = boxes[at + 2];
-    const y1 = boxes[at + 3];
-    // Most shapes lie entirely within.
-    if (x0 >= within.x0 && y0 >= within.y0 && x1 <= within.x1 && y1 <= within.y1 && x0 <= x1 && y0 <= y1) {
-      wanted[shape] = 1;
-      continue;
-    }
-    const box = { x0, y0, x1, y1 };
+    const box = { x0: boxes[at], y0: boxes[at + 1], x1: boxes[at + 2], y1: boxes[at + 3] };
     if (isEmptyBox(box)) continue;
     if (isFarAway(box)) far++;
     else if (limit !== null && !boxesTouch(box, limit)) outside++;

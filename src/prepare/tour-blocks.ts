@@ -11,29 +11,30 @@
  * mm saved in it is saved overall. (This is tour-based partitioning, after K. Helsgaun's LKH; here the runs
  * need no special case.)
  */
-import { PointIndex } from "../geometry/point-index.js";
+import { PointGrid } from "../geometry/point-grid.js";
 import { TourSearch } from "./tour-search.js";
 
 const STROKES_IN_BLOCK = 1_000;
+const CELLS_IN_BLOCK = 4;
 /** Kicks per stroke of a block before the next block is searched. */
 const KICKS = 8;
-const KICKS_BETWEEN_LOOKS = 512;
+const KICKS_BETWEEN_CHECKS = 512;
 
 /**
  * One pass over all strokes in blocks. `ring` is changed in place: ends in drawing order, stroke k with ends
- * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `goOn` is called from time
- * to time with the number of kicks since the last call. Returns whether the pass was finished.
+ * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `hasTime` is called from
+ * time to time with the number of kicks since the last call. Returns whether the pass was finished.
  */
 export function improveBlocks(
   ring: Int32Array,
   xy: Float64Array,
   random: () => number,
-  goOn: (kicks: number) => boolean,
+  hasTime: (kicks: number) => boolean,
   strokesInBlock = STROKES_IN_BLOCK,
 ): boolean {
   const strokes = ring.length / 2;
   const home = ring[0] >> 1;
-  const order = strokesInSpace(xy, strokes);
+  const order = strokesInSpace(xy, strokes, strokesInBlock);
   // Different cuts in every pass, so that a block border in one pass is inside a block in the next.
   const shift = Math.floor(random() * strokes);
   const blocks = Math.max(Math.round(strokes / strokesInBlock), 1);
@@ -44,19 +45,19 @@ export function improveBlocks(
     isIn.fill(0);
     for (let k = from; k < to; k++) isIn[order[(k + shift) % strokes]] = 1;
     isIn[home] = 0;
-    if (!improveBlock(ring, xy, isIn, random, goOn)) return false;
+    if (!improveBlock(ring, xy, isIn, random, hasTime)) return false;
   }
   return true;
 }
 
-/** Strokes sorted by the position of their midpoint, neighbours side by side. */
-function strokesInSpace(xy: Float64Array, strokes: number): Uint32Array {
+/** Strokes sorted by the position of their midpoint, so that each block covers a few adjacent cells. */
+function strokesInSpace(xy: Float64Array, strokes: number, strokesInBlock: number): Uint32Array {
   const middles = new Float64Array(2 * strokes);
   for (let k = 0; k < strokes; k++) {
     middles[2 * k] = (xy[4 * k] + xy[4 * k + 2]) / 2;
     middles[2 * k + 1] = (xy[4 * k + 1] + xy[4 * k + 3]) / 2;
   }
-  return new PointIndex(middles).inSpaceOrder;
+  return new PointGrid(middles, strokesInBlock / CELLS_IN_BLOCK).inSpaceOrder();
 }
 
 function improveBlock(
@@ -64,7 +65,7 @@ function improveBlock(
   xy: Float64Array,
   isIn: Uint8Array,
   random: () => number,
-  goOn: (kicks: number) => boolean,
+  hasTime: (kicks: number) => boolean,
 ): boolean {
   const starts = smallStrokes(ring, isIn);
   const count = starts.length - 1;
@@ -83,10 +84,10 @@ function improveBlock(
   const search = new TourSearch(smallXy, smallRing, random);
   search.improve();
   let more = true;
-  for (let left = KICKS * count; left > 0 && more; left -= KICKS_BETWEEN_LOOKS) {
-    const kicks = Math.min(left, KICKS_BETWEEN_LOOKS);
+  for (let left = KICKS * count; left > 0 && more; left -= KICKS_BETWEEN_CHECKS) {
+    const kicks = Math.min(left, KICKS_BETWEEN_CHECKS);
     for (let k = 0; k < kicks; k++) search.kick();
-    more = goOn(kicks);
+    more = hasTime(kicks);
   }
   putBack(ring, starts, search.ring);
   return more;

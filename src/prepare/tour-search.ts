@@ -29,7 +29,7 @@
  * Invariants: `tour` and `place` are inverse; the ends of a stroke are neighbours in the ring at positions
  * 2i, 2i+1; `length` decreases with every accepted step. Lengths in mm.
  */
-import { PointIndex } from "../geometry/point-index.js";
+import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 
 const NEAR = 8;
 /** How many of them are tried for the third edge. */
@@ -84,10 +84,16 @@ export class TourSearch {
     const { ends, xy } = this;
     this.near = new Int32Array(ends * NEAR).fill(-1);
     this.nearDistance = new Float64Array(ends * NEAR);
-    const index = new PointIndex(xy);
+    const index = new PointGrid(xy);
+    // Two more, since an end finds itself and the other end of its stroke.
+    const found = new NearestPoints(NEAR + 2);
     for (let e = 0; e < ends; e++) {
-      const count = index.nearestMany(e, e ^ 1, NEAR, this.near, e * NEAR);
-      for (let k = 0; k < count; k++) this.nearDistance[e * NEAR + k] = this.gap(e, this.near[e * NEAR + k]);
+      index.find(xy[2 * e], xy[2 * e + 1], Infinity, found);
+      const others = found.ids.subarray(0, found.count).filter((other) => other >> 1 !== e >> 1);
+      for (let k = 0; k < Math.min(others.length, NEAR); k++) {
+        this.near[e * NEAR + k] = others[k];
+        this.nearDistance[e * NEAR + k] = this.gap(e, others[k]);
+      }
     }
     this.length = 0;
     for (let p = 1; p < ends; p += 2) this.length += this.gap(this.tour[p], this.tour[this.next(p)]);

@@ -2,14 +2,7 @@
  * A tour: the order, direction and start point of each line, and the pen's travel for it. The pen starts at
  * home (0, 0) and returns there. Lengths in mm.
  */
-import {
-  LineBuilder,
-  SAME_POINT,
-  distance,
-  isClosedLine,
-  lineCount,
-  type Lines,
-} from "../geometry/polyline.js";
+import { LineBuilder, distance, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
 
 export interface Tour {
   /** Line indices in drawing order. */
@@ -81,8 +74,6 @@ export function travelAsDrawn(lines: Lines): number {
 
 /** The lines in the order and direction of the tour. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
-  const whole = reordered(lines, tour);
-  if (whole !== null) return whole;
   const builder = new LineBuilder();
   const { order } = tour;
   for (let k = 0; k < order.length; k++) {
@@ -91,40 +82,6 @@ export function linesOfTour(lines: Lines, tour: Tour): Lines {
     else builder.copy(lines, i, lines.tag[i], tour.reversed[i] === 1);
   }
   return builder.finish();
-}
-
-/**
- * Reorders lines with the same number of points; null if a point repeats the previous one, which must then be
- * dropped.
- */
-function reordered(lines: Lines, tour: Tour): Lines | null {
-  const { order, reversed, start } = tour;
-  const xy = new Float64Array(lines.xy.length);
-  const offsets = new Uint32Array(order.length + 1);
-  const tag = new Uint32Array(order.length);
-  let to = 0;
-  for (let k = 0; k < order.length; k++) {
-    const i = order[k];
-    const first = 2 * lines.offsets[i];
-    const last = 2 * lines.offsets[i + 1] - 2;
-    let from = reversed[i] === 1 ? last : first + 2 * start[i];
-    const step = reversed[i] === 1 ? -2 : 2;
-    let x = Infinity;
-    let y = Infinity;
-    for (let left = last - first; left >= 0; left -= 2) {
-      const dx = lines.xy[from] - x;
-      const dy = lines.xy[from + 1] - y;
-      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) return null;
-      x = xy[to++] = lines.xy[from];
-      y = xy[to++] = lines.xy[from + 1];
-      from += step;
-      // A closed line with another start point continues after its end, which is also its first point.
-      if (from > last) from = first + 2;
-    }
-    offsets[k + 1] = to / 2;
-    tag[k] = lines.tag[i];
-  }
-  return { xy, offsets, tag };
 }
 
 /** Copies a closed line from another start point. */
@@ -142,7 +99,6 @@ function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder):
 /** Ranges [first, end) of lines that share a tag; lines of one tag are contiguous. */
 export function tagRanges({ tag }: Lines): [number, number][] {
   const count = tag.length;
-  if (count > 0 && tag[0] === tag[count - 1]) return [[0, count]];
   const ranges: [number, number][] = [];
   for (let first = 0, end = 0; first < count; first = end) {
     while (end < count && tag[end] === tag[first]) end++;

@@ -1,6 +1,7 @@
 /** What a long computation needs from its caller, since src has no clock and no signals of its own. */
 import { PlotwrightError } from "../errors.js";
 
+/** Progress and cancelling of a long computation. Everything is optional. */
 export interface Work {
   /** Checked often; an AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;

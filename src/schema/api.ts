@@ -2,73 +2,28 @@
  * The REST interface under /api/v1: bodies and responses. Every error is `{ error: { code, message } }` with
  * the HTTP status from ERROR_TABLE.
  *
- *   GET    /api/v1/state                      → Snapshot
- *   GET    /api/v1/events                     → text/event-stream of ServerEvent (first: snapshot)
- *   POST   /api/v1/jobs                       NewJob (JSON), or the file as the body with ?name=… → 201 Job
- *   GET    /api/v1/jobs/:id                   → Job
- *   GET    /api/v1/jobs/:id/drawing           → the uploaded file as text/plain attachment
- *   PATCH  /api/v1/jobs/:id                   JobPatch → Job (settings only while queued)
- *   POST   /api/v1/jobs/:id/move              MoveJob → { ok: true }
- *   POST   /api/v1/jobs/:id/(start|pause|resume|cancel|requeue)  → Job
- *   POST   /api/v1/jobs/:id/emergency-stop    stops immediately; the job is then held → Job
- *   POST   /api/v1/jobs/:id/change            JobChange → Job (heights and speeds, while plotting or held)
- *   POST   /api/v1/jobs/:id/recover           holds an interrupted job at its place, without drawing → Job
- *   POST   /api/v1/jobs/:id/place             MovePlace: moves the place of a held job → Job
- *   POST   /api/v1/jobs/:id/check-place       goes to the place with the pen up → Job
- *   POST   /api/v1/jobs/:id/duplicate         a queued copy, right after it or last → 201 Job
- *   GET    /api/v1/queue                      → QueueSettings
- *   PATCH  /api/v1/queue                      QueueSettings → QueueSettings
- *   DELETE /api/v1/jobs/:id                   → { ok: true }  (not while plotting or paused)
- *   POST   /api/v1/plotters/:id/pen           { up: boolean, heightPct? } → Plotter
- *   POST   /api/v1/plotters/:id/motors-off    → Plotter
- *   POST   /api/v1/plotters/:id/home          goes home, pen up; to limit switches if any → Plotter
- *   POST   /api/v1/plotters/:id/walk          WalkRequest → Plotter      pen up, to a point in mm from home
- *   POST   /api/v1/plotters/:id/jog           JogRequest → Plotter       pen up, by a distance in mm
- *   POST   /api/v1/plotters/:id/set-home      HandMoveRequest → Plotter  at the current position
- *   POST   /api/v1/plotters/:id/cycle-pen     HandMoveRequest → Plotter  down, then up
- *   POST   /api/v1/plotters/:id/frame         FrameRequest → Plotter     around a drawing, pen up, and back
- *   POST   /api/v1/plotters/:id/test-patch    HandMoveRequest → Plotter  a small pattern on the spot
- *   POST   /api/v1/plotters/:id/square        SquareRequest → Plotter    a square to measure
- *   POST   /api/v1/plotters/:id/servo         ServoRequest → Plotter     a raw servo position
- *   POST   /api/v1/plotters/:id/command       CommandRequest → CommandAnswer  one line to the board
- *   GET    /api/v1/machines                   → MachineList
- *   PUT    /api/v1/machines/:id               MachineProfile → MachineProfile (custom machines)
- *   DELETE /api/v1/machines/:id               → { ok: true }
- *   GET    /api/v1/plotters/:id/log           commands and replies of this connection, as text
- *   GET    /api/v1/access                     → { entries: AccessEntry[] }: sessions and keys
- *   POST   /api/v1/access/keys                NewKey → 201 { entry, secret }
- *   DELETE /api/v1/access/:id                 → { ok: true }
- *   GET    /api/v1/me                         → Me
- *   POST   /api/v1/operator/take              makes the calling browser the operator → { operator }
- *   GET    /api/v1/devices                    → { devices: Device[] }: connected boards
- *   POST   /api/v1/plotters                   NewPlotter → 201 Plotter
- *   PATCH  /api/v1/plotters/:id               PlotterPatch → Plotter
- *   DELETE /api/v1/plotters/:id               → { ok: true }  (not with queued or running jobs, nor the last)
- *   GET    /api/v1/plotters/:id/queue         → QueueSettings of one plotter
- *   PATCH  /api/v1/plotters/:id/queue         QueueSettings → QueueSettings
- *   GET    /api/v1/webhooks                   → { webhooks: Webhook[] }
- *   POST   /api/v1/webhooks                   NewWebhook → 201 { webhook, secret }
- *   DELETE /api/v1/webhooks/:id               → { ok: true }
- *   POST   /api/v1/pairing                    from this computer only → Pairing
- *   DELETE /api/v1/notices/:id                → { ok: true }: marks it as read
- *   GET    /api/v1/logs                       → the log as text, for a support request
- *   GET    /api/v1/samples                    → { samples: [{ name, title }] }
- *   GET    /api/v1/samples/:name              → SVG text
+ * GET /api/v1/openapi.json lists the routes; docs/api.md explains them.
  */
 import { z } from "zod";
 import { ERROR_CODES } from "../errors.js";
 import { jobSchema } from "./job.js";
+import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { nameSchema } from "./name.js";
 import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
 
-export const newJobSchema = z.object({
-  name: nameSchema(200),
-  drawing: z.string().min(1),
-  settings: plotSettingsSchema,
-  plotterId: z.string().max(100).optional(),
-  /** Number of jobs to create. */
-  copies: z.int().min(1).max(100).optional(),
-});
+/** Has either the text of a small drawing, or the id of a drawing uploaded before. */
+export const newJobSchema = z
+  .object({
+    name: nameSchema(200),
+    drawing: z.string().min(1).optional(),
+    /** From POST /drawings. */
+    drawingId: z.string().max(100).optional(),
+    settings: plotSettingsSchema,
+    plotterId: z.string().max(100).optional(),
+    /** Number of jobs to create. */
+    copies: z.int().min(1).max(100).optional(),
+  })
+  .refine(hasOneDrawing, ONE_DRAWING);
 export type NewJob = z.infer<typeof newJobSchema>;
 
 export const jobPatchSchema = z

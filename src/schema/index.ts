@@ -1,4 +1,5 @@
 /** Everything that is sent, stored or written to a file: entry "plotwright/schema". */
+export * from "./faults.js";
 export * from "./name.js";
 export * from "./settings.js";
 export * from "./job.js";

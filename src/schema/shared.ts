@@ -1,5 +1,6 @@
 /** Jobs that several servers share: a server that has a suitable plotter takes the job. */
 import { z } from "zod";
+import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { nameSchema } from "./name.js";
 import { plotSettingsSchema } from "./settings.js";
 
@@ -10,12 +11,17 @@ export const sharedTargetSchema = z.union([
 ]);
 export type SharedTarget = z.infer<typeof sharedTargetSchema>;
 
-export const newSharedJobSchema = z.object({
-  name: nameSchema(200),
-  drawing: z.string().min(1),
-  settings: plotSettingsSchema,
-  target: sharedTargetSchema,
-});
+/** Has either the text of a small drawing, or the id of a drawing uploaded before. */
+export const newSharedJobSchema = z
+  .object({
+    name: nameSchema(200),
+    drawing: z.string().min(1).optional(),
+    /** From POST /drawings. */
+    drawingId: z.string().max(100).optional(),
+    settings: plotSettingsSchema,
+    target: sharedTargetSchema,
+  })
+  .refine(hasOneDrawing, ONE_DRAWING);
 export type NewSharedJob = z.infer<typeof newSharedJobSchema>;
 
 /** A server that has not reported for this long counts as lost. */

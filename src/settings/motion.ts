@@ -102,6 +102,7 @@ export const TRAVEL_TABLE = {
   },
 } as const satisfies SettingsTable;
 
+/** Limits of speed, acceleration, corner and jerk. */
 export type MotionLimits = ValuesOf<typeof DRAW_TABLE>;
 
 export const MOTION_TABLE = {
@@ -176,10 +177,15 @@ export const MOTOR_ACCEL = {
 /** Overrides for one layer; what is left out is as for all layers. */
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
 
+/** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
 export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
+  /** Limits with the pen down. */
   readonly draw: MotionLimits;
+  /** Limits with the pen up. */
   readonly travel: MotionLimits;
+  /** Merges blocks into fewer, longer ones; null or left out: no merging. */
   readonly fit?: FitSettings | null | undefined;
+  /** Slow start and end of every stroke; null or left out: none. */
   readonly ease?: EaseSettings | null | undefined;
   /** Max acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
   readonly motorAccelStepsPerS2?: number | null | undefined;
@@ -189,6 +195,7 @@ export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
 
 export const DEFAULT_FIT: FitSettings = defaultsOf(FIT_TABLE);
 
+/** Mode `blend`, moderate speeds that suit an AxiDraw, merged commands. */
 export const DEFAULT_MOTION: MotionSettings = {
   ...defaultsOf(MOTION_TABLE),
   draw: defaultsOf(DRAW_TABLE),

@@ -113,14 +113,17 @@ export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undef
   readonly beforeMs?: number | undefined;
 };
 
-/** Pen heights, and how long the motion queue waits for the pen. */
+/** Pen heights, and how long the motion waits for the pen. Start from `DEFAULT_PEN`. */
 export interface PenSettings extends ValuesOf<typeof PEN_TABLE>, ValuesOf<typeof OVERLAP_TABLE> {
-  /** How fast the pen rises and sinks; null or left out: as fast as the servo can. A low drop rate is gentle. */
+  /** How fast the pen rises; null or left out: as fast as the servo can. */
   readonly liftPctPerS?: number | null | undefined;
+  /** How fast the pen sinks; null or left out: as fast as the servo can. A low rate is gentle. */
   readonly dropPctPerS?: number | null | undefined;
+  /** By layer id: heights and waits of its own. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
 }
 
+/** 60 % up, 30 % down, and waits that suit a standard servo. */
 export const DEFAULT_PEN: PenSettings = { ...defaultsOf(PEN_TABLE), ...defaultsOf(OVERLAP_TABLE) };
 
 const offset = { kind: "number", default: 0, min: -100, max: 100, unit: "mm", step: 0.05 } as const;

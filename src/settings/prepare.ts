@@ -13,6 +13,7 @@ export type MirrorMode = (typeof MIRROR_MODES)[number];
 export const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
 export type SpreadMode = (typeof SPREAD_MODES)[number];
 
+/** Free edges of the paper as it lies. */
 export interface FourMargins {
   readonly topMm: number;
   readonly rightMm: number;
@@ -31,6 +32,7 @@ export interface PlacedBox {
   readonly turnDeg?: number | undefined;
 }
 
+/** An offset on the paper, mm. */
 export interface ShiftMm {
   readonly xMm: number;
   readonly yMm: number;
@@ -81,6 +83,7 @@ export const HATCH_TABLE = {
 /** How areas are filled with lines. */
 export type HatchSettings = ValuesOf<typeof HATCH_TABLE>;
 
+/** Hatch settings of one layer. */
 export interface LayerHatch extends HatchSettings {
   /** Layer id. */
   readonly layer: string;
@@ -312,7 +315,7 @@ export const LAYER_REPEATS = {
   step: 1,
 } as const satisfies NumberSetting;
 
-/** How the drawing is placed on the paper and turned into strokes. The table describes each plain setting. */
+/** How the drawing is placed on the paper and turned into strokes. Start from `DEFAULT_PREPARE`. */
 export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
   /** Portrait size; `landscape` rotates it. */
   readonly paper: PaperSize;
@@ -332,11 +335,13 @@ export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
   readonly place: PlacedBox | null;
   /** The machine's travel from home: cut off what lies outside; null: do not cut. */
   readonly reach: PaperSize | null;
+  /** How areas are filled with lines. */
   readonly hatch: HatchSettings;
   /** Layers with their own hatch settings. */
   readonly layerHatches: readonly LayerHatch[];
 }
 
+/** A4 in landscape, margins of 15 mm, the drawing fitted to the paper, no hatching. */
 export const DEFAULT_PREPARE: PrepareSettings = {
   ...defaultsOf(PREPARE_TABLE),
   paper: defaultsOf(PAPER_TABLE),

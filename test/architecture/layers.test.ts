@@ -32,6 +32,21 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
 };
 
+/** The folders of server, lowest first: each imports only those before it. The entry files may import all. */
+const SERVER_LAYERS = [
+  "server/storage",
+  "server/serial",
+  "server/security",
+  "server/planning",
+  "server/plotter",
+  "server/queue",
+  "server/http",
+  "server/plugins",
+  "server/plugins/*",
+  "server/composition",
+  "server/cli",
+];
+
 interface Import {
   readonly from: string;
   readonly to: string;
@@ -75,8 +90,32 @@ function literalsOf(file: string): string[] {
 const importsIn = (folder: string): Import[] => sourceFiles(folder).flatMap(importsOf);
 const write = ({ from, to }: Import): string => `${from} imports ${to}`;
 
+/** The imports that TypeScript writes at the top of a file, without `import("…")`. */
+function staticImportsOf(file: string): Import[] {
+  const source = ts.createSourceFile(
+    file,
+    readFileSync(path.join(ROOT, file), "utf8"),
+    ts.ScriptTarget.ES2022,
+  );
+  return source.statements.flatMap((statement) => {
+    const isImport = ts.isImportDeclaration(statement) || ts.isExportDeclaration(statement);
+    const from = isImport ? statement.moduleSpecifier : undefined;
+    if (from === undefined || !ts.isStringLiteral(from) || !from.text.startsWith(".")) return [];
+    return [{ from: file, to: path.posix.join(path.posix.dirname(file), from.text).replace(/\.jsx?$/, "") }];
+  });
+}
+
+/** The same imports between folders: "server/http/app.ts" → "server/http". */
+const betweenFolders = (imports: readonly Import[]): Import[] =>
+  imports
+    .map(({ from, to }) => ({ from: path.posix.dirname(from), to: path.posix.dirname(to) }))
+    .filter(({ from, to }) => from !== to);
+
 /** "src/plan/corner" → "plan"; "src/units" → "units". */
 const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
+
+/** "web/queue/jobs.tsx" → "web/queue"; what lies in web itself is a folder of its own. */
+const folderOf = (file: string): string => file.split("/").slice(0, 2).join("/");
 
 /** The imports of one search that close a circle, as a readable chain; empty when there is none. */
 function findCycle(imports: readonly Import[]): string[] {
@@ -160,14 +199,98 @@ describe("server and web", () => {
   });
 });
 
+describe("the folders of server", () => {
+  const inside = importsIn("server").filter(({ to }) => to.startsWith("server/"));
+  const levelOf = (file: string): number => {
+    const folder = path.posix.dirname(file);
+    if (folder === "server") return SERVER_LAYERS.length;
+    return SERVER_LAYERS.indexOf(folder.startsWith("server/plugins/") ? "server/plugins/*" : folder);
+  };
+  const pluginOf = (file: string): string | null => /^server\/plugins\/[^/]+(?=\/)/.exec(file)?.[0] ?? null;
+
+  it("have no circles", () => {
+    expect(findCycle(betweenFolders(inside))).toEqual([]);
+  });
+
+  it("are layers, each of which imports only those below it", () => {
+    expect(sourceFiles("server").filter((file) => levelOf(file) === -1)).toEqual([]);
+    const wrong = inside.filter(({ from, to }) => levelOf(from) < levelOf(to));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("are not the place of entries, which are the only files beside them", () => {
+    const files = sourceFiles("server").filter((file) => path.posix.dirname(file) === "server");
+    expect(files.sort()).toEqual(["server/index.ts", "server/main.ts"]);
+  });
+
+  it("load a plug-in only when it is asked for: nothing outside imports it statically", () => {
+    const wrong = sourceFiles("server")
+      .flatMap(staticImportsOf)
+      .filter(({ from, to }) => pluginOf(to) !== null && pluginOf(from) !== pluginOf(to));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("have no two files whose names differ only by a plural", () => {
+    const names = sourceFiles("server").map((file) => path.posix.basename(file, ".ts"));
+    const singular = (name: string): string => name.replace(/s(?=-|$)/g, "");
+    const twins = names.filter((name) =>
+      names.some((other) => other !== name && singular(other) === singular(name)),
+    );
+    expect(twins).toEqual([]);
+  });
+});
+
+describe("the folders of web", () => {
+  const inside = importsIn("web").filter(({ to }) => to.startsWith("web/"));
+
+  it("have no circles among their files", () => {
+    expect(findCycle(inside)).toEqual([]);
+  });
+
+  it("have no circles among themselves", () => {
+    const between = inside
+      .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
+      .filter(({ from, to }) => from !== to);
+    expect(findCycle(between)).toEqual([]);
+  });
+
+  it("leave requests to the server's implementation of the backend", () => {
+    // The service worker and its helpers fetch the page's own files; the build's configuration is no part of the page.
+    const others = sourceFiles("web").filter(
+      (file) => !/^web\/(backend\/server|pwa)\//.test(file) && file !== "web/vite.config.ts",
+    );
+    const wrong = others.filter((file) => {
+      const text = readFileSync(path.join(ROOT, file), "utf8");
+      return (
+        /\b(fetch\(|EventSource|XMLHttpRequest|sendBeacon|WebSocket)/.test(text) ||
+        literalsOf(file).some((literal) => literal.includes("/api/"))
+      );
+    });
+    expect(wrong).toEqual([]);
+  });
+
+  it("know the backend by its interface; only main.tsx chooses the implementation", () => {
+    const wrong = inside.filter(
+      ({ from, to }) =>
+        to.startsWith("web/backend/server/") &&
+        !from.startsWith("web/backend/server/") &&
+        from !== "web/app/main.tsx",
+    );
+    expect(wrong.map(write)).toEqual([]);
+  });
+});
+
 describe("the seams", () => {
   const PRODUCT = ["src", "server", "web"].flatMap(sourceFiles);
   const EBB_COMMAND =
     /^(EM|SC|SP|S2|SM|XM|LM|LT|L3|T3|TD|TR|HM|ES|QS|QM|QG|QB|QC|QU|QE|QP|QL|SL|CS|CU|PI|PD)(,[\d-]|,$|$)/;
 
+  /** A line of G-code, a system command, or the greeting. */
+  const GRBL_COMMAND = /^(G\d+([A-Z$]|$)|M[345](S|$)|\$([XHIGC#$]|SLP)$|\$(J|RST)=|Grbl(HAL)?( |$))/;
+
   it("keep the commands of the EiBotBoard in its driver's folder", () => {
     // HPGL has commands of the same names; the console's field shows one as its example.
-    const exempt = ["src/drivers/ebb/", "src/import/hpgl/", "web/machine/console.tsx"];
+    const exempt = ["src/drivers/ebb/", "src/import/hpgl/", "web/plotter/console.tsx"];
     const others = PRODUCT.filter((file) => !exempt.some((start) => file.startsWith(start)));
     const wrong = others.flatMap((file) =>
       literalsOf(file)
@@ -175,6 +298,27 @@ describe("the seams", () => {
         .map((text) => `${file}: "${text}"`),
     );
     expect(wrong).toEqual([]);
+  });
+
+  it("keep the commands of Grbl in its driver's folder", () => {
+    // Its profile's fields name the settings of the firmware, for the user.
+    const exempt = ["src/drivers/grbl/", "src/machines/controllers.ts"];
+    const others = PRODUCT.filter((file) => !exempt.some((start) => file.startsWith(start)));
+    const wrong = others.flatMap((file) =>
+      literalsOf(file)
+        .filter((text) => GRBL_COMMAND.test(text))
+        .map((text) => `${file}: "${text}"`),
+    );
+    expect(wrong).toEqual([]);
+  });
+
+  it("let no driver use another one", () => {
+    const driverOf = (file: string): string | undefined => /^src\/drivers\/([^/]+)\//.exec(file)?.[1];
+    const wrong = importsIn("src/drivers").filter(({ from, to }) => {
+      const [own, other] = [driverOf(from), driverOf(to)];
+      return own !== undefined && other !== undefined && own !== other;
+    });
+    expect(wrong.map(write)).toEqual([]);
   });
 
   it("leave planning and compiling to planJob and the drivers", () => {
@@ -194,6 +338,41 @@ describe("the seams", () => {
   it("would find a command that is elsewhere", () => {
     const texts = ["EM,0,0", "SP,1,", "QS", "S2,", "plan", "S", "SVG", "Esc"];
     expect(texts.filter((text) => EBB_COMMAND.test(text))).toEqual(["EM,0,0", "SP,1,", "QS", "S2,"]);
+    const lines = [
+      "G1X",
+      "G4P0",
+      "G21G90",
+      "M3S",
+      "$X",
+      "$SLP",
+      "$I",
+      "Grbl 1.1h",
+      "G",
+      "M4",
+      "Grbl's",
+      "$5",
+      "M10 30H90",
+    ];
+    expect(lines.filter((text) => GRBL_COMMAND.test(text))).toEqual(lines.slice(0, 8).concat("M4"));
+  });
+});
+
+describe("the folders of src", () => {
+  const files = sourceFiles("src");
+  const isLeaf = (folder: string): boolean =>
+    !files.some((file) => path.posix.dirname(file).startsWith(`${folder}/`));
+  /** "src/drivers/ebb/compile/leg" → "src/drivers/ebb/compile"; a file beside folders stands for itself. */
+  const folderOf = (file: string): string => {
+    const folder = path.posix.dirname(file);
+    return isLeaf(folder) ? folder : file.replace(/\.ts$/, "");
+  };
+
+  it("have no circles among them, deep ones too", () => {
+    const between = importsIn("src")
+      .filter(({ to }) => to.startsWith("src/"))
+      .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
+      .filter(({ from, to }) => from !== to);
+    expect(findCycle(between)).toEqual([]);
   });
 });
 
@@ -205,5 +384,14 @@ describe("the search for circles", () => {
       { from: "src/c.ts", to: "src/b" },
     ];
     expect(findCycle(circle)).toEqual(["src/b", "src/c", "src/b"]);
+  });
+
+  it("finds one among folders whose files have none", () => {
+    const imports = [
+      { from: "server/http/app.ts", to: "server/index" },
+      { from: "server/main.ts", to: "server/http/listen" },
+    ];
+    expect(findCycle(imports)).toEqual([]);
+    expect(findCycle(betweenFolders(imports))).toEqual(["server/http", "server", "server/http"]);
   });
 });

@@ -1,8 +1,9 @@
-/** Every public name is in docs/library.md, whose examples test/packaging runs. */
+/** Every public name is in docs/library.md, whose examples test/packaging runs, and in the reference, with a docstring. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import ts from "typescript";
-import { describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
+import { libraryReference, type LibraryReference } from "../../scripts/library-reference.js";
 
 const ROOT = path.join(import.meta.dirname, "..", "..");
 const read = (file: string): string => readFileSync(path.join(ROOT, file), "utf8");
@@ -44,7 +45,33 @@ describe("docs/library.md", () => {
     },
   );
 
+  it("stays short enough: at most 50 public names", () => {
+    expect(exportedNames("src/index.ts").length).toBeLessThanOrEqual(50);
+  });
+
   it("has no barrel that exports what nobody listed", () => {
     expect(read("src/index.ts")).not.toMatch(/^export \*/m);
+  });
+});
+
+describe("docs/library-reference.md", () => {
+  let reference: LibraryReference;
+  beforeAll(async () => {
+    reference = await libraryReference();
+  }, 60_000);
+
+  it("is what `npm run docs` writes", () => {
+    expect(read("docs/library-reference.md")).toBe(reference.markdown);
+  });
+
+  it("describes every public name", () => {
+    const names = exportedNames("src/index.ts");
+    expect(names.filter((name) => !reference.markdown.includes(`\n### ${name}\n`))).toEqual([]);
+    expect(reference.withoutDocs.filter((name) => names.includes(name))).toEqual([]);
+  });
+
+  it("describes the fields of public types, but for the second of a pair such as x and y", () => {
+    const second = /\.([vaj]?y|\w+Y|\w+YMm|heightMm|paperHeightMm|steps2|acc2)$/;
+    expect(reference.withoutDocs.filter((name) => !second.test(name))).toEqual([]);
   });
 });

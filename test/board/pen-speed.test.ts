@@ -1,6 +1,6 @@
 /** The pen's servo goes as fast as the settings say, by hand and in plots, and has arrived when the carriage starts. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../src/index.js";
 import { penCommand, penMoveOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

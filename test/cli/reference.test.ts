@@ -3,7 +3,11 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import { Command } from "commander";
 import { COMMANDS } from "../../server/cli/commands.js";
+import { buildProgram } from "../../server/cli/program.js";
+import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
+import { addSettingOptions } from "../../server/cli/settings-options.js";
 import { PlotRecord } from "../../server/cli/plot-record.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -22,6 +26,7 @@ let server: PlotwrightServer;
 beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), "plotwright-reference-"));
   for (const name of ["drawing.svg", "other.svg"]) writeFileSync(join(folder, name), SVG);
+  writeFileSync(join(folder, "wide.svg"), SVG.replaceAll("20", "90").replace("M1 2h9", "M30 40h30"));
   vi.stubEnv("XDG_CONFIG_HOME", folder);
   process.chdir(folder);
   const options = { port: 0, dataDir: join(folder, "server"), device: "virtual", log: () => undefined };
@@ -64,6 +69,85 @@ function additionsOf(command: string): string[] {
 const READY: Readonly<Record<string, RegExp>> = { serve: /plotwright is at/, board: /plotter/ };
 /** As systemctl says that something does not run. */
 const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3 };
+
+/** A value for each option that takes one and has no default or choices. */
+const VALUES: Readonly<Record<string, string>> = {
+  "--device": "virtual",
+  "--virtual-speed": "10",
+  "--data": "data",
+  "--machine": "axidraw-v3",
+  "--machine-file": "machine.json",
+  "--config": "settings.json",
+  "--only": "Ink",
+  "--ebb": "-",
+  "--preview": "-",
+  "--svg": "-",
+  "--strokes": "-",
+  "--paper": "20x20cm",
+  "--paper-s": "0",
+  "--key": "key",
+  "--plotter": "main",
+  "--host": "127.0.0.1",
+  "--name": "studio",
+  "--cert": "cert.pem",
+  "--allow-host": "studio.local",
+  "--watch": "drawings",
+  "--shared-queue": "postgres://127.0.0.1/plots",
+  "--max-upload-mb": "20",
+  "--out": "plotwright.log",
+  "--pty": "plotter",
+  "--margins": "5,1cm,5,1in",
+  "--place": "20,20,50,50",
+  "--pen-up": "70",
+  "--send-ahead-ms": "200",
+};
+const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
+  plan: ["drawing.svg"],
+  plot: ["drawing.svg"],
+  add: ["drawing.svg"],
+  frame: ["drawing.svg"],
+  pen: ["up"],
+  jog: ["1", "2"],
+  walk: ["1", "2"],
+  raw: ["QM"],
+  service: ["status"],
+  board: ["--pty", "plotter"],
+};
+
+describe("each option in docs/cli.md", () => {
+  it.each(COMMANDS.map(({ name }) => name))("of %s is accepted with a value as described", async (name) => {
+    const context = { io: new CaughtIo(), version: "0.0.0", setExitCode: () => undefined };
+    for (const { flags, long, required, defaultValue, argChoices } of (await declared(name)).options) {
+      const program = await buildProgram([name], context);
+      let ran = 0;
+      program.commands.find((command) => command.name() === name)?.action(() => void ran++);
+      const value =
+        argChoices?.[0] ?? VALUES[long ?? ""] ?? (defaultValue === undefined ? "1" : String(defaultValue));
+      const args = [name, ...(ARGUMENTS[name] ?? []), long ?? flags, ...(required ? [value] : [])];
+      await program.parseAsync(args, { from: "user" });
+      expect([args, ran]).toEqual([args, 1]);
+    }
+
+    async function declared(command: string): Promise<Command> {
+      const program = await buildProgram([command], context);
+      return program.commands.find((one) => one.name() === command)!;
+    }
+  });
+
+  it.each(SETTING_OPTIONS.map(({ flags }) => flags.split(" ")[0]))("%s plans", async (flag) => {
+    const command = addSettingOptions(new Command());
+    const option = command.options.find(({ long }) => long === flag)!;
+    const value = option.argChoices?.[0] ?? VALUES[flag] ?? String(option.defaultValue ?? "1");
+    const { code, err } = await cliWith(
+      new CaughtIo(),
+      "plan",
+      "wide.svg",
+      flag,
+      ...(option.required ? [value] : []),
+    );
+    expect([err, code]).toEqual([expect.any(String), 0]);
+  });
+});
 
 describe("docs/cli.md", () => {
   it("has the commands that `npm run docs` writes", async () => {

@@ -107,7 +107,7 @@ describe("the settings' options", () => {
       expect(() => settingsOf("--config", file)).toThrow(fault);
     }
     rmSync(dir, { recursive: true });
-    expect(() => settingsOf("--config", file)).toThrow(/ENOENT/);
+    expect(() => settingsOf("--config", file)).toThrow(/there is no such file or folder/);
   });
 
   it("let the last of two opposite ones win", () => {

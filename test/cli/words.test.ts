@@ -1,5 +1,8 @@
 /** What people type: a word that is no command, and lengths with units. */
-import { describe, expect, it } from "vitest";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, describe, expect, it } from "vitest";
 import { length, sizeMm } from "../../server/cli/lengths.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
@@ -16,6 +19,21 @@ describe("a word that is no command", () => {
     expect([code, out]).toEqual([2, ""]);
     expect(err.trim()).toMatch(message);
     expect(err.trim().split("\n")).toHaveLength(1);
+  });
+
+  it.each([
+    [
+      ["serve", "9381"],
+      /^plotwright: serve takes no arguments, got 1\. Options begin with --, such as --port 9381/,
+    ],
+    [
+      ["plan", "my", "drawing.svg"],
+      /^plotwright: plan takes 1 at most, got 2\. .* names with blanks need quotes/,
+    ],
+  ])("%j has a word too many", async (args, message) => {
+    const { code, err } = await cli(...args);
+    expect(code).toBe(2);
+    expect(err).toMatch(message);
   });
 
   it("leaves options and help as they are", async () => {
@@ -51,5 +69,52 @@ describe("a length", () => {
       paper: { widthMm: 215.9, heightMm: 279.4 },
       landscape: false,
     });
+  });
+});
+
+describe("a file that cannot be used", () => {
+  const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
+  afterAll(() => rmSync(folder, { recursive: true, force: true }));
+  const file = (name: string, text: string): string => {
+    const path = join(folder, name);
+    writeFileSync(path, text);
+    return path;
+  };
+  const LINE =
+    '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm"><path d="M1 1H9" stroke="red"/></svg>';
+  const drawing = file("line.svg", LINE);
+
+  it("is said to be empty once, with the reasons", async () => {
+    const empty = file(
+      "empty.svg",
+      '<svg xmlns="http://www.w3.org/2000/svg"><image width="5" height="5"/></svg>',
+    );
+    const { code, err } = await cli("plan", empty);
+    expect(code).toBe(3);
+    expect(err.match(/nothing to draw|no lines to draw/gi)).toHaveLength(1);
+    expect(err).toContain("1 picture is not drawn");
+  });
+
+  it.each([
+    ["--config", "{", /: it is not JSON \(/],
+    ["--config", '{"motion":7}', /motion: it must be an object\.$/],
+    ["--machine-file", '{"id":"x"}', /: name: it is missing\.$/],
+    ["--machine-file", '{"id":"x","name":"x","widthMm":9000}', /: widthMm: it must be at most 5000\.$/],
+  ])("%s %s is explained", async (option, text, message) => {
+    const { code, err } = await cli("plan", drawing, option, file("given.json", text));
+    expect(code).toBe(2);
+    expect(err.trim()).toMatch(message);
+  });
+
+  it("is named when it is not there, or cannot be written", async () => {
+    expect((await cli("plan", drawing, "--config", join(folder, "none.json"))).err).toMatch(
+      /no such file or folder\.$/m,
+    );
+    expect((await cli("plan", drawing, "--svg", join(folder, "none", "a.svg"))).err).toMatch(
+      /a\.svg can't be written: there is no such file or folder\.$/m,
+    );
+    expect((await cli("plan", drawing, "--preview", folder)).err).toMatch(
+      /can't be written: it is a folder\.$/m,
+    );
   });
 });

@@ -4,7 +4,7 @@ import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { describe, expect, it, type TestContext } from "vitest";
-import { PlotterDriver, type PlotterState } from "../../server/plotter/plotter.js";
+import { PlotterDriver, type PlotterState } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

@@ -6,7 +6,7 @@ import { fork } from "node:child_process";
 import { once } from "node:events";
 import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry } from "../../server/plotter/types.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { untilIdle, waitS } from "../support/faulty-plots.js";

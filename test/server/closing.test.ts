@@ -2,7 +2,7 @@
 import { once } from "node:events";
 import { connect } from "node:net";
 import { afterEach, describe, expect, it } from "vitest";
-import { Closing } from "../../server/closing.js";
+import { Closing } from "../../server/composition/closing.js";
 import { createServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";

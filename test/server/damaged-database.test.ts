@@ -11,10 +11,10 @@ import {
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/data-dir.js";
+import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { createServer } from "../../server/index.js";
-import { DrawingFiles } from "../../server/queue/drawing-files.js";
-import { Store } from "../../server/queue/store.js";
+import { DrawingFiles } from "../../server/storage/drawing-files.js";
+import { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";

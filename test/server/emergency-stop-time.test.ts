@@ -1,6 +1,6 @@
 /** How long the motors run on after an emergency stop: what the plotter's state says of it holds at any instant. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";

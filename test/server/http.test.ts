@@ -74,25 +74,37 @@ describe("the HTTP interface", () => {
     expect((await fault(await post(JSON.stringify(wrong)))).message).toMatch(/pen\.upPct/);
   });
 
-  it("takes a large drawing as JSON too, byte for byte", async () => {
+  it("takes a large drawing as a file first, byte for byte, then its job with the drawing's id", async () => {
     const drawing = `${SVG}<!-- ${"ü🖊\n".repeat(300_000)} -->`;
-    const response = await call("POST", "/jobs", { name: "large", drawing, settings: DEFAULT_PLOT_SETTINGS });
+    const upload = await fetch(`${app.url}/api/v1/drawings`, { method: "POST", body: drawing });
+    expect(upload.status).toBe(201);
+    const { id: drawingId } = (await upload.json()) as { id: string };
+    const job = { name: "large", drawingId, settings: DEFAULT_PLOT_SETTINGS, copies: 2 };
+    const response = await call("POST", "/jobs", job);
     expect([response.status, app.logged]).toEqual([201, []]);
     const { id, settings } = jobSchema.parse(await response.json());
     expect(settings).toEqual(DEFAULT_PLOT_SETTINGS);
     expect(await (await call("GET", `/jobs/${id}/drawing`)).text()).toBe(drawing);
+    expect([app.queue.list().length, app.drawingsOnDisk().length]).toEqual([2, 1]);
+    // An upload serves one request.
+    expect(await fault(await call("POST", "/jobs", job))).toMatchObject({ status: 404, code: "not-found" });
     expect(app.drawingsOnDisk()).toHaveLength(1);
-    for (const wrong of [
-      { drawing },
-      { name: "a", settings: DEFAULT_PLOT_SETTINGS, x: drawing },
-      [drawing],
-    ]) {
-      expect(await fault(await call("POST", "/jobs", wrong))).toMatchObject({
-        status: 400,
-        code: "bad-setting",
+  });
+
+  it("wants either the drawing or its id, and one of its own uploads", async () => {
+    const job = { name: "a", settings: DEFAULT_PLOT_SETTINGS };
+    for (const [more, status, message] of [
+      [{}, 400, /either drawing or drawingId/],
+      [{ drawing: SVG, drawingId: "a" }, 400, /either drawing or drawingId/],
+      [{ drawingId: "../../etc/passwd" }, 404, /send the file again/],
+      [{ drawingId: "0".repeat(32) }, 404, /send the file again/],
+    ] as const) {
+      expect(await fault(await call("POST", "/jobs", { ...job, ...more }))).toMatchObject({
+        status,
+        message: expect.stringMatching(message) as string,
       });
     }
-    expect(app.drawingsOnDisk()).toHaveLength(1);
+    expect(app.drawingsOnDisk()).toEqual([]);
   });
 
   it("carries a job through start, pause, resume, cancel and requeue", async () => {

@@ -1,8 +1,10 @@
 /** plotwright.local, on a network inside this process: what is announced is found, and taken back in the end. */
 import { EventEmitter } from "node:events";
 import { Bonjour, type Service } from "bonjour-service";
+import multicastDns, { type MulticastDns } from "multicast-dns";
 import { describe, expect, it } from "vitest";
-import { LocalName, type LocalNameOptions } from "../../server/security/local-name.js";
+import { LocalName, type LocalNameOptions } from "../../server/plugins/local-name/local-name.js";
+import { answerTo, recordsOf } from "../../server/plugins/local-name/service-records.js";
 
 type Sent = (error: Error | null) => void;
 
@@ -93,9 +95,7 @@ class Announcer {
 }
 
 /** A device that says what it likes, as packets. */
-const stranger = (network: Set<Line>): { respond: (records: object[]) => void; destroy: () => void } =>
-  (new Bonjour({ socket: new Line(network) } as object) as unknown as { server: { mdns: never } }).server
-    .mdns;
+const stranger = (network: Set<Line>): MulticastDns => multicastDns({ socket: new Line(network) });
 
 describe("the name on the network", () => {
   it.each([
@@ -138,6 +138,34 @@ describe("the name on the network", () => {
       await server.local.close();
     },
   );
+});
+
+describe("the answer to a question", () => {
+  const records = recordsOf({
+    host: "plotwright.local",
+    type: "_http._tcp.local",
+    fullName: "plotwright._http._tcp.local",
+    port: 9080,
+    addresses: ["192.168.1.4", "fd00::4"],
+  });
+  const typesOf = (name: string, type: string): (readonly string[])[] | null => {
+    const answer = answerTo({ name, type }, records);
+    const types = (list: readonly { type: string }[] = []): string[] => list.map((record) => record.type);
+    return answer && [types(answer.answers), types(answer.additionals)];
+  };
+
+  it("has the addresses of the name, in capitals too", () => {
+    expect(answerTo({ name: "Plotwright.local", type: "A" }, records)?.answers).toEqual([
+      { name: "plotwright.local", type: "A", ttl: 120, data: "192.168.1.4" },
+    ]);
+    expect(typesOf("plotwright.local", "ANY")).toEqual([["A", "AAAA"], []]);
+  });
+
+  it("has port and addresses with the service, and nothing for other names", () => {
+    expect(typesOf("_http._tcp.local", "PTR")).toEqual([["PTR"], ["PTR", "SRV", "TXT", "A", "AAAA"]]);
+    expect(typesOf("plotwright._http._tcp.local", "SRV")).toEqual([["SRV"], []]);
+    expect(typesOf("printer.local", "A")).toBeNull();
+  });
 });
 
 describe("two servers on one network", () => {
@@ -204,11 +232,13 @@ describe("two servers on one network", () => {
     const server = new Announcer(new Line(network));
     await server.named("plotwright.local");
     const device = stranger(network);
-    device.respond([{ name: "plotwright.local", type: "A", ttl: 0, data: "203.0.113.7" }]);
-    device.respond([{ name: "printer.local", type: "A", ttl: 120, data: "203.0.113.7" }]);
+    const announce = (name: string, ttl: number): void =>
+      device.respond({ answers: [{ name, type: "A", ttl, data: "203.0.113.7" }] });
+    announce("plotwright.local", 0);
+    announce("printer.local", 120);
     await new Promise((resolve) => setImmediate(() => setImmediate(() => setImmediate(resolve))));
     expect(server.names).toEqual(["plotwright.local"]);
-    device.respond([{ name: "Plotwright.local", type: "A", ttl: 120, data: "203.0.113.7" }]);
+    announce("Plotwright.local", 120);
     await server.until(({ names }) => names.length === 3);
     expect(server.names).toEqual(["plotwright.local", null, "plotwright.local"]);
     device.destroy();

@@ -2,11 +2,11 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/data-dir.js";
+import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { createPlanning } from "../../server/planning/planning.js";
-import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { JobQueue } from "../../server/queue/job-queue.js";
-import { Store } from "../../server/queue/store.js";
+import { Store } from "../../server/storage/store.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { LedPlotter } from "./support/fakes.js";
 

@@ -5,7 +5,7 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../server/plotter/types.js";
 import type { PlotwrightError, StrokeSet, VirtualBoard } from "../../src/index.js";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";

@@ -3,7 +3,7 @@
  * their sides apart. The truth is the board's own count of ticks.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { stateAt, type Trajectory } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";

@@ -1,6 +1,6 @@
 /** How a plotter lets go: in the middle of something, with its board lost, or with two things asked for at once. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";

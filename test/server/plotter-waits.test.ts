@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, PlotProgress, PlotStart } from "../../server/plotter/types.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings, type PlotWait } from "../../src/schema/index.js";
 import { layeredStrokes, LocalPlanner } from "../support/local-planner.js";

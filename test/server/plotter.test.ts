@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";

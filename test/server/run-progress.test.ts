@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { PlotProgress } from "../../server/plotter/types.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";

@@ -13,7 +13,7 @@ import {
   unitText,
   type ServiceHost,
 } from "../../server/cli/service.js";
-import { LogBook, readLog, withoutSecrets } from "../../server/log-book.js";
+import { LogBook, readLog, withoutSecrets } from "../../server/storage/log-book.js";
 
 let home: string;
 let out: string;
@@ -82,7 +82,7 @@ describe("plotwright service", () => {
     const asRoot = host({ isRoot: true, env: { SUDO_USER: "ada" } });
     expect(() => installService({ system: true, user: "ada" }, [], io, host())).toThrow("run it with sudo");
     expect(() => unitText(system, [], host({ isRoot: true }))).toThrow("--user NAME");
-    expect(() => unitText({ system: true, user: "root" }, [], asRoot)).toThrow("not root's");
+    expect(() => unitText({ system: true, user: "root" }, [], asRoot)).toThrow("must not run as root");
     expect(() => unitText({ system: true, user: "a\nExecStart=x" }, [], asRoot)).toThrow("--user NAME");
     installService(system, [], io, asRoot);
     const unit = readFileSync(join(home, "etc/plotwright.service"), "utf8");

@@ -1,8 +1,10 @@
 /** Uploads that take long, or are made to: the others are served meanwhile, and nothing is done for those who have gone. */
+import { request as httpRequest } from "node:http";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { PlotwrightError } from "../../src/index.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { lane } from "../../server/planning/lane.js";
 import { apiErrorSchema, DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
@@ -128,10 +130,10 @@ describe("JSON", () => {
   const job = (more: string): string => `{"name":"a","drawing":${JSON.stringify(SVG)},${more}}`;
 
   it.each([
-    ["all of it", nested(1_000_000)],
-    ["beside the drawing", job(`"settings":${nested(1_000_000)}`)],
+    ["all of it", nested(400_000)],
+    ["beside the drawing", job(`"settings":${nested(400_000)}`)],
     ["a small one", job(`"settings":${nested(50_000)}`)],
-    ["in place of the drawing", `{"name":"a","drawing":${nested(1_000_000)}}`],
+    ["in place of the drawing", `{"name":"a","drawing":${nested(400_000)}}`],
   ])("nested deeply, %s, is refused and nothing of it kept", async (_what, body) => {
     const { status, message } = await post(body);
     expect([status, message]).toEqual([400, expect.stringMatching(/nested|object|expected|drawing|JSON/i)]);
@@ -139,23 +141,78 @@ describe("JSON", () => {
     expect(app.logged.filter((line) => line.includes("Error"))).toEqual([]);
   });
 
-  it("of a million members comes to the main thread in no part", async () => {
-    const members = Array.from({ length: 1_000_000 }, (_, i) => `"k${i}":1`).join(",");
-    const { status, message } = await post(job(`"settings":{"prepare":{"layerPens":{${members}}}}`));
-    expect([status, message]).toEqual([413, expect.stringContaining("Without its drawing")]);
+  it.each([
+    ["large settings", job(`"settings":{"k":${JSON.stringify("y".repeat(9_000_000))}}`)],
+    ["a large drawing", JSON.stringify({ name: "a", drawing: `<svg>${" ".repeat(9_000_000)}</svg>` })],
+  ])("with %s is not parsed, and the answer says how to send the drawing", async (_what, body) => {
+    const { status, message } = await post(body);
+    expect([status, message]).toEqual([413, expect.stringContaining("POST /api/v1/drawings")]);
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
   it("that is broken far in is refused with words", async () => {
-    const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(1_000_000))}`).slice(0, -1));
+    const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(900_000))}`).slice(0, -1));
     expect([status, message]).toEqual([400, "The request is not valid JSON."]);
   });
+});
 
-  it("that is large for its drawing is taken", async () => {
-    const drawing = SVG.replace("</svg>", `<!--${"x".repeat(10_000_000)}--></svg>`);
-    expect(await post(JSON.stringify({ name: "a", drawing, settings: DEFAULT_PLOT_SETTINGS }))).toEqual({
-      status: 201,
-      message: "",
+describe("an uploaded drawing", () => {
+  const post = (app: TestApp, body: string): Promise<Response> =>
+    fetch(`${app.url}/api/v1/drawings`, { method: "POST", body });
+  const add = (app: TestApp, drawingId: string): Promise<Response> =>
+    fetch(`${app.url}/api/v1/jobs`, {
+      method: "POST",
+      headers: JSON_TYPE,
+      body: JSON.stringify({ name: "a", drawingId, settings: DEFAULT_PLOT_SETTINGS }),
     });
-  });
+  const idOf = async (answer: Response): Promise<string> => ((await answer.json()) as { id: string }).id;
+
+  it("is removed when no job claims it in time, and when the server closes", async () => {
+    const app = await startApp({ keepUploadsMs: 200 });
+    const id = await idOf(await post(app, SVG));
+    expect(app.drawingsOnDisk()).toEqual([`${id}.svg`]);
+    await expect.poll(() => app.drawingsOnDisk()).toEqual([]);
+    expect((await add(app, id)).status).toBe(404);
+    await app.close();
+
+    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-uploads-"));
+    const server = await createServer({ port: 0, device: "virtual", dataDir });
+    await fetch(`${server.url}/api/v1/drawings`, { method: "POST", body: SVG });
+    await server.close();
+    expect(readdirSync(join(dataDir, "drawings"))).toEqual([]);
+    rmSync(dataDir, { recursive: true, force: true });
+  }, 30_000);
+
+  it("is kept for its job, however long that waits", async () => {
+    const app = await startApp({ keepUploadsMs: 200 });
+    const id = await idOf(await post(app, SVG));
+    expect((await add(app, id)).status).toBe(201);
+    await new Promise((resolve) => setTimeout(resolve, 400));
+    expect(app.drawingsOnDisk()).toEqual([`${id}.svg`]);
+    await app.close();
+  }, 30_000);
+
+  it("goes when its job can't be planned", async () => {
+    const measure = (): Promise<never> =>
+      Promise.reject(new PlotwrightError("bad-file", "It is no drawing."));
+    const app = await startApp({ planning: { measure, open: measure } });
+    expect((await add(app, await idOf(await post(app, SVG)))).status).toBe(422);
+    expect(app.drawingsOnDisk()).toEqual([]);
+    await app.close();
+  }, 30_000);
+
+  it("is refused when it is empty or too large, and nothing of a half-sent one is kept", async () => {
+    const app = await startApp({ maxUploadBytes: 10_000 });
+    expect((await post(app, "")).status).toBe(422);
+    expect((await post(app, "x".repeat(10_001))).status).toBe(413);
+    const { hostname, port } = new URL(app.url);
+    const half = httpRequest({ hostname, port, path: "/api/v1/drawings", method: "POST" });
+    half.on("error", () => undefined);
+    half.setHeader("Content-Length", 9_000);
+    half.write("<svg");
+    await expect.poll(() => app.drawingsOnDisk().length).toBe(1);
+    half.destroy();
+    await expect.poll(() => app.drawingsOnDisk()).toEqual([]);
+    await app.close();
+  }, 30_000);
 });

@@ -10,13 +10,13 @@ import {
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/data-dir.js";
-import { DrawingFiles } from "../../server/queue/drawing-files.js";
+import { prepareDataDir } from "../../server/storage/data-dir.js";
+import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { JobQueue } from "../../server/queue/job-queue.js";
 import { Notices } from "../../server/queue/notices.js";
-import type { Planning } from "../../server/queue/queue-parts.js";
-import { Store } from "../../server/queue/store.js";
-import { WatchFolder } from "../../server/watch-folder.js";
+import type { Planning } from "../../server/planning/planning.js";
+import { Store } from "../../server/storage/store.js";
+import { WatchFolder } from "../../server/plugins/watch-folder/watch-folder.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";

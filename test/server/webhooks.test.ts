@@ -3,7 +3,8 @@ import { createHmac } from "node:crypto";
 import { createServer, type IncomingHttpHeaders, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { Webhooks, signatureOf } from "../../server/webhooks/webhooks.js";
+import { Webhooks, signatureOf } from "../../server/plugins/webhooks/webhooks.js";
+import { WebhookStore } from "../../server/plugins/webhooks/webhook-store.js";
 import { PlotwrightError } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
@@ -164,7 +165,7 @@ describe("a webhook", () => {
     await expect.poll(() => app.webhooks.list()[0]?.pendingCount).toBe(1);
     isAway = false;
     const again = new Webhooks({
-      store: app.store.webhooks,
+      store: new WebhookStore(app.store.database),
       plotterName: (one) => one,
       log: () => undefined,
     });
@@ -183,7 +184,7 @@ describe("a webhook", () => {
     answers = [500];
     let nowMs = Date.now() + 1000;
     const patient = new Webhooks({
-      store: app.store.webhooks,
+      store: new WebhookStore(app.store.database),
       plotterName: (one) => one,
       log: () => undefined,
       nowMs: () => nowMs,
@@ -192,13 +193,13 @@ describe("a webhook", () => {
     patient.start();
     await heard(1);
     const [{ id }] = app.webhooks.list() as [Webhook];
-    const next = (): number => app.store.webhooks.deliveries(id)[0]?.nextAtMs ?? 0;
+    const next = (): number => new WebhookStore(app.store.database).deliveries(id)[0]?.nextAtMs ?? 0;
     await expect.poll(next).toBe(nowMs + 60_000);
     await patient.close();
     nowMs += 60_000;
     answers = [500];
     const later = new Webhooks({
-      store: app.store.webhooks,
+      store: new WebhookStore(app.store.database),
       plotterName: (one) => one,
       log: () => undefined,
       nowMs: () => nowMs,

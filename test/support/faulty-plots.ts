@@ -3,7 +3,7 @@
  * again as often as it is broken off, as a user would do by Recover and Resume. Then what the board drew is compared
  * with the drawing.
  */
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
 import type { PlotwrightError, StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

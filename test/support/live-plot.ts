@@ -1,7 +1,7 @@
 /** A plot on the virtual board by a clock that the test leads, and what is to be said of the line that it drew. */
 import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter.js";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { LivePlotRun } from "../../server/plotter/types.js";
 import type { StrokeSet, VirtualBoard } from "../../src/index.js";
 import type { MotionMode } from "../../src/internal.js";

@@ -1,8 +1,8 @@
 /** What the test of the renderers runs inside a browser; bundled by it. */
-import { createGlRenderer } from "../../web/preview/gl-renderer.js";
-import type { Detail, Frame, SceneRenderer } from "../../web/preview/renderer.js";
-import type { Pieces } from "../../web/preview/scene.js";
-import { createSoftRenderer } from "../../web/preview/soft-renderer.js";
+import { createGlRenderer } from "../../web/scene/gl-renderer.js";
+import type { Detail, Frame, SceneRenderer } from "../../web/scene/renderer.js";
+import type { Pieces } from "../../web/scene/pieces.js";
+import { createSoftRenderer } from "../../web/scene/soft-renderer.js";
 
 export type RendererName = "gl" | "soft";
 /** A scene on its way into the page: bytes in base 64. */

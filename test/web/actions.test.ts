@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema } from "../../src/schema/index.js";
-import { createApiClient } from "../../web/api/client.js";
+import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
@@ -10,14 +10,14 @@ function makePage() {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
   const sent: (string | Blob)[] = [];
-  const api = createApiClient((_path, init) => {
+  const backend = createServerBackend((_path, init) => {
     if (typeof init?.body === "string" || init?.body instanceof Blob) sent.push(init.body);
     return isServerUp
-      ? Promise.resolve(Response.json({ samples: [] }))
+      ? Promise.resolve(Response.json({ samples: [], id: "upload" }))
       : Promise.reject(new Error("refused"));
   });
   const planner = { request: () => undefined, export: () => undefined };
-  const actions = createActions({ store, api, planner, nowMs: () => 0, after: () => undefined });
+  const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };
 }
@@ -65,20 +65,22 @@ describe("a file that is dropped", () => {
     expect(store.getState().drawing?.name).toBe("waves");
   });
 
-  it("stays as it was read where it is large, and goes to the queue part by part as text", async () => {
-    const { store, actions, sent } = makePage();
-    // Letters of two and four bytes, of which parts cut some in two; what JSON escapes; three parts and a rest.
+  it("stays as it was read where it is large, and goes to the queue as a file", async () => {
+    const { store, actions, sent, startServer } = makePage();
+    startServer();
     const svg = `<svg width="9">\n<!-- ${"größer \t\u{1f58b}\u0001".repeat(200_000)} --></svg>`;
     await actions.openFile(new File([svg], "waves.svg"));
     const { drawing } = store.getState();
     expect(drawing?.text).toBeInstanceOf(ArrayBuffer);
     await actions.queueDrawing();
-    const body = sent.at(-1) as Blob;
-    expect(body.type).toBe("application/json");
-    const { drawing: text, ...rest } = newJobSchema.parse(JSON.parse(await body.text()));
+    const [upload, job] = sent as [Blob, string];
     // Not by toBe: it would print all of both.
-    expect(text === svg).toBe(true);
-    expect(rest).toEqual({ name: "waves", settings: DEFAULT_PLOT_SETTINGS });
+    expect((await upload.text()) === svg).toBe(true);
+    expect(newJobSchema.parse(JSON.parse(job))).toEqual({
+      name: "waves",
+      drawingId: "upload",
+      settings: DEFAULT_PLOT_SETTINGS,
+    });
   });
 });
 

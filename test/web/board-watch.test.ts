@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { replanForBoard } from "../../web/state/board-watch.js";
+import { replanForBoard } from "../../web/plotter/board-watch.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore, type PageState } from "../../web/state/store.js";
 import { makePlotter } from "./fixtures.js";

@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type StrokeSet } from "../../src/index.js";
-import { coarsePieces } from "../../web/preview/coarse.js";
-import { boxPieces, rangesInSight, type PieceRange } from "../../web/preview/piece-boxes.js";
-import { buildScene, LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, type Pieces } from "../../web/preview/scene.js";
+import { coarsePieces } from "../../web/scene/coarse.js";
+import { boxPieces, rangesInSight, type PieceRange } from "../../web/scene/piece-boxes.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, type Pieces } from "../../web/scene/pieces.js";
+import { buildScene } from "../../web/scene/scene.js";
 
 /** Waves of two layers, side by side and apart. */
 const waves = (strokes: number, points: number): StrokeSet => ({

@@ -6,7 +6,7 @@ import {
   rampBytes,
   rampColor,
   RAMP_SIZE,
-} from "../../web/preview/color-map.js";
+} from "../../web/scene/color-map.js";
 
 /** Relative luminance and contrast as WCAG 2.2 defines them. */
 const luminance = (hex: string): number => {

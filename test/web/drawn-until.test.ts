@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type Trajectory } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { drawnUntilS } from "../../web/state/drawn-until.js";
+import { drawnUntilS } from "../../web/preview/drawn-until.js";
 import { createPageStore, type PageState } from "../../web/state/store.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import type { Planned } from "../../web/worker/protocol.js";

@@ -5,7 +5,7 @@ import {
   readKeptDrawing,
   type DrawingStorage,
   type KeptDrawing,
-} from "../../web/state/kept-drawing.js";
+} from "../../web/drawing/kept-drawing.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";

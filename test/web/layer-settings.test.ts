@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { prepare, importSvg } from "../../src/index.js";
 import { penStopsOf, prepareSettingsOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema, type PlotSettings } from "../../src/schema/index.js";
-import { alignmentJob, CORNERS, markPlace } from "../../web/state/alignment-mark.js";
+import { alignmentJob, CORNERS, markPlace } from "../../web/pens/alignment-mark.js";
 import {
   addPen,
   changePen,
@@ -20,7 +20,7 @@ import {
   showOnly,
   stopBefore,
   type LayerRow,
-} from "../../web/state/layer-settings.js";
+} from "../../web/layers/layer-settings.js";
 import { forOtherDrawing } from "../../web/state/other-drawing.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
 
@@ -154,7 +154,7 @@ describe("the alignment mark", () => {
   it.each(CORNERS)("is a cross at the %s, drawn with the pen's own correction and no stop", (corner) => {
     const placed = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, rotateDeg: 33, marginMm: 40 } };
     const job = newJobSchema.parse(alignmentJob(placed, pen, corner, "Mark"));
-    const { strokes } = prepare(importSvg(job.drawing), prepareSettingsOf(job.settings));
+    const { strokes } = prepare(importSvg(job.drawing ?? ""), prepareSettingsOf(job.settings));
     const { xMm, yMm } = markPlace(placed, corner);
     const [x, y] = [xMm - 1.5, yMm + 0.5];
     const expected = [x - 5, y, x + 5, y, x, y - 5, x, y + 5];

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { noticeOfChange, watchJobs } from "../../web/state/notify.js";
+import { noticeOfChange, watchJobs } from "../../web/queue/notify.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
 import { makeJob } from "./fixtures.js";

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { Painter, type PainterClock } from "../../web/preview/painter.js";
-import type { Detail, Frame, Picture, SceneRenderer } from "../../web/preview/renderer.js";
+import { Painter, type PainterClock } from "../../web/scene/painter.js";
+import type { Detail, Frame, Picture, SceneRenderer } from "../../web/scene/renderer.js";
 
 const frame = (offsetX: number): Frame => ({
   view: { scale: 1, offsetX, offsetY: 0 },

@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { buildPickGrid, nearestPiece } from "../../web/preview/pick.js";
-import { PIECE_BYTES, PIECE_FLOATS, type Pieces } from "../../web/preview/scene.js";
+import { buildPickGrid, nearestPiece } from "../../web/scene/pick.js";
+import { PIECE_BYTES, PIECE_FLOATS, type Pieces } from "../../web/scene/pieces.js";
 import { cases } from "../support/full-run.js";
 
 type Line = readonly [number, number, number, number];

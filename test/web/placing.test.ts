@@ -14,7 +14,7 @@ import {
   wholeTurn,
   type CornerPart,
   type FrameMm,
-} from "../../web/preview/placing.js";
+} from "../../web/scene/placing.js";
 import { cases } from "../support/full-run.js";
 
 const frame: FrameMm = { xMm: 20, yMm: 30, widthMm: 120, heightMm: 80, turnDeg: 0 };

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { queueTime } from "../../web/state/queue-time.js";
+import { queueTime } from "../../web/queue/queue-time.js";
 import { makeJob } from "./fixtures.js";
 
 const waiting = makeJob("next", { expectedS: 3_600 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { placeAfterMove, placeOfDrop } from "../../web/panels/row-drag.js";
+import { placeAfterMove, placeOfDrop } from "../../web/ui/row-drag.js";
 
 /** What the server makes of "put id before that one". */
 const moved = (ids: readonly string[], id: string, beforeId: string | null): string[] => {

@@ -7,17 +7,10 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
-import { hoverAt } from "../../web/preview/hover.js";
+import { hoverAt } from "../../web/scene/hover.js";
 import type { Planned } from "../../web/worker/protocol.js";
-import {
-  buildScene,
-  LAYER_SHORT,
-  PIECE_FLOATS,
-  PIECE_SHORTS,
-  piecesBefore,
-  SPEED_SHORT,
-  type Pieces,
-} from "../../web/preview/scene.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "../../web/scene/pieces.js";
+import { buildScene, piecesBefore } from "../../web/scene/scene.js";
 import { penMoveColumns } from "../../src/plan/pen-moves.js";
 
 const strokeSet = (...strokes: (readonly number[])[]): StrokeSet => ({

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
-import type { Frame, Picture } from "../../web/preview/renderer.js";
-import { PIECE_BYTES, type Scene } from "../../web/preview/scene.js";
+import type { Frame, Picture } from "../../web/scene/renderer.js";
+import { PIECE_BYTES } from "../../web/scene/pieces.js";
+import type { Scene } from "../../web/scene/scene.js";
 import { StrokesAway, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
 import type { DrawReply, DrawRequest } from "../../web/worker/draw-protocol.js";
 

@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { pinched } from "../../web/preview/gestures.js";
-import { fitView, mmFromScreen, panBy, rulerStepMm, zoomAt, type View } from "../../web/preview/view.js";
+import { fitView, mmFromScreen, panBy, rulerStepMm, zoomAt, type View } from "../../web/scene/view.js";
 
 const views = fc.record({
   scale: fc.double({ min: 0.1, max: 100, noNaN: true }),

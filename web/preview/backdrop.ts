@@ -1,6 +1,6 @@
 /** The desk under the strokes: paper with its shadow, a quiet grid, the margins, the machine's reach. */
 import type { FourMargins } from "../../src/internal.js";
-import { rulerStepMm, type Size, type View } from "./view.js";
+import { rulerStepMm, type Size, type View } from "../scene/view.js";
 
 export interface DeskColors {
   readonly paper: string;

@@ -15,9 +15,9 @@ import {
   snapLinesOf,
   type FrameMm,
   type SnapLines,
-} from "./placing.js";
+} from "../scene/placing.js";
 import type { Stage } from "./stage.js";
-import { mmFromScreen, type View } from "./view.js";
+import { mmFromScreen, type View } from "../scene/view.js";
 
 const HANDLE_PX = 10;
 const REACH_PX = 20;

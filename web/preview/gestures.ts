@@ -1,5 +1,5 @@
 /** Pointer, wheel and keyboard on the preview -> changes of the view. Mouse, pen and fingers alike. */
-import { panBy, zoomAt, type View } from "./view.js";
+import { panBy, zoomAt, type View } from "../scene/view.js";
 
 export interface GestureTarget {
   view(): View;

@@ -3,11 +3,11 @@ import UPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Trajectory } from "../../src/index.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { timeLineText } from "./text.js";
 import { formatMoment, formatNumber } from "../ui/format.js";
 import { graphData } from "./graph-data.js";
 
-const words = text.timeLine;
+const words = timeLineText;
 const HEIGHT_PX = 132;
 
 /** Speed and acceleration over the plot's time. A drag zooms, a double click shows all, a click goes there. */

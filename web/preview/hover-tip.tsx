@@ -1,8 +1,8 @@
 import { usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { hoverText } from "./text.js";
 import { formatCount, formatMoment, formatNumber } from "../ui/format.js";
 
-const words = text.hover;
+const words = hoverText;
 
 /** The numbers of the stroke under the pointer, beside it. */
 export const HoverTip = () => {

@@ -1,10 +1,10 @@
 import { useMemo } from "react";
 import { usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { previewText } from "./text.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
-import { legendStops, rampColor } from "./color-map.js";
+import { legendStops, rampColor } from "../scene/color-map.js";
 
-const words = text.preview;
+const words = previewText;
 const LABELS = 5;
 
 /** What the colours mean. `data-stops` holds the scale as JSON, for whoever reads the page by program. */

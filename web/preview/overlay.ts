@@ -1,6 +1,6 @@
 /** What lies over the strokes: rulers in mm along the edges, and where the pen is. */
 import type { DeskColors } from "./backdrop.js";
-import { rulerStepMm, type Size, type View } from "./view.js";
+import { rulerStepMm, type Size, type View } from "../scene/view.js";
 
 export const RULER_PX = 22;
 

@@ -1,12 +1,12 @@
 import type { RefObject } from "react";
-import { COLOR_MODES, type ColorMode } from "../state/persist.js";
+import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { previewText } from "./text.js";
 import { Icon, type IconName } from "../ui/icon.js";
-import { placeOfFrame } from "./placing.js";
+import { placeOfFrame } from "../scene/placing.js";
 import type { Stage } from "./stage.js";
 
-const words = text.preview;
+const words = previewText;
 const ZOOM_STEP = 1.5;
 
 const COLOR_WORDS: Record<ColorMode, string> = {

@@ -1,25 +1,25 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
 import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
-import { drawnUntilS } from "../state/drawn-until.js";
+import { drawnUntilS } from "./drawn-until.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { text } from "../text/text.js";
-import { layerColor } from "./color-map.js";
+import { previewText } from "./text.js";
+import { layerColor } from "../scene/color-map.js";
 import type { Desk } from "./backdrop.js";
 import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
-import { hoverAt, type Hover } from "./hover.js";
+import { hoverAt, type Hover } from "../scene/hover.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { Legend } from "./legend.js";
 import type { Marker } from "./overlay.js";
-import { boxAround } from "./placing.js";
+import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
-import { mmFromScreen } from "./view.js";
+import { mmFromScreen } from "../scene/view.js";
 
-const words = text.preview;
+const words = previewText;
 const DEFAULT_LINE_MM = 0.35;
 
 /** The paper with the drawing on it, as it will be plotted. */
@@ -189,7 +189,7 @@ const PaperMessage = () => {
   if (fault) {
     return (
       <div className="paper-message paper-message-error" role="alert">
-        <strong>{text.drawing.cannotRead(drawing?.name ?? "")}</strong>
+        <strong>{previewText.cannotRead(drawing?.name ?? "")}</strong>
         <p>{fault.message}</p>
       </div>
     );
@@ -198,15 +198,15 @@ const PaperMessage = () => {
   if (!planned && isPlanning) {
     return (
       <div className="paper-message" role="status">
-        <p>{text.drawing.reading(drawing.name)}</p>
+        <p>{previewText.reading(drawing.name)}</p>
       </div>
     );
   }
   if (planned?.strokeCount !== 0) return null;
   return (
     <div className="paper-message">
-      <strong>{text.drawing.nothingToDraw}</strong>
-      <p>{text.drawing.nothingToDrawHint}</p>
+      <strong>{previewText.nothingToDraw}</strong>
+      <p>{previewText.nothingToDrawHint}</p>
     </div>
   );
 };

@@ -5,12 +5,12 @@
  * stays under the finger whatever the drawing's size.
  */
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
-import { markMoment } from "../ui/moments.js";
+import { markMoment } from "../worker/moments.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
-import type { Frame, Picture } from "./renderer.js";
-import type { Scene } from "./scene.js";
+import type { Frame, Picture } from "../scene/renderer.js";
+import type { Scene } from "../scene/scene.js";
 import { openStrokes, type Strokes } from "./strokes.js";
-import { fitView, zoomAt, type Size, type View } from "./view.js";
+import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
 export interface StageCanvases {
   readonly box: HTMLElement;

@@ -5,9 +5,10 @@
  * in one step, so that strokes and paper never come apart while the view is moved.
  */
 import type { DrawReply, DrawRequest } from "../worker/draw-protocol.js";
-import type { Painter } from "./painter.js";
-import type { Frame, Picture } from "./renderer.js";
-import { PIECE_BYTES, type Pieces, type Scene } from "./scene.js";
+import type { Painter } from "../scene/painter.js";
+import type { Frame, Picture } from "../scene/renderer.js";
+import { PIECE_BYTES, type Pieces } from "../scene/pieces.js";
+import type { Scene } from "../scene/scene.js";
 
 export interface Strokes {
   /** `copy` is given away, if it has not been yet. Drawn with the next frame. */
@@ -113,7 +114,7 @@ class StrokesOnPage implements Strokes {
   #isClosed = false;
 
   constructor(canvas: HTMLCanvasElement, onShown: OnShown) {
-    void import("./strokes-canvas.js").then(({ paintOn }) => {
+    void import("../scene/strokes-canvas.js").then(({ paintOn }) => {
       if (this.#isClosed) return;
       this.#painter = paintOn(canvas, (frame, isWhole) => onShown(frame, isWhole && frame === this.#newest));
       this.#painter.setScene(this.#scene);

@@ -1,12 +1,12 @@
 import { lazy, Suspense } from "react";
-import { drawnUntilS } from "../state/drawn-until.js";
+import { drawnUntilS } from "./drawn-until.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { text } from "../text/text.js";
+import { timeLineText } from "./text.js";
 import { formatMoment } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { PLAY_RATES, type Player } from "./player.js";
 
-const words = text.timeLine;
+const words = timeLineText;
 const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
 const STEPS = 2_000;
 

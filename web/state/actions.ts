@@ -1,25 +1,32 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import { contentOf, type JobAction, type ApiClient } from "../api/client.js";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { isDrawingName, type PlotPen } from "../../src/internal.js";
+import { isDrawingName } from "../../src/internal.js";
+import type { Backend, JobAction } from "../backend/backend.js";
 import {
   machineProfileSchema,
   type Job,
   type JobChange,
   type JobPatch,
   type MovePlace,
+  type NewJob,
   type PlotSettings,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import { text } from "../text/text.js";
+import { stateText } from "./text.js";
 import type { Planner } from "../worker/planner.js";
-import type { DrawingText, ExportFormat } from "../worker/protocol.js";
-import type { Corner } from "./alignment-mark.js";
-import type { KeptDrawing } from "./kept-drawing.js";
+import { contentOf, type DrawingText } from "../worker/drawing-text.js";
+import type { ExportFormat } from "../worker/protocol.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
-import { activeJob, boardFirmware, currentPlotter, type Notice, type PageStore } from "./store.js";
+import {
+  activeJob,
+  boardFirmware,
+  currentPlotter,
+  type Notice,
+  type OpenDrawing,
+  type PageStore,
+} from "./store.js";
 
 export type Actions = ReturnType<typeof createActions>;
 
@@ -34,25 +41,16 @@ const headOf = (content: DrawingText): string => {
   return typeof head === "string" ? head : new TextDecoder().decode(head);
 };
 
-/** What is sent of a job with the drawing on the paper. */
-export const bodyOf = async <T extends { readonly name: string }>(
-  job: T,
-  drawing: DrawingText,
-): Promise<(T & { readonly drawing: string }) | Blob> =>
-  typeof drawing === "string"
-    ? { ...job, drawing }
-    : (await import("./job-body.js")).jobBody({ ...job, drawing });
-
 interface ActionDeps {
   readonly store: PageStore;
-  readonly api: ApiClient;
+  readonly backend: Backend;
   readonly planner: Pick<Planner, "request" | "export">;
   nowMs(): number;
   after(delayMs: number, callback: () => void): void;
 }
 
 export const createActions = (deps: ActionDeps) => {
-  const { store, api, planner } = deps;
+  const { store, backend, planner } = deps;
   let nextNotice = 1;
   let nextDrawing = 1;
   let lastChange = { what: "", atMs: -Infinity };
@@ -134,7 +132,7 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   /** A drawing of the last visit, for which the settings are as they were left. */
-  const restoreDrawing = (kept: KeptDrawing): void => {
+  const restoreDrawing = (kept: Omit<OpenDrawing, "key">): void => {
     store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
     replan();
   };
@@ -153,23 +151,23 @@ export const createActions = (deps: ActionDeps) => {
 
   const openFile = async (file: File): Promise<void> => {
     const svg = await file.arrayBuffer().then(contentOf, () => null);
-    if (svg === null) notify("error", text.drawing.unreadable(file.name));
-    else if (headOf(svg).includes("\0")) notify("error", text.drawing.notText(file.name));
+    if (svg === null) notify("error", stateText.unreadable(file.name));
+    else if (headOf(svg).includes("\0")) notify("error", stateText.notText(file.name));
     else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, svg);
   };
 
   const openPasted = (svg: string): void => {
-    if (/<svg[\s>]/i.test(svg)) openDrawing(text.drawing.pastedName, svg);
-    else notify("error", text.drawing.pasteNothing);
+    if (/<svg[\s>]/i.test(svg)) openDrawing(stateText.pastedName, svg);
+    else notify("error", stateText.pasteNothing);
   };
 
   const openSample = async (name: string, title: string): Promise<void> => {
-    const svg = await attempt("sample", () => api.sample(name));
+    const svg = await attempt("sample", () => backend.sample(name));
     if (svg !== null) openDrawing(title, svg);
   };
 
   const openJob = async (job: Job): Promise<void> => {
-    const svg = await attempt(`open ${job.id}`, () => api.jobDrawing(job.id));
+    const svg = await attempt(`open ${job.id}`, () => backend.jobDrawing(job.id));
     if (svg === null) return;
     store.setState({ settings: job.settings, undoStack: [], redoStack: [] });
     openDrawing(job.name, svg, job.id);
@@ -186,7 +184,7 @@ export const createActions = (deps: ActionDeps) => {
       ...(plotterId ? { plotterId } : {}),
       ...(copies > 1 ? { copies } : {}),
     };
-    const job = await attempt("add", async () => api.addJob(await bodyOf(newJob, drawing.text)));
+    const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
     if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
       store.setState({ drawing: { ...drawing, jobId: job.id } });
     }
@@ -197,7 +195,6 @@ export const createActions = (deps: ActionDeps) => {
     notify,
     dismiss,
     attempt,
-    ask: api.ask,
     replan,
     changeSettings,
     undo: () => step("undoStack", "redoStack"),
@@ -213,51 +210,54 @@ export const createActions = (deps: ActionDeps) => {
     openJob,
     queueDrawing: async (copies = 1): Promise<void> => {
       const job = await addToQueue(copies);
-      if (job) notify("info", text.plot.added(job.name));
+      if (job) notify("info", stateText.added(job.name));
     },
     plotDrawing: async (): Promise<void> => {
       const job = await addToQueue();
-      if (job) await attempt("plot", () => api.actOnJob(job.id, "start"));
+      if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
     },
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();
-      const job = await attempt("save", () => api.patchJob(id, { settings }));
+      const job = await attempt("save", () => backend.patchJob(id, { settings }));
       if (!job) return;
-      notify("info", text.plot.saved(job.name));
+      notify("info", stateText.saved(job.name));
       store.setState(({ drawing, settings: now }) =>
         drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
       );
     },
-    actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => api.actOnJob(id, action)),
-    changeJob: (id: string, change: JobChange) => attempt(`change ${id}`, () => api.changeJob(id, change)),
-    movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => api.movePlace(id, way)),
-    moveJob: (id: string, beforeId: string | null) => attempt(`move ${id}`, () => api.moveJob(id, beforeId)),
-    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => api.duplicateJob(id)),
+    actOnJob: (id: string, action: JobAction) =>
+      attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
+    changeJob: (id: string, change: JobChange) =>
+      attempt(`change ${id}`, () => backend.changeJob(id, change)),
+    movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, way)),
+    moveJob: (id: string, beforeId: string | null) =>
+      attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
+    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
     setQueue: async (settings: QueueSettings): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("queue", () => api.setQueue(id, settings));
+      if (id) await attempt("queue", () => backend.setQueue(id, settings));
     },
-    takeOver: () => attempt("take-over", () => api.takeOver()),
+    takeOver: () => attempt("take-over", () => backend.takeOver()),
     /** Who this browser is; asked anew with each connection, since a server that was started anew may have forgotten. */
     meet: async (): Promise<void> => {
-      const me = await api.me().catch(() => null);
+      const me = await backend.me().catch(() => null);
       if (me) store.setState({ me });
     },
-    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => api.dismissNotice(id)),
-    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => api.patchJob(id, patch)),
-    removeJob: (id: string) => attempt(`remove ${id}`, () => api.removeJob(id)),
+    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
+    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
+    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
     movePen: async (up: boolean, heightPct?: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (!id) return notify("error", text.plot.needsServer);
-      await attempt("pen", () => api.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
+      if (!id) return notify("error", stateText.needsServer);
+      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
     },
     motorsOff: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("motors-off", () => api.motorsOff(id));
+      if (id) await attempt("motors-off", () => backend.motorsOff(id));
     },
     home: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("home", () => api.home(id, store.getState().settings));
+      if (id) await attempt("home", () => backend.home(id, store.getState().settings));
     },
     /** For this page's settings, and for the plotter, which takes it for moves by hand and keeps it. */
     chooseMachine: async (profile: MachineProfile | null): Promise<void> => {
@@ -265,7 +265,7 @@ export const createActions = (deps: ActionDeps) => {
       changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));
       const plotter = currentPlotter(store.getState());
       if (plotter && plotter.machine !== profile.id) {
-        await attempt("plotter", () => api.setPlotterMachine(plotter.id, profile.id));
+        await attempt("plotter", () => backend.setPlotterMachine(plotter.id, profile.id));
       }
     },
     /** Looks at another plotter; its machine comes with it. */
@@ -279,29 +279,29 @@ export const createActions = (deps: ActionDeps) => {
       }
     },
     loadMachines: async (): Promise<void> => {
-      const machines = await attempt("machines", () => api.machines());
+      const machines = await attempt("machines", () => backend.machines());
       if (machines) store.setState({ machines });
     },
     savePreset: (name: string): void =>
       store.setState(({ presets, settings }) => ({ presets: withPreset(presets, name, settings) })),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
-    /** Plots a small cross with one pen, as a job of its own. */
-    plotMark: async (pen: PlotPen, corner: Corner, name: string): Promise<void> => {
-      const state = store.getState();
-      const { alignmentJob } = await import("./alignment-mark.js");
-      const newJob = alignmentJob(state.settings, pen, corner, name);
-      const plotterId = currentPlotter(state)?.id;
-      const job = await attempt("add", () => api.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }));
+    /** Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. */
+    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<void> => {
+      const plotterId = currentPlotter(store.getState())?.id;
+      const job = await attempt("add", () =>
+        backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
+      );
       if (!job) return;
-      if (activeJob(store.getState()) === null) await attempt("plot", () => api.actOnJob(job.id, "start"));
-      else notify("info", text.plot.added(job.name));
+      if (activeJob(store.getState()) === null)
+        await attempt("plot", () => backend.actOnJob(job.id, "start"));
+      else notify("info", stateText.added(job.name));
     },
     removePreset: (name: string): void =>
       store.setState(({ presets }) => ({ presets: presets.filter((preset) => preset.name !== name) })),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
-      const samples = await attempt("samples", () => api.samples());
+      const samples = await attempt("samples", () => backend.samples());
       if (samples) store.setState({ samples });
     },
   };

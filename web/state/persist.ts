@@ -5,11 +5,10 @@
 import { z } from "zod";
 import { findMachine } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 
 const KEY = "plotwright.page.v1";
 
-export const COLOR_MODES = ["speed", "order", "layer", "pen", "ink"] as const;
-export type ColorMode = (typeof COLOR_MODES)[number];
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
 

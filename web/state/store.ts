@@ -11,14 +11,16 @@ import type {
   Plotter,
   QueueSettings,
 } from "../../src/schema/index.js";
-import type { Hover } from "../preview/hover.js";
-import type { SnapLines } from "../preview/placing.js";
-import type { DrawingText, PlanFault, Planned } from "../worker/protocol.js";
+import type { Hover } from "../scene/hover.js";
+import type { SnapLines } from "../scene/placing.js";
+import type { SampleInfo } from "../backend/backend.js";
+import type { DrawingText } from "../worker/drawing-text.js";
+import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
 /** The drawing on the paper. */
-interface OpenDrawing {
+export interface OpenDrawing {
   readonly key: string;
   readonly name: string;
   readonly text: DrawingText;
@@ -48,11 +50,6 @@ export interface Notice {
 
 /** Sheets over the page, one at a time. */
 export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
-
-interface SampleInfo {
-  readonly name: string;
-  readonly title: string;
-}
 
 export interface PageState {
   readonly settings: PlotSettings;

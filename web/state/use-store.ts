@@ -2,11 +2,13 @@
 import { createContext, useContext } from "react";
 import { useStore } from "zustand";
 import type { Job } from "../../src/schema/index.js";
+import type { Backend } from "../backend/backend.js";
 import type { Actions } from "./actions.js";
 import { currentPlotter, type PageState, type PageStore } from "./store.js";
 
 export interface Page {
   readonly store: PageStore;
+  readonly backend: Backend;
   readonly actions: Actions;
 }
 
@@ -21,6 +23,7 @@ const usePage = (): Page => {
 /** Re-renders only when what `select` picks has changed (compared by identity). */
 export const usePageState = <T>(select: (state: PageState) => T): T => useStore(usePage().store, select);
 export const useActions = (): Actions => usePage().actions;
+export const useBackend = (): Backend => usePage().backend;
 export const usePageStore = (): PageStore => usePage().store;
 
 /** The jobs of the plotter that is looked at: queue order first, then history, newest first. */

@@ -1,12 +1,12 @@
 import { useState } from "react";
 import type { AccessEntry, Role } from "../../src/schema/index.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 
 /** Who has been let in: browsers that were paired and keys for scripts, each to be sent away again. */
 export const AccessSection = () => {
@@ -26,10 +26,10 @@ export const AccessSection = () => {
     <>
       <p className="note">{words.accessHint}</p>
       <ul className="studio-list">
-        {(answer?.entries ?? []).map((entry) => (
+        {(answer ?? []).map((entry) => (
           <EntryRow key={entry.id} entry={entry} onRevoke={() => void revoke(entry.id)} />
         ))}
-        {answer?.entries.length === 0 && <li className="note">{words.nobody}</li>}
+        {answer?.length === 0 && <li className="note">{words.nobody}</li>}
       </ul>
       {secret !== null && <Secret label={words.keyOnce} value={secret} />}
       <NewKeyForm onAdd={add} />

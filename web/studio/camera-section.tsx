@@ -1,10 +1,10 @@
 import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { isCameraUrl } from "./camera-url.js";
 
-const words = later.studio;
+const words = studioText;
 const EVERY_S = [0, 1, 2, 5, 10, 30, 60] as const;
 
 /** Where the picture of the camera comes from; kept in this browser. */

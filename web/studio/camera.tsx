@@ -1,10 +1,10 @@
 import { useEffect, useState } from "react";
 import { usePageState } from "../state/use-store.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { freshUrl, isCameraUrl } from "./camera-url.js";
-import "../styles/studio.css";
+import "./studio.css";
 
-const words = later.studio;
+const words = studioText;
 
 /** What a camera sees of the plotter: a stream of pictures, or one that is fetched again and again. */
 export const Camera = () => {

@@ -1,12 +1,12 @@
 import { useState } from "react";
 import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { Secret } from "./access-section.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 
 /** Addresses that are told when a plot is done, waits, or has failed. */
 export const HooksSection = () => {
@@ -20,10 +20,10 @@ export const HooksSection = () => {
     <>
       <p className="note">{words.hooksHint}</p>
       <ul className="studio-list">
-        {(answer?.webhooks ?? []).map((hook) => (
+        {(answer ?? []).map((hook) => (
           <HookRow key={hook.id} hook={hook} onRemove={() => void remove(hook.id)} />
         ))}
-        {answer?.webhooks.length === 0 && <li className="note">{words.noHooks}</li>}
+        {answer?.length === 0 && <li className="note">{words.noHooks}</li>}
       </ul>
       {secret !== null && <Secret label={words.hookSecretOnce} value={secret} />}
       <NewHookForm

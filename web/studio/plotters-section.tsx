@@ -1,13 +1,13 @@
 import { useState } from "react";
 import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { TextField } from "../ui/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 
 /** The plotters of this server: their names and ports; new ones, and ones to be forgotten. */
 export const PlottersSection = () => {
@@ -90,7 +90,7 @@ const NewPlotterForm = () => {
       <Select
         label={words.port}
         value={device}
-        options={portChoices(answer?.devices ?? [], null)}
+        options={portChoices(answer ?? [], null)}
         onChange={setDevice}
       />
       <button type="submit" className="button" disabled={name.trim() === ""}>

@@ -1,15 +1,15 @@
 import type { Device, Plotter } from "../../src/schema/index.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 
 /** Where a plotter is plugged in: found by itself, one of the boards that are there, or the virtual one. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
   const studio = useStudio();
   const [answer] = useAsked(studio.devices);
-  const choices = portChoices(answer?.devices ?? [], plotter);
+  const choices = portChoices(answer ?? [], plotter);
   const now = plotter.kind === "virtual" ? "virtual" : (plotter.device ?? "auto");
   return (
     <Select

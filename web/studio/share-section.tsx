@@ -1,9 +1,9 @@
 import type { Pairing } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 
 /** Links and QR codes that let another device in, to operate or to watch. */
 export const ShareSection = () => {

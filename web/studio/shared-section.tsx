@@ -3,14 +3,14 @@ import { MACHINES } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { later } from "../text/later.js";
+import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { isServerGone, leftOut, machineWanted, wayOut } from "./shared-jobs.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = later.studio;
+const words = studioText;
 const ASK_EVERY_MS = 3_000;
 
 /** The queue that several servers have in common: what waits there, who took what, and the drawing on the paper put there. */

@@ -1,61 +1,52 @@
 /** What a server that is left alone is told: plotters, devices that may use it, whom it tells. */
-import { z } from "zod";
-import {
-  accessEntrySchema,
-  deviceSchema,
-  pairingSchema,
-  plotterSchema,
-  sharedJobSchema,
-  webhookSchema,
-  type NewKey,
-  type NewPlotter,
-  type NewSharedJob,
-  type NewWebhook,
-  type PlotterPatch,
-  type SharedJob,
+import type {
+  NewKey,
+  NewPlotter,
+  NewSharedJob,
+  NewWebhook,
+  PlotterPatch,
+  SharedJob,
 } from "../../src/schema/index.js";
-import { ApiFault, okSchema } from "../api/client.js";
-import { bodyOf, type Actions } from "../state/actions.js";
-import type { DrawingText } from "../worker/protocol.js";
-
-const devicesSchema = z.object({ devices: z.array(deviceSchema) });
-const entriesSchema = z.object({ entries: z.array(accessEntrySchema) });
-const newKeyAnswerSchema = z.object({ entry: accessEntrySchema, secret: z.string() });
-const webhooksSchema = z.object({ webhooks: z.array(webhookSchema) });
-const sharedJobsSchema = z.object({ jobs: z.array(sharedJobSchema) });
-const sentSchema = z.object({ id: z.string() });
-const newWebhookAnswerSchema = z.object({ webhook: webhookSchema, secret: z.string() });
+import type { Backend, StudioBackend } from "../backend/backend.js";
+import type { Actions } from "../state/actions.js";
+import type { DrawingText } from "../worker/drawing-text.js";
 
 export type StudioApi = ReturnType<typeof studioApi>;
 
 /** Each answers null where it failed; the user has been told then. */
-export const studioApi = ({ ask, attempt }: Actions) => {
-  const one = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
+export const studioApi = (backend: Backend, { attempt }: Pick<Actions, "attempt">) => {
+  const ask = <T>(name: string, request: (studio: StudioBackend) => Promise<T>): Promise<T | null> =>
+    attempt(name, async () => request(await backend.studio()));
   return {
-    devices: () => attempt("devices", () => ask(devicesSchema, "GET", "/devices")),
-    addPlotter: (plotter: NewPlotter) =>
-      attempt("plotter", () => ask(plotterSchema, "POST", "/plotters", plotter)),
+    devices: () => ask("devices", (studio) => studio.devices()),
+    addPlotter: (plotter: NewPlotter) => ask("plotter", (studio) => studio.addPlotter(plotter)),
     patchPlotter: (id: string, patch: PlotterPatch) =>
-      attempt("plotter", () => ask(plotterSchema, "PATCH", one("plotters", id), patch)),
-    removePlotter: (id: string) => attempt("plotter", () => ask(okSchema, "DELETE", one("plotters", id))),
-    pairing: () => attempt("pairing", () => ask(pairingSchema, "POST", "/pairing")),
-    access: () => attempt("access", () => ask(entriesSchema, "GET", "/access")),
-    addKey: (key: NewKey) => attempt("key", () => ask(newKeyAnswerSchema, "POST", "/access/keys", key)),
-    revoke: (id: string) => attempt("access", () => ask(okSchema, "DELETE", one("access", id))),
-    webhooks: () => attempt("webhooks", () => ask(webhooksSchema, "GET", "/webhooks")),
-    addWebhook: (webhook: NewWebhook) =>
-      attempt("webhook", () => ask(newWebhookAnswerSchema, "POST", "/webhooks", webhook)),
+      ask("plotter", (studio) => studio.patchPlotter(id, patch)),
+    removePlotter: (id: string) => ask("plotter", (studio) => done(studio.removePlotter(id))),
+    pairing: () => ask("pairing", (studio) => studio.pairing()),
+    access: () => ask("access", (studio) => studio.access()),
+    addKey: (key: NewKey) => ask("key", (studio) => studio.addKey(key)),
+    revoke: (id: string) => ask("access", (studio) => done(studio.revoke(id))),
+    webhooks: () => ask("webhooks", (studio) => studio.webhooks()),
+    addWebhook: (webhook: NewWebhook) => ask("webhook", (studio) => studio.addWebhook(webhook)),
     /** Asked again and again while it is looked at: a failure leaves what is shown. `jobs` is null where none is shared. */
-    sharedJobs: (): Promise<{ readonly jobs: readonly SharedJob[] | null } | null> =>
-      ask(sharedJobsSchema, "GET", "/shared-jobs").catch((error: unknown) =>
-        error instanceof ApiFault && error.code === "not-found" ? { jobs: null } : null,
-      ),
+    sharedJobs: async (): Promise<{ readonly jobs: readonly SharedJob[] | null } | null> => {
+      try {
+        return { jobs: await (await backend.studio()).sharedJobs() };
+      } catch {
+        return null;
+      }
+    },
     shareJob: (job: Omit<NewSharedJob, "drawing">, drawing: DrawingText) =>
-      attempt("share", async () => ask(sentSchema, "POST", "/shared-jobs", await bodyOf(job, drawing))),
-    giveBackShared: (id: string) =>
-      attempt("shared-job", () => ask(okSchema, "POST", `${one("shared-jobs", id)}/give-back`)),
-    withdrawShared: (id: string) =>
-      attempt("shared-job", () => ask(okSchema, "DELETE", one("shared-jobs", id))),
-    removeWebhook: (id: string) => attempt("webhook", () => ask(okSchema, "DELETE", one("webhooks", id))),
+      ask("share", (studio) => done(studio.shareJob(job, drawing))),
+    giveBackShared: (id: string) => ask("shared-job", (studio) => done(studio.giveBackShared(id))),
+    withdrawShared: (id: string) => ask("shared-job", (studio) => done(studio.withdrawShared(id))),
+    removeWebhook: (id: string) => ask("webhook", (studio) => done(studio.removeWebhook(id))),
   };
+};
+
+/** True where null means that it failed. */
+const done = async (request: Promise<void>): Promise<true> => {
+  await request;
+  return true;
 };

@@ -1,6 +1,6 @@
 import { useState } from "react";
-import { Sheet } from "../panels/sheet.js";
-import { later } from "../text/later.js";
+import { Sheet } from "../ui/sheet.js";
+import { studioText } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { AccessSection } from "./access-section.js";
 import { CameraSection } from "./camera-section.js";
@@ -8,9 +8,9 @@ import { HooksSection } from "./hooks-section.js";
 import { PlottersSection } from "./plotters-section.js";
 import { ShareSection } from "./share-section.js";
 import { SharedSection } from "./shared-section.js";
-import "../styles/studio.css";
+import "./studio.css";
 
-const words = later.studio;
+const words = studioText;
 const SECTIONS = {
   share: ShareSection,
   access: AccessSection,

@@ -1,10 +1,11 @@
 import { useCallback, useEffect, useMemo, useState } from "react";
-import { useActions } from "../state/use-store.js";
+import { useActions, useBackend } from "../state/use-store.js";
 import { studioApi, type StudioApi } from "./studio-api.js";
 
 export const useStudio = (): StudioApi => {
+  const backend = useBackend();
   const actions = useActions();
-  return useMemo(() => studioApi(actions), [actions]);
+  return useMemo(() => studioApi(backend, actions), [backend, actions]);
 };
 
 /** A list of the server's, and how to ask for it anew; null until it has come. */

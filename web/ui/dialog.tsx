@@ -1,7 +1,7 @@
 import { useEffect, useRef, type ReactNode } from "react";
-import { text } from "../text/text.js";
+import { errorText } from "./text.js";
 import { Icon } from "./icon.js";
-import "../styles/dialog.css";
+import "./dialog.css";
 
 interface DialogProps {
   readonly title: string;
@@ -29,7 +29,7 @@ export const Dialog = ({ title, onClose, children }: DialogProps) => {
     >
       <header className="dialog-head">
         <h2>{title}</h2>
-        <button type="button" className="tool" aria-label={text.errors.close} onClick={onClose}>
+        <button type="button" className="tool" aria-label={errorText.close} onClick={onClose}>
           <Icon name="close" />
         </button>
       </header>

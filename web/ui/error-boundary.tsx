@@ -1,5 +1,5 @@
 import { Component, type ReactNode } from "react";
-import { text } from "../text/text.js";
+import { errorText } from "./text.js";
 
 interface State {
   readonly message: string | null;
@@ -17,11 +17,11 @@ export class ErrorBoundary extends Component<{ readonly children: ReactNode }, S
     if (this.state.message === null) return this.props.children;
     return (
       <main className="crash" role="alert">
-        <h1>{text.errors.title}</h1>
-        <p>{text.errors.unexpected}</p>
+        <h1>{errorText.title}</h1>
+        <p>{errorText.unexpected}</p>
         <p className="note">{this.state.message}</p>
         <button type="button" className="button button-primary" onClick={() => location.reload()}>
-          {text.errors.reload}
+          {errorText.reload}
         </button>
       </main>
     );

@@ -1,5 +1,5 @@
 /** Numbers as people read them. All in tabular figures, with thin spaces where a unit follows. */
-import { text } from "../text/text.js";
+import { language } from "./text.js";
 
 const NARROW = "\u202f";
 
@@ -78,7 +78,7 @@ const momentOf = (at: Date, nowMs: number): string => {
   const isNear = Math.abs(at.getTime() - nowMs) < 6 * DAY_MS;
   const isThisYear = at.getFullYear() === now.getFullYear();
   const day = at.toLocaleDateString(
-    text.language,
+    language,
     isNear
       ? { weekday: "short" }
       : { day: "numeric", month: "short", ...(isThisYear ? {} : { year: "numeric" }) },

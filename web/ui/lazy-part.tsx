@@ -1,5 +1,5 @@
 import { Component, lazy, Suspense, type ComponentType, type ReactNode } from "react";
-import { text } from "../text/text.js";
+import { errorText } from "./text.js";
 
 /**
  * A part of the page that is fetched when it is first shown. One that can't be fetched (no connection, or the
@@ -31,9 +31,9 @@ class PartBoundary extends Component<{ readonly children: ReactNode }, { readonl
     if (!this.state.hasFailed) return this.props.children;
     return (
       <p className="note note-error" role="alert">
-        {text.errors.partMissing}{" "}
+        {errorText.partMissing}{" "}
         <button type="button" className="link" onClick={() => location.reload()}>
-          {text.errors.reload}
+          {errorText.reload}
         </button>
       </p>
     );

@@ -1,5 +1,5 @@
 import { useState, type KeyboardEvent } from "react";
-import { text } from "../text/text.js";
+import { fieldText } from "./text.js";
 import { formatNumber, parseNumber } from "./format.js";
 
 export interface NumberLimits {
@@ -37,8 +37,8 @@ export const useTypedNumber = (
   const isRight = (number: number): boolean => (minExcluded ? number > min : number >= min) && number <= max;
   const problemOf = (words: string): string | null => {
     const number = parseNumber(words);
-    if (number === null) return emptyAs && words.trim() === "" ? null : text.field.notANumber;
-    return isRight(number) ? null : text.field.between(formatNumber(min, 3), formatNumber(max, 3), unit);
+    if (number === null) return emptyAs && words.trim() === "" ? null : fieldText.notANumber;
+    return isRight(number) ? null : fieldText.between(formatNumber(min, 3), formatNumber(max, 3), unit);
   };
   return {
     shown: typed ?? (value === null ? "" : formatNumber(value, digits)),

@@ -1,5 +1,5 @@
 /** What the page and its drawing worker say to each other. Scenes and pictures are transferred, never copied. */
-import type { Frame, Picture } from "../preview/renderer.js";
+import type { Frame, Picture } from "../scene/renderer.js";
 
 export type DrawRequest =
   | { readonly type: "scene"; readonly scene: Picture | null }

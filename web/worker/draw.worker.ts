@@ -1,6 +1,6 @@
 /** Draws the strokes away from the page's thread, where the card or the want of one may take its time. */
-import { paintOn } from "../preview/strokes-canvas.js";
-import type { Frame } from "../preview/renderer.js";
+import { paintOn } from "../scene/strokes-canvas.js";
+import type { Frame } from "../scene/renderer.js";
 import type { DrawReply, DrawRequest } from "./draw-protocol.js";
 
 interface WorkerScope {

@@ -23,11 +23,11 @@ import {
   strokeCount,
   type Placement,
 } from "../../src/internal.js";
-import { buildScene, shiftsOf, type Scene } from "../preview/scene.js";
-import type { FrameMm } from "../preview/placing.js";
-import type { Picture } from "../preview/renderer.js";
+import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
+import type { FrameMm } from "../scene/placing.js";
+import type { Picture } from "../scene/renderer.js";
+import type { DrawingText } from "./drawing-text.js";
 import type {
-  DrawingText,
   ExportRequest,
   PlanSettings,
   Planned,

@@ -6,8 +6,8 @@
  * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
  * ended too: a damaged file may keep it for ever.
  */
+import type { DrawingText } from "./drawing-text.js";
 import type {
-  DrawingText,
   ExportFormat,
   PlanFault,
   Planned,
@@ -15,7 +15,7 @@ import type {
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
-import { markMoment } from "../ui/moments.js";
+import { markMoment } from "./moments.js";
 
 const PATIENCE_MS = 1_500;
 const READING_MS = 120_000;

@@ -9,15 +9,13 @@ import type {
   TrajectoryStats,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { FrameMm } from "../preview/placing.js";
-import type { Picture } from "../preview/renderer.js";
-import type { Scene } from "../preview/scene.js";
+import type { FrameMm } from "../scene/placing.js";
+import type { Picture } from "../scene/renderer.js";
+import type { Scene } from "../scene/scene.js";
+import type { DrawingText } from "./drawing-text.js";
 
 /** The machine's motors bound the plan, so it is part of what is planned with. */
 export type PlanSettings = PlotSettings;
-
-/** A large file's comes as it was read, in UTF-8: to make a string of it, and to copy that, would hold up the page. */
-export type DrawingText = string | ArrayBuffer;
 
 /** `drawingKey` names the text; the worker keeps the last drawing, so the text is sent once. */
 export interface PlanRequest {

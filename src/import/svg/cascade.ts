@@ -8,12 +8,13 @@
  */
 import { compile } from "css-select";
 import type { Declared } from "./declared.js";
-import { IS_KEYWORD, IS_PROPERTY, PRESENTATION } from "./properties.js";
+import { IS_KEYWORD, IS_PROPERTY, NOT_DRAWN_PROPERTIES, PRESENTATION } from "./properties.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
 import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 
 const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
-const IS_PRESENTATION = new Set<string>(PRESENTATION);
+const IS_PRESENTATION = new Set<string>([...PRESENTATION, ...NOT_DRAWN_PROPERTIES.keys()]);
+const IS_COLLECTED = new Set<string>([...IS_PROPERTY, ...NOT_DRAWN_PROPERTIES.keys()]);
 
 interface FiledRule extends Rule {
   readonly order: number;
@@ -209,7 +210,7 @@ function apply(declarations: readonly Declaration[], important: boolean, into: D
   for (const { property, value, important: isImportant } of declarations) {
     if (isImportant !== important) continue;
     if (property === "marker") for (const part of MARKERS) into.set(part, value);
-    else if (IS_PROPERTY.has(property) || property.startsWith("--"))
+    else if (IS_COLLECTED.has(property) || property.startsWith("--"))
       into.set(property, valueFor(property, value));
   }
 }

@@ -31,15 +31,13 @@ import { aroundOrigin, parseTransform } from "./transform.js";
 import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./style.js";
 import { Warnings } from "../warnings.js";
 
-/** Yields to other tasks between steps; resolves when the import may continue. */
-export type Pause = () => Promise<void>;
-
 /** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
 const ARC_TOLERANCE = 8e-7;
 
 /**
- * The drawing in an SVG text, in mm on its own page. Throws PlotwrightError("bad-file").
+ * Reads SVG text into a drawing, in mm on its own page.
  *
+ * @throws PlotwrightError "bad-file" for text that is not SVG
  * @example
  * const drawing = importSvg('<svg width="10mm" height="10mm" viewBox="0 0 1 1"><path d="M0 0L1 1" stroke="red"/></svg>');
  * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
@@ -49,20 +47,6 @@ export function importSvg(text: string, options: ImportOptions = {}): Drawing {
   for (;;) {
     const step = steps.next();
     if (step.done) return step.value;
-  }
-}
-
-/** Like `importSvg`, but pauses after every few milliseconds of work, so that a page stays responsive. */
-export async function importSvgWithPauses(
-  text: string,
-  pause: Pause,
-  options: ImportOptions = {},
-): Promise<Drawing> {
-  const steps = importSvgSteps(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-    await pause();
   }
 }
 
@@ -107,6 +91,7 @@ function* draw(
     conditions,
   );
   clips.textBox = (element, at) => painter.textBox(element, at);
+  clips.lettersOf = (element, at, add) => painter.outlinesOf(element, at, add);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
   if (isShown(root)) yield* walk.run(context);
   return { builder, page };

@@ -27,6 +27,10 @@ interface Vertex {
 
 export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
   const vertices = verticesOf(shape);
+  // A path that only moves draws no line, but its markers are drawn.
+  if (vertices.length === 0 && shape.lonePoints > 0) {
+    return (["start", "end"] as const).map((kind) => ({ kind, x: shape.x, y: shape.y, angle: 0 }));
+  }
   return vertices.map((vertex, i) => ({
     kind: i === 0 ? "start" : i === vertices.length - 1 ? "end" : "mid",
     x: vertex.x,
@@ -35,14 +39,17 @@ export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
   }));
 }
 
+/** The mean of both directions as angles from 0 to a full turn; browsers resolve a reversal in this way. */
 function angleAt({ arrive, leave }: Vertex): number {
-  const inward = arrive ?? leave ?? [1, 0];
-  const outward = leave ?? arrive ?? [1, 0];
-  const x = inward[0] + outward[0];
-  const y = inward[1] + outward[1];
-  // A reversal: the bisector is perpendicular to the incoming direction.
-  if (Math.hypot(x, y) < 1e-9) return Math.atan2(inward[0], -inward[1]);
-  return Math.atan2(y, x);
+  const inward = turnOf(arrive ?? leave ?? [1, 0]);
+  const outward = turnOf(leave ?? arrive ?? [1, 0]);
+  const mean = (inward + outward) / 2;
+  return Math.abs(outward - inward) > Math.PI ? mean + Math.PI : mean;
+}
+
+function turnOf([x, y]: readonly [number, number]): number {
+  const angle = Math.atan2(y, x);
+  return angle < 0 ? angle + 2 * Math.PI : angle;
 }
 
 function verticesOf(shape: ShapeBuffer): Vertex[] {

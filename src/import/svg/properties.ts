@@ -1,3 +1,5 @@
+import type { WarningCode } from "../warnings.js";
+
 /** CSS properties that the importer uses; those in PRESENTATION may also be written as attributes. */
 export const PRESENTATION = [
   "fill",
@@ -62,6 +64,33 @@ const CSS_ONLY = [
   "ry",
   "d",
 ] as const;
+
+/**
+ * Properties that change what a browser draws and are not drawn here, by the warning that they give. All of them
+ * may be written as attributes, too.
+ */
+export const NOT_DRAWN_PROPERTIES: ReadonlyMap<string, WarningCode> = new Map<string, WarningCode>([
+  ["backdrop-filter", "filter-ignored"],
+  ["mask-image", "mask-ignored"],
+  ["animation", "animation-ignored"],
+  ["animation-name", "animation-ignored"],
+  ["offset-path", "effect-ignored"],
+  ["outline", "effect-ignored"],
+  ["perspective", "effect-ignored"],
+  ["zoom", "effect-ignored"],
+  ["text-shadow", "effect-ignored"],
+  ["text-emphasis", "text-style-ignored"],
+  ["text-decoration-style", "text-style-ignored"],
+  ["text-orientation", "text-style-ignored"],
+  ["glyph-orientation-vertical", "text-style-ignored"],
+  ["unicode-bidi", "text-style-ignored"],
+  ["font-kerning", "text-style-ignored"],
+  ["font-feature-settings", "text-style-ignored"],
+  ["font-variation-settings", "text-style-ignored"],
+  ["font-stretch", "text-style-ignored"],
+  ["inline-size", "text-style-ignored"],
+  ["shape-inside", "text-style-ignored"],
+]);
 
 export type Property = (typeof PRESENTATION)[number] | (typeof CSS_ONLY)[number];
 

@@ -139,8 +139,7 @@ const SETTERS: Partial<Record<Property, Setter>> = {
   },
   "letter-spacing": (style, value, basis) => {
     const spacing = value === "normal" ? 0 : lengthPx(value, basis, "width");
-    // Percentages are ignored, as in browsers.
-    if (spacing !== null && !value.endsWith("%")) style.letterSpacing = spacing;
+    if (spacing !== null) style.letterSpacing = spacing;
   },
   "marker-start": (style, value) => {
     style.markerStart = parseUrl(value);
@@ -249,6 +248,9 @@ function parsePaint(text: string): Paint | null {
   }
   return paint;
 }
+
+/** Whether a fill or stroke is not a paint, so that the inherited one applies. */
+export const isUnknownPaint = (text: string): boolean => parsePaint(text) === null;
 
 function readPaint(text: string): Paint | null {
   const value = text.trim();

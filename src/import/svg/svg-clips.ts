@@ -17,6 +17,7 @@ import { ClipNode, type ClipShapes } from "../clip-node.js";
 import { curveBox } from "../curve-box.js";
 import { lengthPx } from "./length.js";
 import { mapBox } from "../map-box.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
 import { withStyle, type Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
@@ -31,6 +32,8 @@ const MAX_NESTING = 16;
 const MAX_CHILD_CLIPS = 10_000;
 /** Max elements measured for objectBoundingBox, in the whole file. */
 const MAX_MEASURED = 1_000_000;
+
+type AddOutline = (shape: ShapeBuffer, map: Affine) => void;
 
 interface BuiltClip {
   readonly shapes: ClipShapes;
@@ -48,6 +51,10 @@ export class SvgClips {
   private childNesting = 0;
   /** The box of a text in its user units; set from outside, since text layout is in the painter. */
   textBox: (element: number, context: Context) => Box = () => EMPTY_BOX;
+  /** Calls back with each letter's outline; false if letters have no outlines. Set from outside, too. */
+  lettersOf: (element: number, context: Context, add: AddOutline) => boolean = () => false;
+  /** The clipPaths that are being built, to find those that refer to themselves. */
+  private readonly open = new Set<number>();
 
   constructor(
     private readonly tree: SvgTree,
@@ -117,11 +124,17 @@ export class SvgClips {
     const inner = withStyle(context, style, compose(transform, units));
     const outside = own === undefined ? context.clip : this.clipOf(element, own, context, nesting + 1);
     if (outside === "empty") return "empty";
+    if (this.open.has(target)) {
+      this.warnings.add("clip-ignored", undefined, "a clip that contains itself");
+      return context.clip;
+    }
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
     let built = this.built.get(key);
     if (built === undefined) {
+      this.open.add(target);
       built = this.build(target, inner);
+      this.open.delete(target);
       this.built.set(key, built);
     }
     if (built === null) return "empty";
@@ -152,16 +165,13 @@ export class SvgClips {
     this.cascade.collect(child, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
-    if (tag === "text") {
-      this.warnings.add("clip-ignored", undefined, "text in a clipPath");
-      return;
-    }
     const transform = parseTransform(declaredValue(style, declared, "transform") ?? "") ?? IDENTITY;
     const moved = withStyle(outer, style, transform);
     const clip = this.clipOfChild(child, declaredValue(style, declared, "clip-path"), moved);
     if (clip === "empty") return;
     const context = clip === moved.clip ? moved : { ...moved, clip };
     if (tag === "use") this.addUse(child, context, collector);
+    else if (tag === "text") this.addText(child, context, collector);
     else if (style.isVisible) this.addShape(child, tag, context, collector);
   }
 
@@ -182,19 +192,22 @@ export class SvgClips {
   private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
     this.cascade.collect(child, this.declared);
     const shape = this.geometry.geometryOf(child, tag, this.declared, context);
-    const evenOdd = context.style.clipRule === "evenodd";
-    if (context.clip === null) return collector.add(shape, context.map, evenOdd);
-    const whole = new ClipCollector();
-    whole.add(shape, context.map, evenOdd);
-    const outline = whole.finish();
-    if (outline !== null) collector.add(clippedShape(outline, context.clip), IDENTITY, false);
+    addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
   }
 
-  /** Inside a clipPath, `use` may only refer to a shape. */
+  private addText(child: number, context: Context, collector: ClipCollector): void {
+    const hasOutlines = this.lettersOf(child, context, (shape, map) => {
+      addClipped(collector, shape, map, false, context.clip);
+    });
+    if (!hasOutlines) this.warnings.add("clip-text");
+  }
+
+  /** Inside a clipPath, `use` may only refer to a shape or a text. */
   private addUse(use: number, context: Context, collector: ClipCollector): void {
     const { tree } = this;
     const target = tree.elementById.get((attribute(tree, use, HREF) ?? "").trim().slice(1));
-    if (target === undefined || !SHAPE_TAGS.has(tagOf(tree, target))) return;
+    if (target === undefined) return;
+    if (!SHAPE_TAGS.has(tagOf(tree, target)) && tagOf(tree, target) !== "text") return;
     const x = lengthPx(attribute(tree, use, "x") ?? "0", context.basis, "width") ?? 0;
     const y = lengthPx(attribute(tree, use, "y") ?? "0", context.basis, "height") ?? 0;
     this.addChild(target, { ...context, map: compose(context.map, translation(x, y)) }, collector);
@@ -248,6 +261,21 @@ export class SvgClips {
   }
 }
 
+/** Adds the part of a shape inside `clip`. */
+function addClipped(
+  collector: ClipCollector,
+  shape: ShapeBuffer,
+  map: Affine,
+  evenOdd: boolean,
+  clip: ClipNode | null,
+): void {
+  if (clip === null) return collector.add(shape, map, evenOdd);
+  const whole = new ClipCollector();
+  whole.add(shape, map, evenOdd);
+  const outline = whole.finish();
+  if (outline !== null) collector.add(clippedShape(outline, clip), IDENTITY, false);
+}
+
 /** Collects subpaths of several shapes, mapped to page mm, with the rule and the shape of each. */
 class ClipCollector {
   private readonly verbs = new ColumnBuffer(Uint8Array);
@@ -256,7 +284,7 @@ class ClipCollector {
   private readonly shapes: number[] = [];
   private shapeCount = 0;
 
-  add(shape: SvgGeometry["shape"], map: Affine, evenOdd: boolean): void {
+  add(shape: ShapeBuffer, map: Affine, evenOdd: boolean): void {
     if (shape.isEmpty) return;
     const from = shape.coords.data;
     for (let i = 0; i < shape.coords.length; i += 2) {

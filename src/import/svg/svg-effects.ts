@@ -1,8 +1,8 @@
 /** Effects that a browser draws and a pen cannot: each gives a warning. */
 import type { Box } from "../../geometry/box.js";
 import type { Declared } from "./declared.js";
-import type { Property } from "./properties.js";
-import { declaredValue, parseUrl, type Style } from "./style.js";
+import { NOT_DRAWN_PROPERTIES, type Property } from "./properties.js";
+import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./style.js";
 import { tagOf, type SvgTree } from "./svg-tree.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 
@@ -11,20 +11,36 @@ export type Effects = readonly (readonly [code: WarningCode, detail?: string])[]
 
 const NONE: Effects = [];
 
+/** Values of the properties that are not drawn with which nothing is missing. */
+const DRAWS_AS_USUAL =
+  /^\s*(none|normal|auto|initial|inherit|unset|revert|solid|mixed|[01](px|%)?|100%)?\s*$/;
+
 /** The effects of the element to which `declared` belongs. */
 export function effectsOf(style: Style, declared: Declared): Effects {
   if (declared.size === 0) return NONE;
   const valueOf = (property: Property): string | null => {
     const value = declaredValue(style, declared, property);
-    return value === undefined || value === "none" || value === "normal" ? null : value.slice(0, 40);
+    return value === undefined || value === "none" || value === "normal" ? null : value;
   };
   const effects: [WarningCode, string?][] = [];
+  for (let i = 0; i < declared.size; i++) {
+    const name = declared.nameAt(i);
+    const code = NOT_DRAWN_PROPERTIES.get(name);
+    if (code !== undefined && !DRAWS_AS_USUAL.test(declared.valueAt(i))) effects.push([code, name]);
+  }
+  for (const property of ["fill", "stroke"] as const) {
+    const value = valueOf(property);
+    if (value !== null && isUnknownPaint(value)) effects.push(["color-unknown", value.slice(0, 40)]);
+  }
   if (valueOf("mask") !== null) effects.push(["mask-ignored"]);
   if (valueOf("filter") !== null) effects.push(["filter-ignored"]);
   const blend = valueOf("mix-blend-mode");
-  if (blend !== null) effects.push(["blend-ignored", blend]);
+  if (blend !== null) effects.push(["blend-ignored", blend.slice(0, 40)]);
   const order = valueOf("paint-order");
-  if (order !== null && /^(stroke|markers)/.test(order)) effects.push(["paint-order-ignored", order]);
+  const opacity = parseOpacity(valueOf("opacity") ?? "1") ?? 1;
+  if (opacity > 0 && opacity < 1) effects.push(["opacity-ignored"]);
+  if (order !== null && /^(stroke|markers)/.test(order))
+    effects.push(["paint-order-ignored", order.slice(0, 40)]);
   return effects;
 }
 

@@ -38,8 +38,10 @@ export class SvgGeometry {
       this.scale = largestScale(context.map);
     }
     const tolerance = this.arcToleranceMm / this.scale;
-    const fault = drawBasicShape(tag, this.source.of(element, declared, context), shape, tolerance);
+    const { source } = this;
+    const drawn = drawBasicShape(tag, source.of(element, declared, context), shape, tolerance);
     shape.finish();
+    const fault = drawn ?? (source.malformed === null ? null : `"${source.malformed}" is not a length`);
     if (fault !== null) {
       const where = this.whereOf(element);
       if (tag === "path") this.warnings.add("path-data", this.firstPoint(context), `${where}: ${fault}`);
@@ -84,11 +86,14 @@ class ElementSource implements ShapeSource {
   private element = 0;
   private declared: Declared | null = null;
   private context: Context | null = null;
+  /** The element's last length that could not be read. */
+  malformed: string | null = null;
 
   constructor(private readonly tree: SvgTree) {}
 
   of(element: number, declared: Declared, context: Context): this {
     this.element = element;
+    this.malformed = null;
     this.declared = declared.size === 0 ? null : declared;
     this.context = context;
     return this;
@@ -110,7 +115,10 @@ class ElementSource implements ShapeSource {
   }
 
   private px(text: string | undefined, side: Side): number | null {
-    return text === undefined || text === "auto" ? null : lengthPx(text, this.context!.basis, side);
+    if (text === undefined || text === "auto") return null;
+    const length = lengthPx(text, this.context!.basis, side);
+    if (length === null) this.malformed = text.slice(0, 40);
+    return length;
   }
 
   private css(name: Property): string | undefined {

@@ -16,7 +16,7 @@ import type { MarkerPlace } from "./markers.js";
 import type { SvgClips } from "./svg-clips.js";
 import { contextPaints, MAX_COPY_DEPTH, withViewport, type Context, type UseChain } from "./svg-context.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue } from "./style.js";
+import { computeStyle, declaredValue, type Style } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 
@@ -99,11 +99,19 @@ export class SvgMarkers {
       uses,
       ...contextPaints(context),
     };
-    const overflow = declaredValue(style, declared, "overflow");
+    const overflow = this.overflowOf(marker, style);
     if (overflow === "visible" || overflow === "auto") return inside;
     // The marker's viewport, in its content's units.
     const x = -fit.e / fit.a;
     const y = -fit.f / fit.d;
     return { ...inside, clip: this.clips.rectangleClip(inside, x, y, width / fit.a, height / fit.d) };
+  }
+
+  /** Valid while `declared` belongs to the marker. `inherit` takes the value of the element around it. */
+  private overflowOf(marker: number, style: Style): string | undefined {
+    const { declared } = this;
+    if (declared.get("overflow") !== "inherit") return declaredValue(style, declared, "overflow");
+    this.cascade.collect(this.tree.parents[marker], declared);
+    return declaredValue(style, declared, "overflow") ?? "visible";
   }
 }

@@ -6,7 +6,7 @@ import type { Context } from "./svg-context.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { declaredValue, INITIAL_STYLE } from "./style.js";
 
-const SERVERS = new Set(["linearGradient", "radialGradient", "pattern", "meshgradient", "hatch"]);
+const SERVERS = new Set(["linearGradient", "radialGradient", "pattern"]);
 const MAX_HREF_STEPS = 32;
 
 export class SvgPaintServers {
@@ -39,7 +39,8 @@ export class SvgPaintServers {
         if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
       }
       const href = attribute(tree, element, HREF) ?? "";
-      element = tree.elementById.get(href.slice(1));
+      const next = tree.elementById.get(href.slice(1));
+      element = next !== undefined && SERVERS.has(tagOf(tree, next)) ? next : undefined;
     }
     // A gradient without stops paints nothing.
     return null;

@@ -1,5 +1,13 @@
 /** Converts one leaf element to one shape of the drawing: geometry, paints, dashes. */
-import { compose, meanScale, rotation, scaling, translation, unstretched } from "../../geometry/affine.js";
+import {
+  compose,
+  meanScale,
+  rotation,
+  scaling,
+  translation,
+  unstretched,
+  type Affine,
+} from "../../geometry/affine.js";
 import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
@@ -11,16 +19,19 @@ import { drawPathData } from "../path-data.js";
 import { curveBox } from "../curve-box.js";
 import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
+import type { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
+import { isMarked } from "./svg-markers.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
-import { placeText } from "./svg-text.js";
+import { placeText, type PlacedText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
-import { ASCENT_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
+import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import type { Paint } from "./paint.js";
+import type { Color } from "../color.js";
 import { declaredValue } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
@@ -47,20 +58,37 @@ export class SvgPainter {
   /** The box of a text in its user units: the full line height, from the first letter to the last. */
   textBox(element: number, context: Context): Box {
     if (this.font === null) return EMPTY_BOX;
-    const { letters } = placeText(
-      this.tree,
-      this.cascade,
-      this.textPaths,
-      element,
-      context,
-      this.font,
-      this.conditions,
-    );
+    const { letters } = this.placed(element, context, this.font);
+    const { ascent, descent } = this.font.metrics ?? USUAL_METRICS;
     return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
       const turned = compose(translation(x, y), rotation(angle));
-      const cell = { x0: 0, y0: -ASCENT_EM * fontSize, x1: advance, y1: DESCENT_EM * fontSize };
+      const cell = { x0: 0, y0: -ascent * fontSize, x1: advance, y1: descent * fontSize };
       return uniteBoxes(box, mapBox(turned, cell));
     }, EMPTY_BOX);
+  }
+
+  /** Calls `add` with each visible letter and its map to page mm; false if the font has no outlines. */
+  outlinesOf(element: number, context: Context, add: (shape: ShapeBuffer, map: Affine) => void): boolean {
+    if (this.font?.kind !== "outline") return false;
+    for (const letter of this.placed(element, context, this.font).letters) {
+      if (!letter.style.isVisible) continue;
+      add(this.shapeOf(letter), mapOf(letter, context));
+    }
+    return true;
+  }
+
+  private placed(element: number, context: Context, font: TextFont): PlacedText {
+    const { tree, cascade, textPaths, conditions } = this;
+    return placeText(tree, cascade, textPaths, element, context, font, conditions);
+  }
+
+  /** In em. Valid until the next shape. */
+  private shapeOf(letter: PlacedLetter): ShapeBuffer {
+    const { shape } = this.geometry;
+    shape.clear();
+    drawPathData(shape, letter.path, 1);
+    shape.finish();
+    return shape;
   }
 
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
@@ -69,7 +97,7 @@ export class SvgPainter {
     this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
-      if (shape.lonePoints > 0)
+      if (shape.lonePoints > 0 && !isMarked(tag, context))
         this.warnings.add("single-point", this.geometry.placeOf(context, shape.x, shape.y, 0, 0));
       return;
     }
@@ -86,15 +114,7 @@ export class SvgPainter {
       if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
       return;
     }
-    const text = placeText(
-      this.tree,
-      this.cascade,
-      this.textPaths,
-      element,
-      context,
-      this.font,
-      this.conditions,
-    );
+    const text = this.placed(element, context, this.font);
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
     const isDrawn = builder.shapeCount > firstShape;
@@ -111,18 +131,10 @@ export class SvgPainter {
   private drawLetter(letter: PlacedLetter, element: number, context: Context): void {
     const { style } = letter;
     if (!style.isVisible) return;
-    const { shape } = this.geometry;
-    shape.clear();
-    drawPathData(shape, letter.path, 1);
-    shape.finish();
+    const shape = this.shapeOf(letter);
     if (shape.isEmpty) return;
     this.element = element;
     const own = { ...context, style };
-    const turned = compose(translation(letter.x, letter.y), rotation(letter.angle));
-    const map = compose(
-      context.map,
-      compose(turned, scaling(style.fontSize * letter.stretch, style.fontSize)),
-    );
     const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "gradient-stroke");
     const fill = this.colorOf(style.fill, style.fillOpacity, own, "gradient-fill");
     if (stroke === null && fill === null) return;
@@ -135,7 +147,7 @@ export class SvgPainter {
       strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
       dash: null,
     };
-    this.builder.addShape(shape, map, look, context.group, context.clip, this.where);
+    this.builder.addShape(shape, mapOf(letter, context), look, context.group, context.clip, this.where);
   }
 
   private roughPlaceOf(element: number, context: Context): Box {
@@ -196,6 +208,13 @@ export class SvgPainter {
       this.warnings.add(gradient === "gradient-fill" ? "pattern-fill" : "pattern-stroke", place, `"${id}"`);
   }
 
+  /** The colour without its transparency; null if nothing is visible. */
+  private solid({ hex, alpha }: Color, opacity: number, context: Context): string | null {
+    if (alpha === 0) return null;
+    if (alpha * opacity < 1) this.warnings.add("opacity-ignored", this.geometry.firstPoint(context));
+    return hex;
+  }
+
   /** "#rrggbb", or null if nothing is painted. */
   private colorOf(
     paint: Paint,
@@ -208,9 +227,9 @@ export class SvgPainter {
       case "none":
         return null;
       case "color":
-        return paint.color.alpha === 0 ? null : paint.color.hex;
+        return this.solid(paint.color, opacity, context);
       case "currentColor":
-        return context.style.color.alpha === 0 ? null : context.style.color.hex;
+        return this.solid(context.style.color, opacity, context);
       case "context":
         return this.colorOf(
           paint.of === "fill" ? context.contextFill : context.contextStroke,
@@ -231,6 +250,12 @@ export class SvgPainter {
       }
     }
   }
+}
+
+/** A letter's em to page mm. */
+function mapOf({ x, y, angle, stretch, style }: PlacedLetter, context: Context): Affine {
+  const turned = compose(translation(x, y), rotation(angle));
+  return compose(context.map, compose(turned, scaling(style.fontSize * stretch, style.fontSize)));
 }
 
 const isFlatBox = ({ x0, y0, x1, y1 }: Box): boolean => x0 === x1 || y0 === y1;

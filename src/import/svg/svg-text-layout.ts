@@ -4,8 +4,8 @@
  */
 import type { Style } from "./style.js";
 import type { TextPath } from "./svg-text-path.js";
-import { baselineOffset, DECORATION_EM } from "./text-style.js";
-import type { TextFont } from "../text/text-font.js";
+import { baselineOffset, decorationHeight } from "./text-style.js";
+import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
 import { layOutLine } from "../text/text-line.js";
 
 /** A character of the text and the attributes that apply to it. */
@@ -55,6 +55,8 @@ interface LetterOnLine extends PlacedLetter {
   readonly pen: number;
   /** Position of its baseline across the line. */
   readonly lineY: number;
+  /** A combining mark: it moves and turns with the letter before it. */
+  readonly isMark: boolean;
 }
 
 interface Pen {
@@ -62,8 +64,7 @@ interface Pen {
   y: number;
 }
 
-/** Thickness of decorations, in em. */
-const BAR_EM = 0.06;
+const MARK = /^\p{M}$/u;
 const ANCHORS: Readonly<Record<Style["textAnchor"], number>> = { start: 0, middle: 0.5, end: 1 };
 
 export function layOutText(chars: readonly Char[], font: TextFont): LaidOutText {
@@ -160,33 +161,64 @@ function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: s
     .filter(({ path }) => path !== "");
 }
 
-/** Includes blanks, as letters without a path. */
+/**
+ * Includes blanks, as letters without a path. The run is shaped as a whole, so that letters with shifts of their
+ * own are still kerned.
+ */
 function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
-  const { style, angle, dx, dy } = run[0];
+  const { style } = run[0];
   const size = style.fontSize;
-  pen.x += style.text.isVertical ? dy : dx;
-  pen.y += style.text.isVertical ? -dx : dy;
-  const y = pen.y + baselineOffset(style.text, size);
-  const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily);
+  const isSeparate = run.some((char) => char.dx !== 0 || char.dy !== 0 || (char.angle ?? 0) !== 0);
+  const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily, {
+    hasLigatures: !isSeparate && style.letterSpacing === 0,
+    isSmallCaps: style.text.isSmallCaps,
+  });
   for (const char of line.missing) missing.push(char);
-  const startX = pen.x;
+  const offset = baselineOffset(style.text, size, font.metrics ?? USUAL_METRICS);
+  const letters: LetterOnLine[] = [];
+  let base: LetterOnLine | null = null;
+  let shifted = 0;
   let spacing = 0;
-  return line.letters.map((letter) => {
-    const spaced = startX + spacing;
-    spacing += style.letterSpacing + (letter.path === "" ? style.text.wordSpacing : 0);
-    pen.x = startX + spacing + (letter.pen + letter.advance) * size;
-    return {
+  for (const letter of line.letters) {
+    const char = run[Math.min(letter.at, run.length - 1)];
+    const isMark = base !== null && MARK.test(char.text);
+    for (; shifted < run.length && shifted <= letter.at; shifted++) {
+      if (!isMark) shiftPen(pen, run[shifted]);
+    }
+    if (isMark) pen.x -= spacing;
+    const y = pen.y + offset;
+    const placed: LetterOnLine = {
       path: letter.path,
-      x: spaced + letter.x * size,
+      x: pen.x + (letter.x - letter.pen) * size,
       y: y + letter.y * size,
       lineY: y,
-      pen: spaced + letter.pen * size,
+      pen: pen.x,
       advance: letter.advance * size,
-      angle: angle ?? 0,
+      angle: char.angle ?? 0,
       stretch: 1,
       style,
+      isMark,
     };
-  });
+    if (isMark && base !== null) letters.push(turnedWith(base, placed));
+    else letters.push((base = placed));
+    spacing = style.letterSpacing + (char.text === " " ? style.text.wordSpacing : 0);
+    pen.x += letter.advance * size + spacing;
+  }
+  return letters;
+}
+
+/** Along the line, and across it. */
+function shiftPen(pen: Pen, { dx, dy, style }: Char): void {
+  pen.x += style.text.isVertical ? dy : dx;
+  pen.y += style.text.isVertical ? -dx : dy;
+}
+
+/** The mark rotated together with its letter. On a path it goes where the letter goes. */
+function turnedWith(base: LetterOnLine, mark: LetterOnLine): LetterOnLine {
+  const { pen, lineY, angle, advance } = base;
+  const [x, y] = [mark.x - pen, mark.y - lineY];
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return { ...mark, x: pen + x * cos - y * sin, y: lineY + x * sin + y * cos, pen, angle, advance };
 }
 
 /** Stretches letters from `startX` to the pen to the length given by `textLength`. */
@@ -219,38 +251,27 @@ function stretched(
 
 /** Decoration lines of a letter, as separate letters: bars for an outline font, single strokes for others. */
 function decorationsOf(letter: LetterOnLine, font: TextFont): LetterOnLine[] {
-  const { style, advance, pen, lineY } = letter;
+  const { style, advance, pen, lineY, isMark } = letter;
+  if (isMark) return [];
+  const metrics = font.metrics ?? USUAL_METRICS;
   const width = advance / style.fontSize;
+  const thickness = metrics.lineThickness;
   return style.text.decorations.map(({ kind, fill, stroke }) => {
-    const y = DECORATION_EM[kind];
-    const bar = font.kind === "outline" ? `v${BAR_EM}H0z` : "";
-    return {
-      ...letter,
-      path: `M0 ${y}H${width}${bar}`,
-      x: pen,
-      y: lineY,
-      stretch: 1,
-      style: { ...style, fill, stroke },
-    };
+    const middle = -decorationHeight(kind, metrics);
+    const path =
+      font.kind === "outline"
+        ? `M0 ${middle - thickness / 2}H${width}v${thickness}H0z`
+        : `M0 ${middle}H${width}`;
+    return { ...letter, path, x: pen, y: lineY, stretch: 1, style: { ...style, fill, stroke } };
   });
 }
 
-/**
- * Groups of characters of one style without shifts inside, so that the font can join and kern within them.
- */
+/** Groups of characters of one style, so that the font can join and kern within them. */
 function runsOf(chars: readonly Char[]): Char[][] {
   const runs: Char[][] = [];
   for (const char of chars) {
     const run = runs[runs.length - 1];
-    const continues =
-      run !== undefined &&
-      run[0].style === char.style &&
-      run[0].angle === char.angle &&
-      run[0].stretch === char.stretch &&
-      char.dx === 0 &&
-      char.dy === 0 &&
-      (char.angle === null || char.angle === 0);
-    if (continues) run.push(char);
+    if (run !== undefined && run[0].style === char.style && run[0].stretch === char.stretch) run.push(char);
     else runs.push([char]);
   }
   return runs;

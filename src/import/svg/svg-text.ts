@@ -7,6 +7,7 @@ import { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
+import { withoutAlignment } from "./text-style.js";
 import type { Context } from "./svg-context.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
@@ -37,7 +38,7 @@ export function placeText(
   font: TextFont,
   conditions: SvgConditions,
 ): PlacedText {
-  const gatherer = new Gatherer(tree, cascade, paths, context, conditions);
+  const gatherer = new Gatherer(tree, cascade, paths, context, conditions, font.hasSmallCaps ?? false);
   gatherer.gather(element);
   const chars = collapseBlanks(gatherer.chars);
   gatherer.assignPositions(chars);
@@ -59,6 +60,7 @@ class Gatherer {
     private readonly paths: SvgTextPaths,
     private readonly context: Context,
     private readonly conditions: SvgConditions,
+    private readonly fontHasSmallCaps: boolean,
   ) {}
 
   gather(root: number): void {
@@ -106,12 +108,22 @@ class Gatherer {
         this.unsupported.push(tag);
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
         this.cascade.collect(node, this.declared);
-        const own = computeStyle(notAligned(style), this.declared, this.basisOf(style));
+        const own = this.styleInside(style);
         // Deeply nested spans have no use; deeper ones are not laid out.
         if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64)
           pushChildren(node, own, open, onPath, keepsBlanks, stretch);
       }
     }
+  }
+
+  /** The style of the element that `declared` belongs to, inside an element with `style`. */
+  private styleInside(style: Style): Style {
+    const passedOn = withoutAlignment(style.text);
+    const parent = passedOn === style.text ? style : { ...style, text: passedOn };
+    const own = computeStyle(parent, this.declared, this.basisOf(style));
+    const { isVertical } = this.context.style.text;
+    // The writing mode is that of the whole text.
+    return own.text.isVertical === isVertical ? own : { ...own, text: { ...own.text, isVertical } };
   }
 
   private basisOf({ fontSize }: Style): LengthBasis {
@@ -137,7 +149,8 @@ class Gatherer {
   private addText(text: string, common: CommonOfText, open: readonly number[]): void {
     for (const written of transformed(text, common.style.text.transform)) {
       if (this.chars.length >= MAX_CHARS) return;
-      const isSmall = common.style.text.isSmallCaps && written !== written.toUpperCase();
+      const isSmall =
+        !this.fontHasSmallCaps && common.style.text.isSmallCaps && written !== written.toUpperCase();
       const style = isSmall ? this.smallCapsOf(common.style) : common.style;
       const char = isSmall ? written.toUpperCase() : written;
       const entry: Char = { ...common, text: char, style, x: null, y: null, dx: 0, dy: 0, angle: null };
@@ -162,6 +175,8 @@ class Gatherer {
   assignPositions(kept: readonly Char[]): void {
     const isKept = new Set(kept);
     for (const { element, style, chars } of this.spans) {
+      // Its letters are placed along the path.
+      if (tagOf(this.tree, element) === "textPath") continue;
       const left = chars.filter((char) => isKept.has(char));
       const basis = this.basisOf(style);
       const list = (name: string, side: Side): (number | null)[] =>
@@ -173,20 +188,17 @@ class Gatherer {
       list("y", "height").forEach((y, i) => i < left.length && y !== null && (left[i].y = y));
       list("dx", "width").forEach((dx, i) => i < left.length && (left[i].dx = dx ?? 0));
       list("dy", "height").forEach((dy, i) => i < left.length && (left[i].dy = dy ?? 0));
-      const angles = list("rotate", "both");
+      const angles = (attribute(this.tree, element, "rotate") ?? "")
+        .split(/[\s,]+/)
+        .filter((part) => part !== "")
+        .map(Number);
       // The last angle applies to all following characters.
-      if (angles.length > 0) {
-        left.forEach((char, i) => (char.angle = (angles[Math.min(i, angles.length - 1)] ?? 0) * RAD_PER_DEG));
+      if (angles.length > 0 && !angles.some(Number.isNaN)) {
+        left.forEach((char, i) => (char.angle = angles[Math.min(i, angles.length - 1)] * RAD_PER_DEG));
       }
     }
   }
 }
-
-/** An element's own alignment is not inherited by its children. */
-const notAligned = (style: Style): Style =>
-  style.text.alignmentBaseline === "auto"
-    ? style
-    : { ...style, text: { ...style.text, alignmentBaseline: "auto" } };
 
 function transformed(text: string, how: string): string {
   if (how === "uppercase") return text.toUpperCase();

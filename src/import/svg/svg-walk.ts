@@ -13,26 +13,21 @@ import { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { elementTransform } from "./element-transform.js";
 import { lengthPx, type Side } from "./length.js";
-import {
-  contextPaints,
-  isInsideUseOf,
-  MAX_COPY_DEPTH,
-  withStyle,
-  withViewport,
-  type Context,
-} from "./svg-context.js";
+import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
 import { effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { markerPlaces } from "./markers.js";
 import { isMarked, SvgMarkers } from "./svg-markers.js";
-import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
+import { LayerGroups } from "./svg-layer-groups.js";
+import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
-import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
-import type { WarningCode, Warnings } from "../warnings.js";
+import { outsideText } from "./text-style.js";
+import { viewportInside } from "./svg-viewport.js";
+import type { Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
 
 /**
@@ -45,15 +40,15 @@ const ELEMENTS_PER_YIELD = 1000;
 const COORDS_PER_YIELD = 100_000;
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
-const NOT_DRAWN: Readonly<Record<string, WarningCode>> = {
-  image: "image-not-drawn",
-  video: "not-supported",
-  audio: "not-supported",
-  canvas: "not-supported",
-  iframe: "not-supported",
-  mesh: "not-supported",
-  flowRoot: "not-supported",
-};
+/** Elements that draw nothing where they stand. All others that are not drawn here are reported. */
+const INVISIBLE = new Set(
+  `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
+   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view`.split(
+    /\s+/,
+  ),
+);
+/** Not drawn either, but a `switch` may choose them. */
+const EMBEDDED = new Set(["image", "video", "audio", "canvas", "iframe"]);
 const ANIMATIONS = new Set(["animate", "animateTransform", "animateMotion", "animateColor", "set"]);
 
 interface Frame {
@@ -77,15 +72,14 @@ export class SvgWalk {
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
-  /** The group for shapes outside every layer; −1 until needed. */
-  private looseGroup = -1;
   private readonly markers: SvgMarkers;
+  private readonly layerGroups: LayerGroups;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
-    private readonly layers: LayerPlan,
+    layers: LayerPlan,
     private readonly svgGeometry: SvgGeometry,
     private readonly clips: SvgClips,
     private readonly painter: SvgPainter,
@@ -94,6 +88,7 @@ export class SvgWalk {
     private readonly conditions: SvgConditions,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
+    this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
   }
 
   /** Draws everything below the root. Yields often enough to keep a page responsive. */
@@ -156,16 +151,16 @@ export class SvgWalk {
     this.cascade.collect(element, declared);
     const styled = this.styled(outer);
     const { style } = styled;
-    const group = this.groupOf(element, tag, outer);
+    const group = this.layerGroups.groupOf(element, tag, outer);
     if (declaredValue(style, declared, "display") === "none") {
-      if (group !== outer.group) this.hideGroup(group);
+      if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
     if (this.isTransparent(style)) {
-      if (group !== outer.group) this.hideGroup(group);
+      if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
-    if (group !== outer.group && tag === "g" && !style.isVisible) this.warnOfHidden(group);
+    if (group !== outer.group && tag === "g" && !style.isVisible) this.layerGroups.warnOfHidden(group);
     const transform = this.transformOf(element, style, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
@@ -185,7 +180,10 @@ export class SvgWalk {
   private styled(outer: Context): Context {
     const { last, declared } = this;
     if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
-      last.inner = withStyle(outer, computeStyle(outer.style, declared, outer.basis), IDENTITY);
+      const { text: around } = outer.style;
+      const text = declared.get("baseline-shift") === "inherit" ? around : outsideText(around);
+      const parent = text === outer.style.text ? outer.style : { ...outer.style, text };
+      last.inner = withStyle(outer, computeStyle(parent, declared, outer.basis), IDENTITY);
       last.outer = outer;
       last.declared.copyFrom(declared);
     }
@@ -214,7 +212,7 @@ export class SvgWalk {
         return;
       case "svg":
       case "symbol": {
-        const inner = this.viewportInside(element, tag, context, outerSizeOf(context, element));
+        const inner = viewportInside(tree, this.clips, element, this.declared, context);
         if (inner !== null) this.push(inner, tree.firstChildren[element], false, effects);
         return;
       }
@@ -291,45 +289,12 @@ export class SvgWalk {
     return candidate <= element && element < this.subtreeEnds[candidate];
   }
 
-  /** The context inside a nested svg or a symbol; null if it has no size. */
-  private viewportInside(
-    element: number,
-    tag: string,
-    context: Context,
-    useSize: { readonly width: number | null; readonly height: number | null } | null,
-  ): Context | null {
-    const { tree, declared } = this;
-    const { viewportWidth, viewportHeight } = context.basis;
-    const isSvg = tag === "svg";
-    // As in browsers, the attributes apply and CSS does not.
-    const length = (name: "x" | "y" | "width" | "height", side: Side): number | null =>
-      lengthPx(attribute(tree, element, name) ?? "", context.basis, side);
-    const x = isSvg ? (length("x", "width") ?? 0) : 0;
-    const y = isSvg ? (length("y", "height") ?? 0) : 0;
-    const ownWidth = notNegative(length("width", "width"));
-    const ownHeight = notNegative(length("height", "height"));
-    const width = useSize?.width ?? ownWidth ?? viewportWidth;
-    const height = useSize?.height ?? ownHeight ?? viewportHeight;
-    if (!(width > 0 && height > 0) || isEmptyViewBox(attribute(tree, element, "viewBox"))) return null;
-    const box = parseViewBox(attribute(tree, element, "viewBox"));
-    const inner =
-      box === null
-        ? IDENTITY
-        : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
-    const overflow = declaredValue(context.style, declared, "overflow");
-    const isCut = overflow !== "visible" && overflow !== "auto";
-    const clip = isCut ? this.clips.rectangleClip(context, x, y, width, height) : context.clip;
-    const map = compose(translation(x, y), inner);
-    return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
-  }
-
   private visitOther(element: number, tag: string, outer: Context): void {
     if (ANIMATIONS.has(tag)) {
       this.warnings.add("animation-ignored");
       return;
     }
-    const code = Object.hasOwn(NOT_DRAWN, tag) ? NOT_DRAWN[tag] : undefined;
-    if (code === undefined || !this.conditions.areMet(element)) return;
+    if (INVISIBLE.has(tag) || !this.conditions.areMet(element)) return;
     const { declared } = this;
     this.cascade.collect(element, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
@@ -343,7 +308,8 @@ export class SvgWalk {
       this.geometry(context, element, "width", "width") ?? 0,
       this.geometry(context, element, "height", "height") ?? 0,
     );
-    this.warnings.add(code, box, code === "not-supported" ? tag : undefined);
+    if (tag === "image") this.warnings.add("image-not-drawn", box);
+    else this.warnings.add("not-supported", box, tag.slice(0, 40));
   }
 
   /** A length from CSS or an attribute. Valid while `declared` belongs to this element. */
@@ -375,36 +341,10 @@ export class SvgWalk {
     const { tree } = this;
     for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
       const tag = tagOf(tree, child);
-      const isDrawn = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || tag in NOT_DRAWN;
-      if (isDrawn && this.conditions.areMet(child)) return child;
+      const isKnown = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || EMBEDDED.has(tag);
+      if (isKnown && this.conditions.areMet(child)) return child;
     }
     return -1;
-  }
-
-  private groupOf(element: number, tag: string, outer: Context): number {
-    const { tree, layers, builder } = this;
-    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
-    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
-    if (isLayer) {
-      const number = builder.groups.length + 1;
-      const name = layerName(tree, element) ?? `Layer ${number}`;
-      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
-    }
-    if (this.looseGroup < 0) {
-      const number = builder.groups.length + 1;
-      this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
-    }
-    return this.looseGroup;
-  }
-
-  private hideGroup(group: number): void {
-    const { groups } = this.builder;
-    groups[group] = { ...groups[group], hidden: true };
-    this.warnOfHidden(group);
-  }
-
-  private warnOfHidden(group: number): void {
-    this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
   }
 
   private spendCopy(context: Context): void {
@@ -418,17 +358,6 @@ export class SvgWalk {
       }). Remove copies of copies, or export with copies resolved.`,
     );
   }
-}
-
-/** A negative size is invalid and counts as absent. */
-const notNegative = (length: number | null): number | null => (length !== null && length < 0 ? null : length);
-
-/** The size that a `use` sets on the svg or symbol it refers to. */
-function outerSizeOf(
-  context: Context,
-  element: number,
-): { readonly width: number | null; readonly height: number | null } | null {
-  return context.uses?.target === element ? context.uses.size : null;
 }
 
 /** One past the last element inside each element; elements stand in document order. */

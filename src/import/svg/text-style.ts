@@ -2,12 +2,7 @@
 import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
 import type { Paint } from "./paint.js";
-
-/** Approximate metrics of browser fonts: above and below the baseline, and x-height. */
-const ASCENT_EM = 0.9;
-const DESCENT_EM = 0.21;
-const X_HEIGHT_EM = 0.46;
-const CENTRAL_EM = (ASCENT_EM - DESCENT_EM) / 2;
+import type { FontMetrics } from "../text/text-font.js";
 
 export interface TextStyle {
   /** px after each blank. */
@@ -20,8 +15,10 @@ export interface TextStyle {
   readonly keepsBlanks: boolean | null;
   readonly dominantBaseline: string;
   readonly alignmentBaseline: string;
-  /** px upwards, summed over all enclosing elements. */
+  /** px upwards, summed over the enclosing elements of the text. */
   readonly baselineShift: number;
+  /** The same for `sub` and `super`, in px for a font whose letters are 1 em high. */
+  readonly heightShift: number;
   readonly decorations: readonly Decoration[];
 }
 
@@ -35,12 +32,11 @@ export interface Decoration {
 const DECORATIONS = ["underline", "overline", "line-through"] as const;
 type DecorationKind = (typeof DECORATIONS)[number];
 
-/** em below the baseline. */
-export const DECORATION_EM: Readonly<Record<DecorationKind, number>> = {
-  underline: 0.12,
-  overline: -ASCENT_EM,
-  "line-through": -X_HEIGHT_EM / 2,
-};
+/** em of the line's middle above the baseline. */
+export function decorationHeight(kind: DecorationKind, metrics: FontMetrics): number {
+  if (kind === "overline") return metrics.ascent;
+  return kind === "underline" ? metrics.underline : metrics.strikeout;
+}
 
 export const INITIAL_TEXT_STYLE: TextStyle = {
   wordSpacing: 0,
@@ -52,30 +48,40 @@ export const INITIAL_TEXT_STYLE: TextStyle = {
   dominantBaseline: "auto",
   alignmentBaseline: "auto",
   baselineShift: 0,
+  heightShift: 0,
   decorations: [],
 };
 
-const HEIGHT_EM = ASCENT_EM + DESCENT_EM;
-
 /** em by which letters move down, so that this baseline lies on the text's line. */
-const BASELINES: Readonly<Record<string, number>> = {
-  middle: X_HEIGHT_EM / 2,
-  central: CENTRAL_EM,
-  hanging: 0.8 * ASCENT_EM,
-  mathematical: ASCENT_EM / 2,
-  "before-edge": ASCENT_EM,
-  "text-before-edge": ASCENT_EM,
-  "after-edge": -DESCENT_EM,
-  "text-after-edge": -DESCENT_EM,
-  ideographic: -DESCENT_EM,
+const BASELINES: Readonly<Record<string, (metrics: FontMetrics) => number>> = {
+  middle: ({ xHeight }) => xHeight / 2,
+  central: ({ ascent, descent }) => (ascent - descent) / 2,
+  hanging: ({ ascent }) => 0.8 * ascent,
+  mathematical: ({ ascent }) => ascent / 2,
+  "before-edge": ({ ascent }) => ascent,
+  "text-before-edge": ({ ascent }) => ascent,
+  "after-edge": ({ descent }) => -descent,
+  "text-after-edge": ({ descent }) => -descent,
+  ideographic: ({ descent }) => -descent,
 };
 
 /** px downwards: offset of the letters from the text's line. */
-export function baselineOffset(text: TextStyle, fontSize: number): number {
-  const usual = text.isVertical ? CENTRAL_EM : 0;
+export function baselineOffset(text: TextStyle, fontSize: number, metrics: FontMetrics): number {
+  const usual = text.isVertical ? BASELINES["central"] : (): number => 0;
   const own = BASELINES[text.alignmentBaseline] ?? BASELINES[text.dominantBaseline] ?? usual;
-  return own * fontSize - text.baselineShift;
+  const shift = text.baselineShift + text.heightShift * (metrics.ascent + metrics.descent);
+  return own(metrics) * fontSize - shift;
 }
+
+/** What an element passes on to its children: `alignment-baseline` is its own. */
+export const withoutAlignment = (text: TextStyle): TextStyle =>
+  text.alignmentBaseline === "auto" ? text : { ...text, alignmentBaseline: "auto" };
+
+/** What an element outside a text passes on to it: `baseline-shift` is not inherited either. */
+export const outsideText = (text: TextStyle): TextStyle =>
+  text.baselineShift === 0 && text.heightShift === 0
+    ? withoutAlignment(text)
+    : { ...withoutAlignment(text), baselineShift: 0, heightShift: 0 };
 
 const PROPERTIES: ReadonlySet<string> = new Set<Property>([
   "word-spacing",
@@ -126,8 +132,11 @@ export function computeTextStyle(
   if (dominant !== undefined && dominant !== "auto") changes.dominantBaseline = dominant;
   changes.alignmentBaseline = valueOf("alignment-baseline") ?? parent.alignmentBaseline;
   const shift = valueOf("baseline-shift");
-  if (shift !== undefined)
+  if (shift === "sub" || shift === "super") {
+    changes.heightShift = parent.heightShift + (shift === "sub" ? -0.5 : 0.5) * style.fontSize;
+  } else if (shift !== undefined) {
     changes.baselineShift = parent.baselineShift + shiftOf(shift, style.fontSize, lengthOf);
+  }
   const decoration = `${valueOf("text-decoration") ?? ""} ${valueOf("text-decoration-line") ?? ""}`;
   const added = DECORATIONS.filter((kind) => decoration.split(/\s+/).includes(kind));
   if (added.length > 0) {
@@ -140,8 +149,6 @@ export function computeTextStyle(
 
 function shiftOf(text: string, fontSize: number, lengthOf: (text: string) => number | null): number {
   if (text === "baseline") return 0;
-  if (text === "sub") return (-HEIGHT_EM / 2) * fontSize;
-  if (text === "super") return (HEIGHT_EM / 2) * fontSize;
   if (text.endsWith("%")) return (parseFloat(text) / 100) * fontSize || 0;
   return lengthOf(text) ?? 0;
 }

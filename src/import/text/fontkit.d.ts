@@ -5,7 +5,17 @@ declare module "fontkit" {
   }
   export interface Font {
     readonly unitsPerEm: number;
-    layout(text: string): {
+    readonly ascent: number;
+    readonly descent: number;
+    readonly xHeight: number;
+    readonly underlinePosition: number;
+    readonly underlineThickness: number;
+    readonly availableFeatures: readonly string[];
+    readonly "OS/2"?: { readonly yStrikeoutPosition?: number };
+    layout(
+      text: string,
+      features?: Readonly<Record<string, boolean>>,
+    ): {
       readonly glyphs: readonly {
         readonly id: number;
         readonly path: Path;

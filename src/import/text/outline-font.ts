@@ -4,7 +4,13 @@
 /** Letters as outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first font of a collection. */
 import type { Font } from "fontkit";
 import { PlotwrightError } from "../../errors.js";
-import type { LaidOutGlyph, TextFont } from "./text-font.js";
+import {
+  USUAL_METRICS,
+  type FontMetrics,
+  type LaidOutGlyph,
+  type LetterStyle,
+  type TextFont,
+} from "./text-font.js";
 
 const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
   moveTo: "M",
@@ -16,9 +22,10 @@ const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
 const NOT_DEFINED = 0;
 
 /**
- * Rejects with PlotwrightError("bad-file") if the bytes are not a font.
+ * Opens a font file (TrueType, OpenType, WOFF), for `ImportOptions.font`. The font library is loaded by the first call,
+ * because loading takes as long as importing thousands of lines.
  *
- * The font library is loaded here, on demand: loading takes as long as a drawing of thousands of lines.
+ * @throws PlotwrightError "bad-file" if the bytes are not a font
  */
 export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   const { create } = await import("fontkit");
@@ -38,18 +45,44 @@ export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
       },
     );
   }
-  return { kind: "outline", layout: (text) => layOut(font, text) };
+  return {
+    kind: "outline",
+    metrics: metricsOf(font),
+    hasSmallCaps: font.availableFeatures.includes("smcp"),
+    layout: (text, style) => layOut(font, text, style),
+  };
 }
 
-function layOut(font: Font, text: string): ReturnType<TextFont["layout"]> {
-  const run = font.layout(text);
+/** A font may lack tables or have zeros in them: then the usual values apply. */
+function metricsOf(font: Font): FontMetrics {
+  const em = (units: number | undefined, usual: number): number =>
+    units === undefined || !Number.isFinite(units) || units === 0 ? usual : units / font.unitsPerEm;
+  const xHeight = em(font.xHeight, USUAL_METRICS.xHeight);
+  return {
+    ascent: em(font.ascent, USUAL_METRICS.ascent),
+    descent: em(-font.descent, USUAL_METRICS.descent),
+    xHeight,
+    underline: em(font.underlinePosition, USUAL_METRICS.underline),
+    strikeout: em(font["OS/2"]?.yStrikeoutPosition, xHeight / 2),
+    lineThickness: em(font.underlineThickness, USUAL_METRICS.lineThickness),
+  };
+}
+
+function layOut(font: Font, text: string, style: LetterStyle): ReturnType<TextFont["layout"]> {
+  const run = font.layout(text, {
+    ...(style.hasLigatures === false ? { liga: false, clig: false } : {}),
+    ...(style.isSmallCaps === true ? { smcp: true } : {}),
+  });
+  let next = 0;
   const em = 1 / font.unitsPerEm;
   const missing: string[] = [];
   const glyphs = run.glyphs.map((glyph, i): LaidOutGlyph => {
+    const at = next;
+    next += glyph.codePoints.length;
     const { xAdvance, xOffset, yOffset } = run.positions[i];
     if (glyph.id === NOT_DEFINED) {
       missing.push(String.fromCodePoint(...glyph.codePoints));
-      return { path: "", x: 0, y: 0, advance: xAdvance * em };
+      return { path: "", x: 0, y: 0, advance: xAdvance * em, at };
     }
     const path = glyph.path.commands
       .map(
@@ -57,7 +90,7 @@ function layOut(font: Font, text: string): ReturnType<TextFont["layout"]> {
           LETTER_OF_COMMAND[command] + args.map((v, k) => (k % 2 === 0 ? v : -v) * em).join(" "),
       )
       .join("");
-    return { path, x: xOffset * em, y: -yOffset * em, advance: xAdvance * em };
+    return { path, x: xOffset * em, y: -yOffset * em, advance: xAdvance * em, at };
   });
   return { glyphs, missing };
 }

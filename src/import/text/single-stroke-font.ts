@@ -152,16 +152,19 @@ export const singleStrokeFont: TextFont = {
     const table = isScript ? HERSHEY_SCRIPT : HERSHEY_SANS;
     const glyphs: LaidOutGlyph[] = [];
     const missing: string[] = [];
-    for (const char of text) {
+    let at = 0;
+    // A character and the combining marks after it are one letter.
+    for (const [char] of text.matchAll(/.\p{M}*/gsu)) {
       const letters = lettersOf(char, table);
       if (letters === null) missing.push(char);
-      else for (const letter of letters) glyphs.push(glyphOf(letter));
+      else for (const letter of letters) glyphs.push({ ...glyphOf(letter), at });
+      at += [...char].length;
     }
     return { glyphs, missing };
   },
 };
 
-/** The letters for one character of the text; null if there are none. */
+/** The letters for one character of the text, with its combining marks; null if there are none. */
 function lettersOf(char: string, table: readonly string[]): Letter[] | null {
   const plain = SUBSTITUTES[char] ?? char.normalize("NFD");
   const letters: Letter[] = [];

@@ -3,6 +3,7 @@
  * at 0.
  */
 
+/** One letter of a text that a font has laid out. */
 export interface LaidOutGlyph {
   /** Path data with absolute commands; "" for a blank. */
   readonly path: string;
@@ -11,14 +12,42 @@ export interface LaidOutGlyph {
   readonly y: number;
   /** Distance to the next glyph. */
   readonly advance: number;
+  /** Index of its first character in the text, counted in code points. Default: the glyph's own index. */
+  readonly at?: number;
 }
 
+/** How letters are to be shaped. */
+export interface LetterStyle {
+  readonly family: string;
+  /** False where letters are placed one by one. Default: true. */
+  readonly hasLigatures?: boolean;
+  /** Only for fonts with `hasSmallCaps`. Default: false. */
+  readonly isSmallCaps?: boolean;
+}
+
+/** Heights of a font, in em. Those above the baseline are positive, except `descent`, which is below it. */
+export interface FontMetrics {
+  readonly ascent: number;
+  readonly descent: number;
+  readonly xHeight: number;
+  /** The middles of the lines of text decoration, and their thickness. */
+  readonly underline: number;
+  readonly strikeout: number;
+  readonly lineThickness: number;
+}
+
+/** A source of letters. Lengths in em, y down, baseline at 0. */
 export interface TextFont {
   /** Outlines are filled; single strokes are drawn as lines. */
   readonly kind: "outline" | "single-stroke";
+  /** Default: those of a usual font. */
+  readonly metrics?: FontMetrics;
+  /** Whether it has small capitals of its own; if not, they are made from its capitals. */
+  readonly hasSmallCaps?: boolean;
+  /** The glyphs of one line of text. `family` is the font family that the drawing asks for. */
   layout(
     text: string,
-    style: { readonly family: string },
+    style: LetterStyle,
   ): {
     readonly glyphs: readonly LaidOutGlyph[];
     /** Characters without a glyph in the font. */
@@ -31,3 +60,13 @@ export const CAPITAL_EM = 0.7;
 /** Approximate ascent of all fonts, and depth of a "g" below the baseline. */
 export const ASCENT_EM = 0.9;
 export const DESCENT_EM = 7 / 30;
+
+/** Metrics of usual browser fonts, for fonts without their own. */
+export const USUAL_METRICS: FontMetrics = {
+  ascent: 0.9,
+  descent: 0.21,
+  xHeight: 0.46,
+  underline: -0.12,
+  strikeout: 0.23,
+  lineThickness: 0.06,
+};

@@ -5,7 +5,7 @@
 import { compose, translation, type Affine } from "../../geometry/affine.js";
 import { drawPathData } from "../path-data.js";
 import { ShapeBuffer } from "../shape-buffer.js";
-import type { TextFont } from "./text-font.js";
+import type { LetterStyle, TextFont } from "./text-font.js";
 
 export interface LineLetter {
   /** Path data; "" for a blank. */
@@ -17,6 +17,8 @@ export interface LineLetter {
   /** Position of the letter's path. */
   readonly x: number;
   readonly y: number;
+  /** Index of its first character in the line, counted in code points. */
+  readonly at: number;
 }
 
 export interface TextLine {
@@ -26,11 +28,16 @@ export interface TextLine {
   readonly missing: readonly string[];
 }
 
-export function layOutLine(font: TextFont, text: string, family: string): TextLine {
-  const { glyphs, missing } = font.layout(text, { family });
+export function layOutLine(
+  font: TextFont,
+  text: string,
+  family: string,
+  style: Omit<LetterStyle, "family"> = {},
+): TextLine {
+  const { glyphs, missing } = font.layout(text, { family, ...style });
   let pen = 0;
-  const letters = glyphs.map(({ path, x, y, advance }): LineLetter => {
-    const letter = { path, pen, advance, x: pen + x, y };
+  const letters = glyphs.map(({ path, x, y, advance, at }, i): LineLetter => {
+    const letter = { path, pen, advance, x: pen + x, y, at: at ?? i };
     pen += advance;
     return letter;
   });

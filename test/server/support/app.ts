@@ -4,22 +4,26 @@ import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { prepareDataDir } from "../../../server/data-dir.js";
-import { apiMounts, createApp, type AppParts } from "../../../server/http/app.js";
+import { prepareDataDir } from "../../../server/storage/data-dir.js";
+import { apiParts, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
-import { MachineFiles } from "../../../server/machines/machine-files.js";
+import { MachineFiles } from "../../../server/storage/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
-import { PlotterRegistry } from "../../../server/plotter-registry.js";
+import { PlotterRegistry } from "../../../server/plotter/plotter-registry.js";
 import { Notices } from "../../../server/queue/notices.js";
 import { OperatorLock } from "../../../server/security/operator-lock.js";
 import { pairingLinks } from "../../../server/security/network.js";
 import type { FoundBoard } from "../../../server/serial/find-boards.js";
-import { Webhooks } from "../../../server/webhooks/webhooks.js";
+import { Webhooks } from "../../../server/plugins/webhooks/webhooks.js";
+import { WEBHOOK_ROUTES, webhookRoutes } from "../../../server/plugins/webhooks/webhook-routes.js";
+import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
-import { DrawingFiles } from "../../../server/queue/drawing-files.js";
+import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { JobQueue } from "../../../server/queue/job-queue.js";
-import type { Planning } from "../../../server/queue/queue-parts.js";
-import { Store } from "../../../server/queue/store.js";
+import type { Planning } from "../../../server/planning/planning.js";
+import { UploadedDrawings } from "../../../server/storage/uploaded-drawings.js";
+import type { ApiRoute } from "../../../server/http/api-route.js";
+import { Store } from "../../../server/storage/store.js";
 import { Access } from "../../../server/security/access.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";
 
@@ -36,6 +40,8 @@ export interface TestApp {
   readonly logged: string[];
   /** "method path" of every route below /api/v1. */
   routes(): string[];
+  /** What the OpenAPI document is made of. */
+  documented(): readonly ApiRoute[];
   drawingsOnDisk(): string[];
   /** From now on requests have to come that fast. */
   hurry(headersMs: number, wholeMs: number): void;
@@ -48,6 +54,8 @@ export async function startApp(
     readonly maxUploadBytes?: number;
     readonly trustsLoopback?: boolean;
     readonly lapseMs?: number;
+    /** How long an upload waits for its job. */
+    readonly keepUploadsMs?: number;
     readonly boards?: readonly FoundBoard[];
     readonly tls?: TlsFiles;
     readonly times?: { readonly connectionsCheckingInterval: number };
@@ -78,7 +86,13 @@ export async function startApp(
     },
   });
   const plotters = registry.ports;
-  const webhooks = new Webhooks({ store: store.webhooks, plotterName: (id) => id, log, pausesS: [0, 0, 0] });
+  const webhooks = new Webhooks({
+    store: new WebhookStore(store.database),
+    plotterName: (id) => id,
+    log,
+    pausesS: [0, 0, 0],
+  });
+  const uploads = new UploadedDrawings(files, log, options.keepUploadsMs);
   const queue = new JobQueue({
     store,
     files,
@@ -102,12 +116,12 @@ export async function startApp(
     version: "0.0.0",
     queue,
     files,
+    uploads,
     registry,
     hub,
     operatorLock,
-    webhooks,
     notices,
-    shared: null,
+    plugins: [{ path: "/webhooks", router: webhookRoutes(webhooks, log), routes: WEBHOOK_ROUTES }],
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
     serverLog: () => logged.join("\n"),
@@ -132,13 +146,14 @@ export async function startApp(
     webhooks,
     more,
     routes: () =>
-      apiMounts(parts).flatMap(([mount, router]) =>
+      apiParts(parts).flatMap(({ path, router }) =>
         router.stack.flatMap(({ route }) =>
           (route?.stack ?? []).map(
-            ({ method }) => `${method} ${mount}${route?.path === "/" ? "" : route?.path}`,
+            ({ method }) => `${method} ${path}${route?.path === "/" ? "" : route?.path}`,
           ),
         ),
       ),
+    documented: () => apiParts(parts).flatMap(({ routes }) => routes),
     logged,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),
     hurry: (headersMs, wholeMs) => {
@@ -151,6 +166,7 @@ export async function startApp(
       await new Promise((resolve) => http.close(resolve));
       await queue.close();
       await webhooks.close();
+      await uploads.close();
       operatorLock.close();
       store.close();
       rmSync(dir, { recursive: true, force: true });

@@ -1,13 +1,13 @@
 /** A plotter and a planner without hardware or threads, led by the test. */
 import type { HandMove } from "../../../server/plotter/hand-moves.js";
-import type { ManagedPlotter } from "../../../server/queue/plotter-port.js";
-import type { Planning } from "../../../server/queue/queue-parts.js";
+import type { ManagedPlotter } from "../../../server/plotter/plotter-port.js";
+import type { Planning } from "../../../server/planning/planning.js";
+import type { PlotPlanner } from "../../../server/planning/plot-planner.js";
 import type {
   JournalEntry,
   LivePlotRun,
   PlotChange,
   PlotOutcome,
-  PlotPlanner,
   PlotProgress,
   PlotStart,
 } from "../../../server/plotter/types.js";

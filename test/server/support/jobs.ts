@@ -1,5 +1,5 @@
 import { createHash } from "node:crypto";
-import type { StoredDrawing } from "../../../server/queue/drawing-files.js";
+import type { StoredDrawing } from "../../../server/storage/drawing-files.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type JobStats } from "../../../src/schema/index.js";
 
 export const STATS: JobStats = {

@@ -3,9 +3,9 @@
  * that it is ("done"), until it is killed. Usage: node --import tsx store-child.ts DATA_DIR SEED
  */
 import { writeSync } from "node:fs";
-import { prepareDataDir } from "../../../server/data-dir.js";
+import { prepareDataDir } from "../../../server/storage/data-dir.js";
 import { applyJobEvent, type JobEvent } from "../../../server/queue/job-machine.js";
-import { Store } from "../../../server/queue/store.js";
+import { Store } from "../../../server/storage/store.js";
 import { drawingOf, makeJob } from "./jobs.js";
 import { pictureOf } from "./store-picture.js";
 

@@ -1,5 +1,4 @@
 import { describe, expect, it } from "vitest";
-import { IDENTITY } from "../../../src/geometry/affine.js";
 import { LineBuilder, lineCount, type Lines } from "../../../src/geometry/polyline.js";
 
 const COUNT = 5000;
@@ -25,32 +24,16 @@ describe("a line builder", () => {
     }
   });
 
-  it("copies ranges and mapped points to what it makes of them point by point", () => {
-    const lines = manyLines();
-    const byPoint = new LineBuilder();
-    const atOnce = new LineBuilder();
-    for (const builder of [byPoint, atOnce]) {
-      builder.point(-1, -1);
-      builder.end(7);
-    }
-    for (let i = 2; i < COUNT; i++) byPoint.copy(lines, i, i < 1000 ? lines.tag[i] : i);
-    atOnce.copyRange(lines, 2, 1000);
-    const numbers = lines.offsets.map((point) => 2 * point);
-    expect(atOnce.addMapped(lines.xy, numbers, 1000, COUNT, IDENTITY)).toBe(COUNT);
-    expect(atOnce.finish()).toEqual(byPoint.finish());
-  });
-
   it("leaves out a point that repeats the one before it, whichever way it comes", () => {
     const xy = Float64Array.of(1, 1, 2, 2, 0, 0, 5, 5, 5, 5, 9, 9, 3, 3, 4, 4);
     const lines = { xy, offsets: Uint32Array.of(0, 2, 6, 8), tag: Uint32Array.of(6, 7, 8) };
     const builder = new LineBuilder();
-    expect(builder.addMapped(xy, Uint32Array.of(0, 4, 12, 16), 0, 3, IDENTITY)).toBe(1);
-    builder.copyRange(lines, 0, 3);
+    for (let i = 0; i < 3; i++) builder.copy(lines, i, lines.tag[i]);
     builder.copy(lines, 1, 3, true);
     const built = builder.finish();
     const copied = [1, 1, 2, 2, 0, 0, 5, 5, 9, 9, 3, 3, 4, 4];
-    expect([...built.xy]).toEqual([1, 1, 2, 2, ...copied, 9, 9, 5, 5, 0, 0]);
-    expect([...built.offsets]).toEqual([0, 2, 4, 7, 9, 12]);
-    expect([...built.tag]).toEqual([0, 6, 7, 8, 3]);
+    expect([...built.xy]).toEqual([...copied, 9, 9, 5, 5, 0, 0]);
+    expect([...built.offsets]).toEqual([0, 2, 5, 7, 10]);
+    expect([...built.tag]).toEqual([6, 7, 8, 3]);
   });
 });

@@ -29,6 +29,12 @@ describe("markers", () => {
       "in the colours of the shape",
       `<marker id="m" markerWidth="5" markerHeight="5"><path d="M1 1L3 2L1 3z" fill="context-stroke"/></marker>${LINE}`,
     ],
+    [
+      "turned at a cusp and at a reversal",
+      `<marker id="m" markerWidth="5" markerHeight="5" orient="auto" overflow="visible"><path d="M1 1L3 2L1 3z"/></marker>
+       <g fill="none" stroke="red" marker-mid="url(#m)">
+       <path d="M20 75C47 70 50 52 50 20C50 52 52 70 80 80"/><path d="M15 90L85 90L15 90"/></g>`,
+    ],
   ])("%s", (_name, body) => {
     expectAgreement(body);
   });

@@ -5,6 +5,7 @@ import type { MachineCommands } from "../../machine-job.js";
  * that it can be transferred between threads. Read a line with `commandLine(stream, i)`.
  */
 export interface CommandStream extends MachineCommands {
+  /** Number of commands. */
   readonly count: number;
   /** ASCII of all commands, each terminated by CR: ready to be written. */
   readonly text: Uint8Array;

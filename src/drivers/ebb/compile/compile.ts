@@ -31,10 +31,13 @@ import { SliceRuns } from "./write-slices.js";
 import { SteppedWriter } from "./write-stepped.js";
 import { TimedWriter } from "./write-timed.js";
 
+/** The board that `compile` writes for. */
 export interface CompileOptions {
+  /** A machine with an EiBotBoard. */
   readonly machine: MachineProfile;
   /** As in the board's reply to V: "2.8.1". */
   readonly firmware: string;
+  /** Heights and speeds of the pen. */
   readonly pen: PenSettings;
   /** State of the board at the start; default: at home, as after EM and CS. */
   readonly start?: BoardState | undefined;
@@ -42,7 +45,7 @@ export interface CompileOptions {
 
 /**
  * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
- * The motors are switched on and off by `setUpCommands` and `closingCommands`, once per session.
+ * `setUpCommands` switch the motors on before it, once per session; `EM,0,0` switches them off.
  *
  * @throws PlotwrightError "bad-setting" for an invalid firmware version or an incomplete machine profile
  * @throws RangeError for a trajectory with values that are not finite
@@ -52,7 +55,11 @@ export function compile(trajectory: Trajectory, options: CompileOptions): Comman
   return new Compiler(trajectory, options).run();
 }
 
-/** One command of a stream, without its line end. */
+/**
+ * One command of a stream as text, without its line end.
+ *
+ * @throws RangeError for an index outside the stream
+ */
 export function commandLine(stream: CommandStream, index: number): string {
   if (!(index >= 0 && index < stream.count)) {
     throw new RangeError(`command ${index} does not exist: the stream has ${stream.count} commands`);

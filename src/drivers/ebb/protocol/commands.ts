@@ -17,7 +17,10 @@ const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
 const STANDARD_PIN = 4;
 
-/** Before the first plot after connecting: motors on (which zeroes the step counters), pen heights and speeds. */
+/**
+ * The commands to send before the first plot after connecting: motors on, which sets the step counters to zero, and the
+ * pen's heights and speeds.
+ */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
   checkProfile(machine);
   const features = firmwareFeatures(firmware);

@@ -14,7 +14,9 @@ import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
 import { SessionLog } from "../../session-log.js";
 import type { Clock, Transport } from "../../transport.js";
 
+/** Time-outs and log of a `BoardSession`. */
 export interface SessionOptions {
+  /** For time-outs, in real seconds. */
   readonly clock: Clock;
   /** Time without a reply after which the board counts as gone. Default 1.5 s. */
   readonly patienceS?: number;
@@ -30,6 +32,7 @@ export interface Outgoing {
   readonly onReply?: (error: PlotwrightError | null, value: string) => void;
 }
 
+/** What a board says about itself. */
 export interface BoardIdentity {
   /** For example "2.8.1". */
   readonly firmware: string;
@@ -51,8 +54,14 @@ const QUESTION_TRIES = 3;
 /** Log lines to search for the message about a device that is not an EiBotBoard. */
 const HEARD_LINES = 6;
 
+/**
+ * One EiBotBoard over one transport: sends commands in order, matches replies to commands, and detects a silent board.
+ * Call `identify` first.
+ */
 export class BoardSession {
+  /** What was sent and received. */
   readonly log: SessionLog;
+  /** Set by `identify`. */
   identity: BoardIdentity | null = null;
 
   private readonly clock: Clock;

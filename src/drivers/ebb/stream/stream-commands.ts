@@ -13,7 +13,10 @@ export interface StreamProgress extends StreamPlace {
   readonly leftS: number;
 }
 
-/** Plays one stream to its end, or after `cancel` is raised, until the commands already written are done. */
+/**
+ * Plays one stream to its end and compares the board's step counters with the prediction. When `cancel` is raised, it
+ * sends nothing more and ends once the commands already sent are done.
+ */
 export async function streamCommands(
   session: BoardSession,
   stream: CommandStream,

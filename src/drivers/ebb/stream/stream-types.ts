@@ -2,6 +2,7 @@
 import type { InFlight, StreamPlace } from "./timeline.js";
 import type { Clock } from "../../transport.js";
 
+/** How commands are sent. Only the clock has no default. */
 export interface StreamOptions {
   /** Counts board seconds. */
   readonly clock: Clock;
@@ -35,6 +36,7 @@ export interface RefusedCommand {
   readonly command: InFlight | null;
 }
 
+/** How a stream ended. */
 export interface StreamReport {
   /** The board's step counters plus `origin`; null if its firmware does not report them. */
   readonly steps1: number | null;

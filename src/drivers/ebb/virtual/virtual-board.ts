@@ -29,7 +29,9 @@ export type { DrawnPolyline } from "./drawn-line.js";
 /** Min supply voltage at which the motors turn. */
 const LEAST_MOTOR_VOLTS = 7;
 
+/** Which board to simulate, and how fast. Only the clock has no default. */
 export interface VirtualBoardOptions {
+  /** Counts real seconds. */
   readonly clock: Clock;
   /** Default "2.8.1". */
   readonly firmware?: string;
@@ -49,6 +51,7 @@ export interface VirtualBoardOptions {
   readonly systemBytes?: number;
 }
 
+/** A board at one instant. */
 export interface VirtualBoardState {
   readonly firmware: string;
   readonly steps1: number;
@@ -66,7 +69,12 @@ export interface VirtualBoardState {
   readonly boardS: number;
 }
 
+/**
+ * An EiBotBoard in software, exact to the step: connect to it with `transport()`. It has the queue, the limits and the
+ * replies of its firmware version, and can simulate faults.
+ */
 export class VirtualBoard {
+  /** The version that it shows. */
   readonly firmware: string;
   private readonly clock: Clock;
   private readonly speed: number;
@@ -125,6 +133,7 @@ export class VirtualBoard {
     return this.input.byteCount < this.inputLimit;
   }
 
+  /** Calls `listener` with every chunk that the board sends. */
   onSend(listener: (bytes: Uint8Array) => void): void {
     this.sendListeners.push(listener);
   }
@@ -164,6 +173,7 @@ export class VirtualBoard {
     return this.core.drawn();
   }
 
+  /** Step counters, place, pen and queue now. */
   state(): VirtualBoardState {
     this.run();
     const { core, machine } = this;
@@ -183,6 +193,7 @@ export class VirtualBoard {
     };
   }
 
+  /** Counts, distances and underruns since the start. */
   statistics(): BoardStatistics {
     this.run();
     return this.core.statistics();
@@ -190,10 +201,12 @@ export class VirtualBoard {
 
   // Simulated events and faults.
 
+  /** Presses and releases the PRG button. */
   pressButton(): void {
     this.inputs.buttonLatched = true;
   }
 
+  /** Presses the PRG button, or releases it. */
   holdButton(isDown: boolean): void {
     this.inputs.buttonDown = isDown;
     if (isDown) this.inputs.buttonLatched = true;
@@ -241,6 +254,7 @@ export class VirtualBoard {
     this.sendBytes(bytes);
   }
 
+  /** The next `count` replies are not sent. */
   loseReplies(count: number): void {
     this.repliesToLose += count;
   }

@@ -1,0 +1,39 @@
+/** Which options ask for which plug-in. A plug-in that no option asks for is not even loaded. */
+import type { PluginCore, ServerPlugin } from "../plugins/server-plugin.js";
+import type { JobHooks } from "../queue/queue-parts.js";
+import { claimsWithoutSharing } from "../queue/shared-claims.js";
+import type { ServerOptions } from "./server-options.js";
+
+/** The webhooks are first, so that their deliveries are closed whatever fails to start after them. */
+export async function loadPlugins(options: ServerOptions, core: PluginCore): Promise<ServerPlugin[]> {
+  const { webhooks = true, watchDir, sharedQueue, lan = false, mdns = lan } = options;
+  const plugins: ServerPlugin[] = [];
+  if (webhooks) {
+    const { webhooksPlugin } = await import("../plugins/webhooks/plugin.js");
+    plugins.push(webhooksPlugin(core));
+  }
+  if (watchDir !== undefined) {
+    const { watchFolderPlugin } = await import("../plugins/watch-folder/plugin.js");
+    plugins.push(watchFolderPlugin(watchDir));
+  }
+  if (sharedQueue !== undefined) {
+    const { sharedQueuePlugin } = await import("../plugins/shared-queue/plugin.js");
+    const { sharedPollMs: pollMs, sharedLostAfterMs: lostAfterMs, sharedTimeoutMs: timeoutMs } = options;
+    plugins.push(sharedQueuePlugin({ url: sharedQueue, pollMs, lostAfterMs, timeoutMs }, core));
+  }
+  if (mdns) {
+    const { localNamePlugin } = await import("../plugins/local-name/plugin.js");
+    plugins.push(localNamePlugin());
+  }
+  return plugins;
+}
+
+/** What the queue has to call: the hooks of all plug-ins as one. At most one plug-in makes claims. */
+export function jobHooksOf(plugins: readonly ServerPlugin[], { store }: PluginCore): Required<JobHooks> {
+  const hooks = plugins.flatMap(({ jobs }) => jobs ?? []);
+  return {
+    withChange: (before, after) => hooks.forEach((hook) => hook.withChange?.(before, after)),
+    afterChange: () => hooks.forEach((hook) => hook.afterChange?.()),
+    claims: hooks.find(({ claims }) => claims !== undefined)?.claims ?? claimsWithoutSharing(store),
+  };
+}

@@ -1,0 +1,44 @@
+/** The options of a server. */
+export interface ServerOptions {
+  /** Default 9080; 0 picks a free port. */
+  readonly port?: number;
+  /** Default 127.0.0.1, or all addresses with `lan`. */
+  readonly host?: string;
+  /** Listen on the network. Other devices have to be paired; the links are in the server's `pairing`. */
+  readonly lan?: boolean;
+  /**
+   * Announce plotwright.local by mDNS, or plotwright-2.local if that is taken. Default: the value of `lan`.
+   */
+  readonly mdns?: boolean;
+  /** Serve https with this certificate and key (PEM text). */
+  readonly tls?: { readonly cert: string; readonly key: string };
+  /** Require pairing on this computer too, for use behind a proxy on this computer. */
+  readonly pairAlways?: boolean;
+  /**
+   * Serial path of the board, or "virtual"; default: the first EBB found, or the virtual board if there is
+   * none.
+   */
+  readonly device?: string;
+  /** Speed of the virtual board: 1 is real time. */
+  readonly virtualSpeed?: number;
+  /** Folder for jobs and settings. */
+  readonly dataDir?: string;
+  /** Largest upload; default 200 MB. */
+  readonly maxUploadBytes?: number;
+  /** Host names to accept besides localhost and addresses. */
+  readonly allowedHosts?: readonly string[];
+  /** Notify other programs of jobs, as users set up on the page. Default true. */
+  readonly webhooks?: boolean;
+  /** Folder whose new drawings become queued jobs. */
+  readonly watchDir?: string;
+  /** postgres://… of a database through which servers share jobs; needs the packages pg and pg-boss. */
+  readonly sharedQueue?: string;
+  /** How often idle plotters look for shared jobs; default 2000. */
+  readonly sharedPollMs?: number;
+  /** Time without a sign of life after which a sharing server counts as lost; default 60 000. */
+  readonly sharedLostAfterMs?: number;
+  /** Timeout of the shared database; default 5 s. */
+  readonly sharedTimeoutMs?: number;
+  /** Receives the lines of the log. */
+  readonly log?: (line: string) => void;
+}

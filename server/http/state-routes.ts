@@ -1,0 +1,75 @@
+/** /api/v1: the server's whole state, its event stream, the caller, the queue's settings, the API itself. */
+import express, { Router } from "express";
+import { z } from "zod";
+import { meSchema, queueSettingsSchema, snapshotSchema, type Snapshot } from "../../src/schema/index.js";
+import type { PlotterRegistry } from "../plotter/plotter-registry.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { Notices } from "../queue/notices.js";
+import type { Access } from "../security/access.js";
+import type { OperatorLock } from "../security/operator-lock.js";
+import { route, type ApiRoute } from "./api-route.js";
+import { roleOf } from "./auth.js";
+import type { Browsers } from "./browser.js";
+import { parseWith } from "./errors.js";
+import type { EventHub } from "./events.js";
+
+export interface StateParts {
+  readonly version: string;
+  readonly queue: JobQueue;
+  readonly registry: PlotterRegistry;
+  readonly hub: EventHub;
+  readonly operatorLock: OperatorLock;
+  readonly notices: Notices;
+  readonly access: Access;
+  /** The server's mDNS name; null while it has none. */
+  readonly localName: () => string | null;
+}
+
+export const STATE_ROUTES: readonly ApiRoute[] = [
+  route("get", "/state", "Returns the whole state of the server", snapshotSchema),
+  route("get", "/events", "Streams a snapshot, then every change", "events"),
+  route("get", "/me", "Returns the role and identity of the caller", meSchema),
+  route("get", "/openapi.json", "Returns this document", z.looseObject({})),
+  route("get", "/queue", "Returns the queue settings of the first plotter", queueSettingsSchema),
+  route("patch", "/queue", "Changes the queue settings of the first plotter", queueSettingsSchema, {
+    body: queueSettingsSchema,
+  }),
+];
+
+/** `openApi`: the text of the OpenAPI document. */
+export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () => Promise<string>): Router {
+  const { queue, registry, operatorLock } = parts;
+  const router = Router();
+  const snapshot = (): Snapshot => ({
+    version: parts.version,
+    plotters: registry.list(),
+    queue: queue.settings(),
+    queues: queue.allSettings(),
+    operator: operatorLock.operator,
+    serverNotices: parts.notices.list(),
+    localName: parts.localName(),
+    jobs: queue.list(),
+  });
+  router.get("/openapi.json", async (_request, response) => {
+    response.type("json").send(await openApi());
+  });
+  router.get("/state", (_request, response) => {
+    response.json(snapshot());
+  });
+  router.get("/events", (request, response) => {
+    const browser = browsers.of(request);
+    if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
+    parts.hub.open(request, response, snapshot);
+  });
+  router.get("/me", (request, response) => {
+    const { id = null, name = null } = browsers.of(request) ?? {};
+    response.json({ role: roleOf(request, parts.access), id, name });
+  });
+  router.get("/queue", (_request, response) => {
+    response.json(queue.settings());
+  });
+  router.patch("/queue", express.json({ limit: "10kb" }), (request, response) => {
+    response.json(queue.saveSettings(parseWith(queueSettingsSchema, request.body)));
+  });
+  return router;
+}

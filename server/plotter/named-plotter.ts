@@ -1,0 +1,168 @@
+/** The plotter that the server stores: a plotter driver with an id, a name and a machine. */
+import { PlotwrightError } from "../../src/index.js";
+import { findMachine, machineOf, driverOf } from "../../src/internal.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type Plotter,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+import type { HandMove } from "./hand-moves.js";
+import { PlotterDriver, type PlotterOptions } from "./plotter-driver.js";
+import type { PlotPlanner } from "../planning/plot-planner.js";
+import type { LivePlotRun, PlotStart } from "./types.js";
+import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
+import type { PlotterRow } from "../storage/store.js";
+
+export interface DeviceChoice {
+  /** Serial path or "virtual"; default: the first EiBotBoard. */
+  readonly device?: string | undefined;
+  readonly virtualSpeed?: number | undefined;
+}
+
+/** Id of a server's first plotter. It is stored with every job, so it must never change. */
+export const FIRST_PLOTTER = "main";
+
+export interface NamedPlotterOptions {
+  readonly virtualSpeed?: number | undefined;
+  /** Whether another plotter uses this port. */
+  readonly isTaken: (path: string) => boolean;
+  /** Adds the profile when the settings name a custom machine. */
+  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+  readonly log: (line: string) => void;
+}
+
+/** Falls back to the default settings if the plotter's custom machine was removed. */
+const knownMachine = (settings: PlotSettings): PlotSettings =>
+  findMachine(settings) === null ? DEFAULT_PLOT_SETTINGS : settings;
+
+/**
+ * Opens a plotter that connects in the background: a server without a board still shows the queue and the
+ * error.
+ */
+export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions): ManagedPlotter {
+  const { virtualSpeed, isTaken, withMachine, log } = options;
+  const { machine } = row;
+  const settingsOf = (id: string | null): PlotSettings =>
+    knownMachine(
+      id === null ? DEFAULT_PLOT_SETTINGS : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: id }),
+    );
+  const settings = settingsOf(machine);
+  const plotter = new NamedPlotter(row, { device: row.device, virtualSpeed, isTaken, settings }, settingsOf);
+  let last: string | null = null;
+  plotter.onChange(({ name, connection, message, device }) => {
+    const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
+    if (connection === "busy" || connection === "connecting" || line === last) return;
+    last = line;
+    log(line);
+  });
+  void plotter.start();
+  return plotter;
+}
+
+/**
+ * Connects one plotter for a command; throws `no-board` if that fails. It never falls back to the virtual
+ * board: a command that silently draws nothing would look as if it had worked.
+ */
+export async function openPlotter(choice: DeviceChoice, settings: PlotSettings): Promise<PlotterPort> {
+  const { device = "auto", virtualSpeed } = choice;
+  const plotter = new NamedPlotter(
+    { id: FIRST_PLOTTER, name: null, machine: null },
+    { device, virtualSpeed, virtualIfNone: false, settings },
+  );
+  await plotter.start();
+  const { connection, message } = plotter.snapshot();
+  if (connection === "idle") return plotter;
+  await plotter.close();
+  if (connection === "absent" && device === "auto" && driverOf(machineOf(settings)).usbIds.length > 0) {
+    throw new PlotwrightError(
+      "no-board",
+      "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",
+    );
+  }
+  throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
+}
+
+class NamedPlotter implements ManagedPlotter {
+  readonly id: string;
+  readonly #driver: PlotterDriver;
+  readonly #listeners: ((plotter: Plotter) => void)[] = [];
+  readonly #settingsOf: (machine: string | null) => PlotSettings;
+  #name: string | null;
+  #machine: string | null;
+
+  constructor(
+    { id, name, machine }: Omit<PlotterRow, "device">,
+    options: PlotterOptions,
+    settingsOf: (machine: string | null) => PlotSettings = () => DEFAULT_PLOT_SETTINGS,
+  ) {
+    this.id = id;
+    this.#name = name;
+    this.#machine = machine;
+    this.#settingsOf = settingsOf;
+    this.#driver = new PlotterDriver(options);
+    this.#driver.onChange(() => this.#notify());
+  }
+
+  start(): Promise<void> {
+    return this.#driver.start();
+  }
+
+  snapshot(): Plotter {
+    const { state } = this.#driver;
+    const name = this.#name ?? (state.kind === "virtual" ? "Virtual plotter" : "Plotter");
+    return { id: this.id, name, machine: this.#machine, ...state };
+  }
+
+  settled(): Promise<void> {
+    return this.#driver.settled();
+  }
+
+  rename(name: string): void {
+    this.#name = name;
+    this.#notify();
+  }
+
+  useMachine(machine: string | null): void {
+    this.#driver.use(this.#settingsOf(machine));
+    this.#machine = machine;
+    this.#notify();
+  }
+
+  onChange(listener: (plotter: Plotter) => void): void {
+    this.#listeners.push(listener);
+  }
+
+  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> {
+    return this.#driver.plot(planner, settings, start);
+  }
+
+  pen(up: boolean, heightPct?: number): Promise<void> {
+    return this.#driver.pen({ up, heightPct });
+  }
+
+  motorsOff(): Promise<void> {
+    return this.#driver.motorsOff();
+  }
+
+  log(): string {
+    return this.#driver.log();
+  }
+
+  move(move: HandMove, settings?: PlotSettings): Promise<void> {
+    return this.#driver.move(move, settings);
+  }
+
+  command(line: string): Promise<CommandAnswer> {
+    return this.#driver.command(line);
+  }
+
+  close(): Promise<void> {
+    return this.#driver.close();
+  }
+
+  #notify(): void {
+    const state = this.snapshot();
+    for (const listener of this.#listeners) listener(state);
+  }
+}

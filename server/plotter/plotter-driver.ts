@@ -1,0 +1,467 @@
+/**
+ * One plotter, as used by the queue, the command line and embedding programs: connects, plots and makes
+ * manual moves. `state` always shows its condition and, after an error, what to do.
+ *
+ *   absent ──connect──> connecting ──> idle <──> busy
+ *      ^                    │            │         │
+ *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
+ */
+import { PlotwrightError, type Clock } from "../../src/index.js";
+import {
+  driverOf,
+  powerLost,
+  powerLow,
+  type Machine,
+  type VirtualMachine,
+  machineOf,
+} from "../../src/internal.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type Plotter,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+import type { PlotPlanner } from "../planning/plot-planner.js";
+import { nodeClock } from "../serial/node-clock.js";
+import { connect, type Connection } from "./connection.js";
+import { moveByHand, type HandMove } from "./hand-moves.js";
+import { MachinePlot } from "./plot-run.js";
+import type { LivePlotRun, PlotStart } from "./types.js";
+
+export interface PlotterOptions {
+  /**
+   * "auto" (an EiBotBoard if one is plugged in, else the virtual board), "virtual", or a serial port's path.
+   */
+  readonly device: string;
+  /** Whether "auto" uses the virtual board if no board is plugged in. Default true. */
+  readonly virtualIfNone?: boolean | undefined;
+  /** Whether "auto" must skip a port, because another plotter uses it. */
+  readonly isTaken?: ((path: string) => boolean) | undefined;
+  /**
+   * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
+   */
+  readonly virtualSpeed?: number | undefined;
+  /** Firmware version that the built-in virtual board reports. Default 2.8.1. */
+  readonly firmware?: string | undefined;
+  /** Settings for manual moves before the first job. */
+  readonly settings?: PlotSettings | undefined;
+  readonly clock?: Clock | undefined;
+}
+
+export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
+
+const RECONNECT_S = 2;
+const SUPPLY_S = 2;
+
+export class PlotterDriver {
+  readonly #clock: Clock;
+  #settings: PlotSettings;
+  #current: PlotterState;
+  readonly #listeners: ((state: PlotterState) => void)[] = [];
+  #connection: Connection | null = null;
+  #machine: Machine | null = null;
+  /** Why there is no connection. */
+  #trouble: PlotwrightError | null = null;
+  #connecting: Promise<void> | null = null;
+  #cancelRetry: (() => void) | null = null;
+  #run: MachinePlot | null = null;
+  #movingByHand = false;
+  #closed = false;
+  /** After a real board was connected, the virtual board is never used in its place. */
+  #hadSerial = false;
+  #powerIsLow = false;
+  #lastSupplyLow = false;
+  #cancelSupply: (() => void) | null = null;
+  #virtual: VirtualMachine | null = null;
+
+  readonly #options: PlotterOptions;
+
+  constructor(options: PlotterOptions) {
+    this.#options = options;
+    this.#clock = options.clock ?? nodeClock;
+    this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
+    const isVirtual = options.device === "virtual";
+    this.#current = {
+      kind: isVirtual || options.device === "auto" ? "virtual" : "serial",
+      device: isVirtual || options.device === "auto" ? null : options.device,
+      connection: "connecting",
+      boardName: null,
+      activity: "none",
+      firmware: null,
+      emergencyStopMs: null,
+      message: null,
+      penUp: null,
+      motorsOn: null,
+      xMm: null,
+      yMm: null,
+    };
+  }
+
+  get state(): PlotterState {
+    return this.#current;
+  }
+
+  /** The built-in virtual machine while it is in use: gives access to the drawn line and simulated faults. */
+  get virtualMachine(): VirtualMachine | null {
+    return this.#connection?.kind === "virtual" ? this.#virtual : null;
+  }
+
+  onChange(listener: (state: PlotterState) => void): void {
+    this.#listeners.push(listener);
+  }
+
+  /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
+  start(): Promise<void> {
+    this.#tell({ connection: "connecting", message: null });
+    return this.#startConnecting();
+  }
+
+  /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
+  async settled(): Promise<void> {
+    await this.#connecting;
+  }
+
+  /** Commands and replies of the current connection, as text to download. */
+  log(): string {
+    return this.#connection?.machine.log() ?? "";
+  }
+
+  /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
+  async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
+    await this.#connecting;
+    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
+    const machine = this.#idleMachine();
+    this.#settings = settings;
+    this.#machineChanged();
+    const run = new MachinePlot(machine, planner, settings, start);
+    this.#run = run;
+    const beginsHeld = start.held ?? (start.from ?? null) !== null;
+    this.#tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
+    run.onHeld((held) => this.#tell({ activity: held ? "held" : "plotting" }));
+    run.onProgress((progress) => this.#movedTo(progress.xMm, progress.yMm, progress.penUp));
+    run.finished.then(
+      () => this.#runEnded(),
+      () => this.#runEnded(),
+    );
+    return run;
+  }
+
+  /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
+  use(settings: PlotSettings): void {
+    if (this.#isConnectedFor(settings)) {
+      this.#settings = settings;
+      this.#machineChanged();
+    } else void this.#connectFor(settings).catch(() => undefined);
+  }
+
+  async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
+    await this.#byHand((machine) => machine.movePen(request.up, this.#settings, request.heightPct));
+  }
+
+  async motorsOff(): Promise<void> {
+    await this.#byHand((machine) => machine.motorsOff());
+  }
+
+  /**
+   * Makes a manual move with the machine, speeds and heights of `settings`; default: those of the last job or
+   * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
+   */
+  async move(move: HandMove, settings: PlotSettings = this.#settings): Promise<void> {
+    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
+    await this.#byHand((machine) => {
+      this.#settings = settings;
+      return moveByHand(machine, move, settings);
+    });
+  }
+
+  /** Lifts the pen and moves to the limit switches if the machine has them, otherwise to the set home. */
+  home(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "home" }, settings);
+  }
+
+  /** Makes the current position home. */
+  setHome(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "set-home" }, settings);
+  }
+
+  /** Moves to a position in mm from home, pen up. */
+  walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "walk", xMm, yMm }, settings);
+  }
+
+  /** Moves by a distance in mm, pen up. May go beyond home, since this is how the user finds home. */
+  jog(dxMm: number, dyMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "jog", dxMm, dyMm }, settings);
+  }
+
+  /** Lowers the pen and lifts it again, to check the heights. */
+  cyclePen(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "cycle-pen" }, settings);
+  }
+
+  /** Moves around a rectangle (mm from home) with the pen up, and back to the previous position. */
+  traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number, settings?: PlotSettings): Promise<void> {
+    const boxMm = {
+      xMm: Math.min(x0Mm, x1Mm),
+      yMm: Math.min(y0Mm, y1Mm),
+      widthMm: Math.abs(x1Mm - x0Mm),
+      heightMm: Math.abs(y1Mm - y0Mm),
+    };
+    return this.move({ kind: "frame", boxMm }, settings);
+  }
+
+  /** Draws a small pattern at the current position with the given settings, and comes back. */
+  drawTestPatch(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "test-patch" }, settings);
+  }
+
+  /** Draws a square at the current position; its measured size gives the motor steps per mm. */
+  drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "square", sizeMm }, settings);
+  }
+
+  /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
+  async command(line: string): Promise<CommandAnswer> {
+    return this.#byHand((machine) => machine.command(line));
+  }
+
+  /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
+  async close(): Promise<void> {
+    this.#closed = true;
+    this.#cancelRetry?.();
+    this.#cancelSupply?.();
+    await this.#connecting;
+    const run = this.#run;
+    run?.fail(closedError());
+    // Fails if the connection is lost; there is nothing left to do then.
+    if (run || this.#movingByHand) await this.#machine?.leave(this.#settings).catch(() => undefined);
+    await this.#connection?.machine.close();
+    this.#virtual?.close();
+  }
+
+  #isConnectedFor(settings: PlotSettings): boolean {
+    return machineOf(settings).controller.kind === machineOf(this.#settings).controller.kind;
+  }
+
+  /** Connects again, by the driver of these settings. Rejects if none answers; the next attempt uses the settings of before. */
+  async #connectFor(settings: PlotSettings): Promise<void> {
+    await this.#connecting;
+    if (this.#run || this.#movingByHand) return;
+    const before = this.#settings;
+    this.#settings = settings;
+    const connection = this.#connection;
+    const virtual = this.#virtual;
+    this.#machine = this.#connection = this.#virtual = null;
+    this.#tell({
+      connection: "connecting",
+      message: null,
+      penUp: null,
+      motorsOn: null,
+      xMm: null,
+      yMm: null,
+    });
+    await connection?.machine.close().catch(() => undefined);
+    virtual?.close();
+    await this.#startConnecting();
+    if (this.#machine) return;
+    this.#settings = before;
+    throw this.#trouble ?? notStarted();
+  }
+
+  #startConnecting(): Promise<void> {
+    if (this.#closed) return Promise.resolve();
+    this.#connecting ??= this.#connect().finally(() => {
+      this.#connecting = null;
+    });
+    return this.#connecting;
+  }
+
+  async #connect(): Promise<void> {
+    this.#cancelRetry?.();
+    try {
+      const connection = await connect({
+        device: this.#options.device,
+        isTaken: this.#options.isTaken,
+        virtualIfNone: this.#options.virtualIfNone !== false && !this.#hadSerial,
+        clock: this.#clock,
+        speed: this.#options.virtualSpeed ?? 1,
+        driver: driverOf(machineOf(this.#settings)),
+        virtualMachine: () => this.#makeVirtual(),
+        events: {
+          changed: () => this.#machineChanged(),
+          buttonPressed: () => void this.#run?.pause().catch(() => undefined),
+          supplyRead: (isLow) => this.#supplyRead(isLow),
+          lost: (error) => this.#lost(error),
+        },
+      });
+      await this.#adopt(connection);
+    } catch (error) {
+      this.#lost(error instanceof PlotwrightError ? error : internal(error));
+    }
+  }
+
+  #makeVirtual(): VirtualMachine {
+    const machine = machineOf(this.#settings);
+    this.#virtual ??= driverOf(machine).virtualMachine({
+      clock: this.#clock,
+      speed: this.#options.virtualSpeed ?? 1,
+      firmware: this.#options.firmware,
+      machine,
+    });
+    return this.#virtual;
+  }
+
+  async #adopt(connection: Connection): Promise<void> {
+    if (this.#closed) {
+      await connection.machine.close();
+      return;
+    }
+    this.#connection = connection;
+    this.#hadSerial ||= connection.kind === "serial";
+    const { machine } = connection;
+    await machine.takeOver();
+    this.#machine = machine;
+    this.#trouble = null;
+    this.#powerIsLow = false;
+    this.#watchSupply(machine);
+    this.#machineChanged();
+    this.#tell({
+      kind: connection.kind,
+      device: connection.device,
+      connection: "idle",
+      boardName: machine.name,
+      firmware: machine.firmware,
+      message: this.#welcome(connection),
+    });
+  }
+
+  #welcome(connection: Connection): string | null {
+    if (connection.kind === "serial") return null;
+    return this.#options.device === "auto"
+      ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
+      : "This is the virtual board: nothing is drawn on paper.";
+  }
+
+  #lost(error: PlotwrightError): void {
+    if (this.#closed) return;
+    this.#trouble = error;
+    this.#machine = null;
+    this.#connection?.machine.close().catch(() => undefined);
+    this.#connection = null;
+    // A held run does not notice the lost board by itself.
+    this.#run?.fail(error);
+    const connection = error.code === "no-board" ? "absent" : "fault";
+    this.#tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    this.#cancelRetry?.();
+    this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
+  }
+
+  #runEnded(): void {
+    this.#run = null;
+    this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
+    this.#machineChanged();
+  }
+
+  /**
+   * Reacts only to two low readings in a row: with a second program on the port, an answer may be mistaken.
+   */
+  #supplyRead(isLow: boolean): void {
+    if (isLow && this.#lastSupplyLow) this.#powerLost();
+    this.#lastSupplyLow = isLow;
+  }
+
+  /** Checks the motor supply while the board is idle. This also detects a board that no longer answers. */
+  #watchSupply(machine: Machine): void {
+    if (this.#closed) return;
+    this.#cancelSupply = this.#clock.after(SUPPLY_S, () => {
+      if (this.#closed || this.#machine !== machine) return;
+      const isPlaying = this.#movingByHand || (this.#run !== null && !this.#run.isHeld);
+      const asked = isPlaying ? Promise.resolve() : this.#askSupply(machine);
+      // A lost connection is reported by the machine's own event.
+      asked.catch(() => undefined).finally(() => this.#watchSupply(machine));
+    });
+  }
+
+  async #askSupply(machine: Machine): Promise<void> {
+    const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
+    if (isLow) this.#powerLost();
+    else if (this.#powerIsLow) {
+      this.#powerIsLow = false;
+      this.#tell({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
+    }
+  }
+
+  #powerLost(): void {
+    if (this.#powerIsLow) return;
+    this.#powerIsLow = true;
+    this.#run?.fail(powerLost());
+    this.#tell({ connection: "fault", message: powerLow().message });
+    const machine = this.#machine,
+      settings = this.#settings;
+    machine
+      ?.forgetPlace()
+      .then(() => machine.letGo(settings))
+      .catch(() => undefined);
+  }
+
+  async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
+    await this.#connecting;
+    const machine = this.#idleMachine();
+    this.#movingByHand = true;
+    this.#tell({ connection: "busy", activity: "moving" });
+    try {
+      return await action(machine);
+    } finally {
+      this.#movingByHand = false;
+      this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
+    }
+  }
+
+  /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */
+  #idleMachine(): Machine {
+    if (this.#run) {
+      throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
+    }
+    if (this.#movingByHand) {
+      throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
+    }
+    if (!this.#machine) throw this.#trouble ?? notStarted();
+    if (this.#powerIsLow) throw powerLow();
+    return this.#machine;
+  }
+
+  #machineChanged(): void {
+    const machine = this.#machine;
+    if (!machine) return;
+    const place = machine.place(machineOf(this.#settings));
+    this.#tell({
+      emergencyStopMs: machine.emergencyStopMs(this.#settings),
+      penUp: machine.penUp,
+      motorsOn: machine.motorsOn,
+      xMm: place?.x ?? null,
+      yMm: place?.y ?? null,
+    });
+  }
+
+  /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
+  #movedTo(xMm: number, yMm: number, penUp: boolean): void {
+    // A run that ends because the connection is lost still reports a position, which is then unknown.
+    if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp };
+  }
+
+  #tell(change: Partial<PlotterState>): void {
+    const keys = Object.keys(change) as (keyof PlotterState)[];
+    if (keys.every((key) => this.#current[key] === change[key])) return;
+    this.#current = { ...this.#current, ...change };
+    for (const listener of this.#listeners) listener(this.#current);
+  }
+}
+
+const notStarted = (): PlotwrightError =>
+  new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
+
+const closedError = (): PlotwrightError =>
+  new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");
+
+const internal = (cause: unknown): PlotwrightError =>
+  new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });

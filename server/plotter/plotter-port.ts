@@ -1,0 +1,35 @@
+/** A plotter as the queue, the routes and the command line use it. */
+import type { CommandAnswer, Plotter, PlotSettings } from "../../src/schema/index.js";
+import type { HandMove } from "./hand-moves.js";
+import type { PlotPlanner } from "../planning/plot-planner.js";
+import type { LivePlotRun, PlotStart } from "./types.js";
+
+export interface PlotterPort {
+  readonly id: string;
+  snapshot(): Plotter;
+  /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
+  settled(): Promise<void>;
+  onChange(listener: (plotter: Plotter) => void): void;
+  /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
+  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
+  pen(up: boolean, heightPct?: number): Promise<void>;
+  motorsOff(): Promise<void>;
+  /**
+   * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.
+   */
+  move(move: HandMove, settings?: PlotSettings): Promise<void>;
+  /** Sends one line to the board; returns the complete answer. */
+  command(line: string): Promise<CommandAnswer>;
+  /** Commands and replies of the current connection. */
+  log(): string;
+  close(): Promise<void>;
+}
+
+/** A plotter that is stored by the server and that the user can rename. */
+export interface ManagedPlotter extends PlotterPort {
+  rename(name: string): void;
+  /**
+   * Sets the machine for manual moves; null: the default. The board stays connected and home stays the same.
+   */
+  useMachine(machine: string | null): void;
+}

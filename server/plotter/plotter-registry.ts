@@ -1,0 +1,203 @@
+/**
+ * The plotters of a server, stored in its database. They can be added, changed and removed while it runs.
+ * Every change is stored before it is announced.
+ */
+import { PlotwrightError } from "../../src/index.js";
+import type { Device, NewPlotter, Plotter, PlotterPatch, ServerEvent } from "../../src/schema/index.js";
+import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
+import type { PlotterRow, Store } from "../storage/store.js";
+import type { FoundBoard } from "../serial/find-boards.js";
+
+export interface RegistryParts {
+  readonly store: Pick<Store, "plotters" | "savePlotter" | "removePlotter">;
+  /** Opens a plotter, which connects in the background. */
+  readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
+  /** Throws `bad-setting` for an unknown machine id. */
+  readonly mustBeMachine?: (id: string) => void;
+  readonly findBoards: () => Promise<readonly FoundBoard[]>;
+  readonly announce: (event: ServerEvent) => void;
+  /** Id of the plotter that a new server starts with. */
+  readonly firstId: string;
+  /**
+   * Device of the first plotter for this run only; default: the stored one, which is "auto" on the first
+   * start.
+   */
+  readonly firstDevice?: string | undefined;
+}
+
+/** How jobs that have not ended use a plotter. */
+export interface PlotterUse {
+  readonly isBusy: (plotterId: string) => boolean;
+  readonly liveJobCount: (plotterId: string) => number;
+}
+
+export class PlotterRegistry {
+  readonly #parts: RegistryParts;
+  readonly #rows = new Map<string, PlotterRow>();
+  readonly #ports = new Map<string, ManagedPlotter>();
+  /** Patches and removals run one after the other. */
+  #turn: Promise<unknown> = Promise.resolve();
+  #isClosed = false;
+
+  constructor(parts: RegistryParts) {
+    this.#parts = parts;
+    const { store, firstId } = parts;
+    if (store.plotters().length === 0) {
+      store.savePlotter({ id: firstId, name: null, device: "auto", machine: null });
+    }
+    store.plotters().forEach((row, index) => {
+      const device = index === 0 ? (parts.firstDevice ?? row.device) : row.device;
+      this.#rows.set(row.id, { ...row, device });
+    });
+    // Open only after all rows are known, so that a plotter with "auto" does not take the board of another.
+    for (const row of this.#rows.values()) this.#open(row);
+  }
+
+  /** The plotters by id. The map stays up to date. */
+  get ports(): ReadonlyMap<string, PlotterPort> {
+    return this.#ports;
+  }
+
+  list(): Plotter[] {
+    return [...this.#ports.values()].map((port) => port.snapshot());
+  }
+
+  async devices(): Promise<Device[]> {
+    const boards = await this.#parts.findBoards();
+    return boards.map(({ path, description, serialNumber }) => ({
+      path,
+      description: serialNumber === null ? description : `${description} ${serialNumber}`,
+      inUseBy: this.list().find((plotter) => plotter.device === path)?.id ?? null,
+    }));
+  }
+
+  /** Throws `conflict` if another plotter has the name or device. */
+  add({ name, device, machine = null }: NewPlotter): Plotter {
+    this.#mustBeFree(name, device, null);
+    if (machine !== null) this.#parts.mustBeMachine?.(machine);
+    const row = { id: this.#newId(name), name, device, machine };
+    this.#parts.store.savePlotter(row);
+    this.#rows.set(row.id, row);
+    const port = this.#open(row);
+    this.#announce();
+    return port.snapshot();
+  }
+
+  /**
+   * A new device makes it reconnect. Throws `busy` for a new device or machine while a job is being plotted.
+   */
+  patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+    return this.#inTurn(() => this.#patch(id, patch, use));
+  }
+
+  async #patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+    const { row, port } = this.#find(id);
+    const { name = row.name, device = row.device, machine = row.machine } = patch;
+    this.#mustBeFree(patch.name ?? null, patch.device ?? null, id);
+    if (typeof patch.machine === "string") this.#parts.mustBeMachine?.(patch.machine);
+    const isMoved = device !== row.device;
+    const isOther = machine !== row.machine;
+    if ((isMoved || isOther) && use.isBusy(id)) {
+      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
+    }
+    const next = { id, name, device, machine };
+    // A device that was set for this run only is not stored.
+    const storedDevice =
+      patch.device ?? this.#parts.store.plotters().find((one) => one.id === id)?.device ?? device;
+    this.#parts.store.savePlotter({ ...next, device: storedDevice });
+    this.#rows.set(id, next);
+    if (isMoved) {
+      await port.close();
+      if (!this.#isClosed) this.#open(next);
+    } else {
+      if (isOther) port.useMachine(machine);
+      if (name !== null) port.rename(name);
+    }
+    this.#announce();
+    return this.#find(id).port.snapshot();
+  }
+
+  /** Throws `conflict` while it has jobs that have not ended, and for the last plotter. */
+  remove(id: string, use: PlotterUse): Promise<void> {
+    return this.#inTurn(() => this.#remove(id, use));
+  }
+
+  async #remove(id: string, use: PlotterUse): Promise<void> {
+    const { port } = this.#find(id);
+    const count = use.liveJobCount(id);
+    if (count > 0) {
+      const jobs = count === 1 ? "a job" : `${count} jobs`;
+      throw new PlotwrightError("conflict", `The plotter has ${jobs}: move them to another one first.`);
+    }
+    if (this.#ports.size === 1) throw new PlotwrightError("conflict", "The last plotter can't be removed.");
+    this.#parts.store.removePlotter(id);
+    this.#rows.delete(id);
+    this.#ports.delete(id);
+    this.#announce();
+    await port.close();
+  }
+
+  async close(): Promise<void> {
+    this.#isClosed = true;
+    await Promise.all([...this.#ports.values()].map((port) => port.close()));
+  }
+
+  #inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const done = this.#turn.then(work);
+    this.#turn = done.catch(() => undefined);
+    return done;
+  }
+
+  #open(row: PlotterRow): ManagedPlotter {
+    const port = this.#parts.open(row, (path) => this.#ownerOf(path, row.id) !== undefined);
+    port.onChange((plotter) => {
+      if (this.#ports.get(row.id) === port) this.#parts.announce({ type: "plotter", plotter });
+    });
+    this.#ports.set(row.id, port);
+    return port;
+  }
+
+  #announce(): void {
+    this.#parts.announce({ type: "plotters", plotters: this.list() });
+  }
+
+  #find(id: string): { readonly row: PlotterRow; readonly port: ManagedPlotter } {
+    const [row, port] = [this.#rows.get(id), this.#ports.get(id)];
+    if (row === undefined || port === undefined) {
+      throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+    }
+    return { row, port };
+  }
+
+  #mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {
+    const others = [...this.#rows.values()].filter(({ id }) => id !== exceptId);
+    if (name !== null && others.some((row) => row.name?.toLowerCase() === name.toLowerCase())) {
+      throw new PlotwrightError("conflict", `There is already a plotter "${name}". Choose another name.`);
+    }
+    const owner = device === null ? undefined : this.#ownerOf(device, exceptId);
+    if (owner !== undefined) {
+      throw new PlotwrightError(
+        "conflict",
+        `"${owner.name ?? owner.id}" already uses ${device ?? ""}. Choose another device.`,
+      );
+    }
+  }
+
+  /** The plotter that is set to this port or connected to it. "virtual" and "auto" may be used by many. */
+  #ownerOf(device: string, exceptId: string | null): PlotterRow | undefined {
+    if (device === "virtual" || device === "auto") return undefined;
+    return [...this.#rows.values()].find(
+      ({ id, device: chosen }) =>
+        id !== exceptId && (chosen === device || this.#ports.get(id)?.snapshot().device === device),
+    );
+  }
+
+  /** Readable in links and scripts, and never reused, since jobs in the history refer to removed plotters. */
+  #newId(name: string): string {
+    const word = name
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, "-")
+      .replace(/^-|-$/g, "");
+    return `${word === "" ? "plotter" : word}-${Date.now().toString(36)}`;
+  }
+}

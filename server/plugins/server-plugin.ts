@@ -1,0 +1,55 @@
+/**
+ * What an optional part of the server looks like. Each plug-in is a folder of its own beside this file, whose
+ * `plugin.ts` exports a function that makes it. `composition/load-plugins.ts` imports it only if an option of
+ * the server asks for it; nothing else in the server knows any plug-in.
+ *
+ *   made ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
+ */
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { ApiPart } from "../http/api-route.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { Notices } from "../queue/notices.js";
+import type { JobHooks } from "../queue/queue-parts.js";
+import type { DrawingFiles } from "../storage/drawing-files.js";
+import type { Store } from "../storage/store.js";
+import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
+
+export interface ServerPlugin {
+  /** As the log names it when the server closes, such as "the webhooks". */
+  readonly name: string;
+  /** Called by the queue from the first change on, also before `start`. */
+  readonly jobs?: JobHooks;
+  start(host: PluginHost): Promise<RunningPlugin> | RunningPlugin;
+}
+
+export interface RunningPlugin {
+  readonly routes?: ApiPart;
+  /** The server accepts requests. */
+  listening?(address: ServerAddress): void;
+  close(): Promise<void> | void;
+}
+
+export interface ServerAddress {
+  readonly port: number;
+  readonly isTls: boolean;
+}
+
+/** What exists before the queue, when a plug-in is made. */
+export interface PluginCore {
+  readonly store: Store;
+  /** By id; plotters may be added and removed while the server runs. */
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly log: (line: string) => void;
+}
+
+export interface PluginHost extends PluginCore {
+  readonly queue: JobQueue;
+  readonly files: DrawingFiles;
+  readonly uploads: UploadedDrawings;
+  readonly notices: Notices;
+  /** Adds the profile when the settings name a custom machine. */
+  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+  /** The server answers to this name and shows it to its users; null: it has none any more. */
+  readonly setLocalName: (name: string | null) => void;
+}

@@ -1,0 +1,286 @@
+/**
+ * One server's side of the shared queue. When one of its plotters is idle, it takes the next job for that
+ * plotter (by name or by machine) into its own queue. From then on it is a job like any other: stored,
+ * interrupted and recovered on the server that took it. The own queue stores the shared job's id, so that a
+ * job taken just before a crash is added only once.
+ */
+import { z } from "zod";
+import { PlotwrightError } from "../../../src/index.js";
+import {
+  nameSchema,
+  plotSettingsSchema,
+  SERVER_LOST_AFTER_MS,
+  type PlotSettings,
+  type SharedJob,
+  type SharedTarget,
+} from "../../../src/schema/index.js";
+import type { PlotterPort } from "../../plotter/plotter-port.js";
+import type { DrawingFiles } from "../../storage/drawing-files.js";
+import type { JobQueue } from "../../queue/job-queue.js";
+import type { Store } from "../../storage/store.js";
+import type { SharedStore, TakenJob } from "./shared-store.js";
+
+export interface SharedParts {
+  readonly shared: SharedStore;
+  /** Stored in the data folder, so that the server finds the jobs it took before a restart. */
+  readonly serverId: string;
+  /** Shown to users. */
+  readonly serverName: string;
+  readonly store: Pick<Store, "isShared" | "unreportedShared" | "saveReported" | "forgetShared">;
+  readonly queue: JobQueue;
+  readonly files: DrawingFiles;
+  readonly plotters: ReadonlyMap<string, PlotterPort>;
+  readonly log: (line: string) => void;
+  readonly notice: (message: string) => void;
+  /** Default 2 s. */
+  readonly pollMs?: number | undefined;
+  /** Time without a sign of life after which a server counts as lost; default SERVER_LOST_AFTER_MS. */
+  readonly lostAfterMs?: number | undefined;
+}
+
+const POLL_MS = 2_000;
+/** What other servers get: always with the drawing's text. */
+const payloadSchema = z.object({
+  name: nameSchema(200),
+  drawing: z.string().min(1),
+  settings: plotSettingsSchema,
+});
+
+export interface SentJob {
+  readonly name: string;
+  /** The drawing's text. */
+  readonly drawing: string;
+  readonly settings: PlotSettings;
+  readonly target: SharedTarget;
+}
+
+export class SharedQueue {
+  readonly #parts: SharedParts;
+  #timer: NodeJS.Timeout | null = null;
+  #running: Promise<void>;
+  #isClosed = false;
+  /** All jobs this server took before a restart or failure are in its queue. */
+  #isCaughtUp = false;
+  /** Own ids of jobs taken but not yet started. */
+  readonly #unstarted = new Set<string>();
+  /** Jobs on lost servers that were already reported. */
+  readonly #reportedLost = new Set<string>();
+  /** Plotters without a machine that were already reported. */
+  readonly #reportedNoMachine = new Set<string>();
+  #lastTrouble: string | null = null;
+
+  constructor(parts: SharedParts) {
+    this.#parts = parts;
+    this.#running = this.#round();
+  }
+
+  async send({ name, drawing, settings, target }: SentJob): Promise<string> {
+    return this.#parts.shared.send(name, targetText(target), JSON.stringify({ name, drawing, settings }));
+  }
+
+  list(): Promise<SharedJob[]> {
+    return this.#parts.shared.list();
+  }
+
+  withdraw(id: string): Promise<void> {
+    return this.#parts.shared.withdraw(id);
+  }
+
+  /** Puts a job back in the shared queue if a lost server took it but did not start it. Throws `conflict`. */
+  giveBack(id: string): Promise<void> {
+    return this.#parts.shared.giveBack(id, this.#lostAfterMs);
+  }
+
+  /**
+   * Call before a job starts. Null: it may start, and the database shows it as begun. Otherwise why it must
+   * not.
+   */
+  async claim(jobId: string): Promise<string | null> {
+    const { shared, store, serverId, queue, log } = this.#parts;
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
+    if (known === undefined) return null;
+    const { name } = queue.get(jobId);
+    try {
+      if (await shared.claim(known.id, serverId)) return null;
+      return await this.#leave(known);
+    } catch (error) {
+      log(`shared queue: "${name}" can't start: ${error instanceof Error ? error.message : String(error)}`);
+      return `The database of the shared queue can't be reached, so another server may have been given "${name}". Start it when the database is back. Or duplicate it: a duplicate can start at any time.`;
+    }
+  }
+
+  async release(jobId: string): Promise<void> {
+    const { shared, store, serverId, log } = this.#parts;
+    const known = store.unreportedShared().find((one) => one.jobId === jobId);
+    if (known === undefined) return;
+    await shared.release(known.id, serverId).catch((error: unknown) => log(`shared queue: ${String(error)}`));
+  }
+
+  get #lostAfterMs(): number {
+    return this.#parts.lostAfterMs ?? SERVER_LOST_AFTER_MS;
+  }
+
+  /** Looks for work at once, unless it already does. Call it when a plotter may have become free. */
+  wake(): void {
+    if (this.#timer === null || this.#isClosed) return;
+    clearTimeout(this.#timer);
+    this.#timer = null;
+    this.#running = this.#round();
+  }
+
+  async close(): Promise<void> {
+    this.#isClosed = true;
+    if (this.#timer !== null) clearTimeout(this.#timer);
+    await this.#running;
+    await this.#parts.shared.close();
+  }
+
+  /** One round of polling. Never rejects: without the database a server continues with its own queue. */
+  async #round(): Promise<void> {
+    const { shared, serverId, log } = this.#parts;
+    try {
+      await shared.seen(serverId);
+      if (!this.#isCaughtUp) {
+        await this.#dropLost();
+        for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
+        this.#isCaughtUp = true;
+      }
+      await this.#reportBegun();
+      await this.#startTaken();
+      await this.#reportLost();
+      for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
+      if (this.#lastTrouble !== null) log("shared queue: working again");
+      this.#lastTrouble = null;
+    } catch (error) {
+      this.#isCaughtUp = false;
+      const trouble = error instanceof Error ? error.message : String(error);
+      if (trouble !== this.#lastTrouble) log(`shared queue: ${trouble}`);
+      this.#lastTrouble = trouble;
+    }
+    if (this.#isClosed) return;
+    this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
+    this.#timer.unref();
+  }
+
+  /** Drops queued jobs that were given to other servers while this one was away. */
+  async #dropLost(): Promise<void> {
+    const { shared, store, serverId, queue } = this.#parts;
+    for (const known of store.unreportedShared()) {
+      const job = queue.list().find((one) => one.id === known.jobId);
+      if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.#leave(known);
+    }
+  }
+
+  /**
+   * Removes a job that belongs to another server now from the own queue; returns the message shown for it.
+   * The message comes first, so that it explains a missing job; after a crash between the two it is shown
+   * twice rather than never.
+   */
+  async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
+    const { store, queue, log, notice } = this.#parts;
+    const message = `"${queue.get(jobId).name}" was given to another server while this one was away.`;
+    log(`shared queue: ${message}`);
+    notice(message);
+    await queue.remove(jobId);
+    store.forgetShared(id);
+    return message;
+  }
+
+  /** Marks jobs that have begun here in the database, so that they can't be given to other servers. */
+  async #reportBegun(): Promise<void> {
+    const { shared, store, serverId, queue, notice } = this.#parts;
+    for (const { id, jobId } of store.unreportedShared()) {
+      const job = queue.list().find((one) => one.id === jobId);
+      if (job?.state === "queued") continue;
+      const isOurs = await shared.begun(id, serverId);
+      store.saveReported(id);
+      if (isOurs || job === undefined) continue;
+      notice(`"${job.name}" was given to another server while this one was away, and may be plotted twice.`);
+    }
+  }
+
+  /** Notifies once per job on a lost server: the user has to decide whether it should wait. */
+  async #reportLost(): Promise<void> {
+    const { shared, notice } = this.#parts;
+    for (const { id, name, server } of await shared.lost(this.#lostAfterMs)) {
+      if (this.#reportedLost.has(id)) continue;
+      this.#reportedLost.add(id);
+      notice(
+        `"${name}" was taken by ${server}, which can't be reached. It waits there until that server is back. To give it to another server, open Studio, Servers.`,
+      );
+    }
+  }
+
+  /**
+   * Starts taken jobs if the plotter's queue runs on by itself. Tried every round, since the board may be
+   * missing.
+   */
+  async #startTaken(): Promise<void> {
+    const { queue } = this.#parts;
+    for (const id of this.#unstarted) {
+      const job = queue.list().find((one) => one.id === id);
+      if (job?.state !== "queued") this.#unstarted.delete(id);
+      else if (queue.settings(job.plotterId).runOn) await startIfFree(queue, id);
+    }
+  }
+
+  /**
+   * Takes a job for a plotter, only if it is connected and idle: otherwise the job would wait while others
+   * are free.
+   */
+  async #feed(plotter: PlotterPort): Promise<void> {
+    const { shared, serverId, serverName, queue, log } = this.#parts;
+    const { name, machine, connection } = plotter.snapshot();
+    if (this.#isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
+    if (machine === null && !this.#reportedNoMachine.has(plotter.id)) {
+      this.#reportedNoMachine.add(plotter.id);
+      log(`shared queue: ${name} takes only jobs sent to ${name} by name, because its machine is not set`);
+    }
+    const targets: SharedTarget[] = [{ plotter: name }, ...(machine === null ? [] : [{ machine }])];
+    for (const target of targets) {
+      const taker = { serverId, server: serverName, plotterId: plotter.id };
+      const job = await shared.take(targetText(target), taker);
+      if (job === null) continue;
+      await this.#bringIn(job);
+      return;
+    }
+  }
+
+  async #bringIn({ id, plotterId, payload }: TakenJob): Promise<void> {
+    const { shared, store, queue, files, log, notice } = this.#parts;
+    if (store.isShared(id)) {
+      await shared.finish(id, "stored", null);
+      return;
+    }
+    const parsed = payloadSchema.safeParse(JSON.parse(payload));
+    try {
+      if (!parsed.success)
+        throw new PlotwrightError("bad-setting", "It was sent by another version of plotwright.");
+      const { name, drawing, settings } = parsed.data;
+      const stored = await files.add([Buffer.from(drawing, "utf8")]);
+      const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
+      log(`shared queue: took "${name}" as ${job.id}`);
+      await shared.finish(id, "stored", null);
+      this.#unstarted.add(job.id);
+      await this.#startTaken();
+    } catch (error) {
+      if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
+      const message = `A job of the shared queue can't be plotted: ${error.message}`;
+      log(message);
+      notice(message);
+      await shared.finish(id, "refused", error.message);
+    }
+  }
+}
+
+const targetText = (target: SharedTarget): string =>
+  "plotter" in target ? `plotter ${target.plotter.toLowerCase()}` : `machine ${target.machine}`;
+
+/** Ignores refusals: the job may have been started, or the plotter used for another one, meanwhile. */
+async function startIfFree(queue: JobQueue, id: string): Promise<void> {
+  try {
+    await queue.start(id);
+  } catch (error) {
+    if (!(error instanceof PlotwrightError)) throw error;
+  }
+}

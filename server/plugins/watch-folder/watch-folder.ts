@@ -1,0 +1,178 @@
+/**
+ * A folder whose drawings become queued jobs. Each drawing, by name and content, is queued once, also across
+ * restarts. A drawing is taken when its size no longer changes, so that a file still being copied or exported
+ * is left alone.
+ *
+ * The settings are those of the newest job, without the parts specific to that drawing (placement and
+ * layers). `NAME.settings.json` beside the drawing, or `settings.json` for the whole folder, overrides them.
+ * Either file may contain complete settings or only a part, such as { "pen": … }.
+ *
+ * A drawing that can't be plotted is reported in the log and in a notice, and not tried again.
+ */
+import { createHash } from "node:crypto";
+import { createReadStream } from "node:fs";
+import { lstat, readFile, stat } from "node:fs/promises";
+import { basename, dirname, extname, join } from "node:path";
+import { watch, type FSWatcher } from "chokidar";
+import { PlotwrightError } from "../../../src/index.js";
+import { isDrawingName } from "../../../src/internal.js";
+import {
+  firstFault,
+  cleanName,
+  DEFAULT_PLOT_SETTINGS,
+  plotSettingsSchema,
+  type Job,
+  type PlotSettings,
+} from "../../../src/schema/index.js";
+import type { DrawingFiles } from "../../storage/drawing-files.js";
+import type { JobQueue } from "../../queue/job-queue.js";
+import type { Notices } from "../../queue/notices.js";
+import type { Store } from "../../storage/store.js";
+
+export interface WatchParts {
+  readonly queue: Pick<JobQueue, "add" | "list">;
+  readonly files: DrawingFiles;
+  readonly store: Pick<Store, "isSeen" | "saveSeen">;
+  readonly notices: Pick<Notices, "add">;
+  /** Adds the profile when the settings name a custom machine. */
+  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+  readonly log: (line: string) => void;
+  /** How long a file's size must stay the same; default 2 s. */
+  readonly stableMs?: number;
+}
+
+const STABLE_MS = 2_000;
+
+export class WatchFolder {
+  readonly #parts: WatchParts;
+  readonly #watcher: FSWatcher;
+  readonly #abort = new AbortController();
+  /** Files are handled one after the other, in the order of their events. */
+  #last: Promise<void> = Promise.resolve();
+
+  /** Throws `bad-setting` if there is no such folder. */
+  static async open(dir: string, parts: WatchParts): Promise<WatchFolder> {
+    const found = await stat(dir).catch(() => null);
+    if (found === null || !found.isDirectory()) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `The folder ${dir} can't be watched, because it does not exist. Create it first.`,
+      );
+    }
+    return new WatchFolder(dir, parts);
+  }
+
+  private constructor(dir: string, parts: WatchParts) {
+    this.#parts = parts;
+    const stableMs = parts.stableMs ?? STABLE_MS;
+    this.#watcher = watch(dir, {
+      depth: 0,
+      followSymlinks: false,
+      ignored: (path, stats) => stats?.isFile() === true && !isDrawing(path),
+      awaitWriteFinish: { stabilityThreshold: stableMs, pollInterval: Math.min(200, stableMs / 2) },
+    });
+    const later = (path: string): void => {
+      this.#last = this.#last
+        .then(() => this.#take(path))
+        .catch((error: unknown) => parts.log(`watched folder: ${words(error)}`));
+    };
+    this.#watcher.on("add", later).on("change", later);
+    this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
+  }
+
+  /** Resolves when all files reported so far have been handled. */
+  async settled(): Promise<void> {
+    await this.#last;
+  }
+
+  async close(): Promise<void> {
+    this.#abort.abort();
+    await this.#watcher.close();
+    await this.#last;
+  }
+
+  /** Rejects only if the error itself can't be stored. */
+  async #take(path: string): Promise<void> {
+    if (this.#abort.signal.aborted) return;
+    const name = basename(path);
+    const { store, log, notices } = this.#parts;
+    let sha256: string | null = null;
+    try {
+      if (!(await lstat(path)).isFile()) return;
+      sha256 = await hashOf(path);
+      if (store.isSeen({ name, sha256 })) return;
+      const job = await this.#add(path, name, sha256);
+      log(`watched folder: "${job.name}" is queued as ${job.id}`);
+    } catch (error) {
+      const isGone = (error as NodeJS.ErrnoException).code === "ENOENT";
+      if (isGone || this.#abort.signal.aborted) return;
+      const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
+      log(message);
+      // The notice comes before saveSeen: after a crash between the two it is shown twice rather than never.
+      notices.add(message);
+      if (sha256 !== null) store.saveSeen({ name, sha256 });
+    }
+  }
+
+  async #add(path: string, name: string, sha256: string): Promise<Job> {
+    const { queue, files, withMachine } = this.#parts;
+    const settings = withMachine(await settingsBeside(path, settingsOfLast(queue.list())));
+    const drawing = await files.add(createReadStream(path));
+    if (drawing.bytes === 0) {
+      await files.remove(drawing.id);
+      throw new PlotwrightError("bad-file", "The file is empty.");
+    }
+    return queue.add(
+      { name: cleanName(name.slice(0, 200)), settings, drawing, watched: { name, sha256 } },
+      { signal: this.#abort.signal },
+    );
+  }
+}
+
+/** Settings files end in .json, which drawings may too, so they are excluded. */
+const isDrawing = (path: string): boolean =>
+  isDrawingName(path) && !basename(path).startsWith(".") && !/(^|\.)settings\.json$/.test(basename(path));
+
+async function hashOf(path: string): Promise<string> {
+  const hash = createHash("sha256");
+  for await (const chunk of createReadStream(path) as AsyncIterable<Buffer>) hash.update(chunk);
+  return hash.digest("hex");
+}
+
+function settingsOfLast(jobs: readonly Job[]): PlotSettings {
+  const newest = jobs.reduce<Job | null>(
+    (best, job) => (best === null || job.createdAt > best.createdAt ? job : best),
+    null,
+  );
+  if (newest === null) return DEFAULT_PLOT_SETTINGS;
+  const { settings } = newest;
+  const { hiddenLayers, layerHatches, layerOrder, layerRepeats, place } = DEFAULT_PLOT_SETTINGS.prepare;
+  return {
+    ...settings,
+    prepare: { ...settings.prepare, hiddenLayers, layerHatches, layerOrder, layerRepeats, place },
+    layerPens: DEFAULT_PLOT_SETTINGS.layerPens,
+  };
+}
+
+async function settingsBeside(path: string, base: PlotSettings): Promise<PlotSettings> {
+  const name = basename(path, extname(path));
+  for (const file of [join(dirname(path), `${name}.settings.json`), join(dirname(path), "settings.json")]) {
+    const text = await readFile(file, "utf8").catch(() => null);
+    if (text === null) continue;
+    const result = plotSettingsSchema.partial().safeParse(parsed(text, file));
+    if (result.success) return plotSettingsSchema.parse({ ...base, ...result.data });
+    const { path: field, words } = firstFault(result.error);
+    throw new PlotwrightError("bad-setting", `${basename(file)}: ${field}: ${words}.`);
+  }
+  return base;
+}
+
+function parsed(text: string, file: string): unknown {
+  try {
+    return JSON.parse(text) as unknown;
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${basename(file)} is not valid JSON.`, { cause });
+  }
+}
+
+const words = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -1,0 +1,346 @@
+/**
+ * The plots that are running, at most one per plotter. Applies the reports of the runs to their jobs, and
+ * passes requests for a running job to its run.
+ */
+import { z } from "zod";
+import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
+import {
+  ENDED_STATES,
+  type Job,
+  type JobChange,
+  type JobPlace,
+  type MovePlace,
+  type PlotWait,
+} from "../../src/schema/index.js";
+import type { JournalEntry, PlotProgress } from "../plotter/types.js";
+import { isDiskFault } from "../storage/disk-fault.js";
+import type { JobList } from "./job-list.js";
+import { applyJobEvent } from "./job-machine.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { QueueParts } from "./queue-parts.js";
+import { MotionTimer } from "./queued-job.js";
+import { Runner, type RunEnd } from "./runner.js";
+
+export const SERVER_STOPPED =
+  "The server stopped while this was plotting. Check pen and paper, then continue from where it was.";
+
+/**
+ * Errors of the board, after which a plot can continue from where it was. Other errors would only occur
+ * again.
+ */
+const INTERRUPTIONS: readonly ErrorCode[] = [
+  "no-board",
+  "disconnected",
+  "board-error",
+  "board-timeout",
+  "busy",
+  "not-allowed",
+];
+
+interface Running {
+  readonly jobId: string;
+  readonly runner: Runner;
+  readonly timer: MotionTimer;
+}
+
+export class RunningPlots {
+  readonly #parts: QueueParts;
+  readonly #jobs: JobList;
+  readonly #done: (job: Job) => void;
+  /** By plotter id. */
+  readonly #running = new Map<string, Running>();
+  #closing = false;
+  #lastTrouble: string | null = null;
+
+  /**
+   * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
+   * plot.
+   */
+  constructor(parts: QueueParts, jobs: JobList, done: (job: Job) => void) {
+    this.#parts = parts;
+    this.#jobs = jobs;
+    this.#done = done;
+    for (const { id, state } of jobs.list()) {
+      if (state === "plotting" || state === "paused") this.#interrupt(id, SERVER_STOPPED);
+    }
+  }
+
+  isBusy(plotterId: string): boolean {
+    return this.#running.has(plotterId);
+  }
+
+  get isClosing(): boolean {
+    return this.#closing;
+  }
+
+  /** Throws the errors that `start` would throw. */
+  mustBeStartable(id: string): void {
+    this.#freePlotter(id);
+    applyJobEvent(this.#jobs.get(id), { type: "start" }, this.#parts.nowIso());
+  }
+
+  /** Throws `busy` while the job's plotter is plotting another job. */
+  start(id: string): Job {
+    const plotter = this.#freePlotter(id);
+    // The journal of an earlier plot of this job, which was interrupted and queued again.
+    this.#parts.store.clearJournal(id);
+    const started = this.#jobs.apply(id, { type: "start" });
+    this.#begin(plotter, started);
+    return started;
+  }
+
+  /** Starts an interrupted job at its place, held: nothing moves until it is resumed. */
+  recover(id: string): Job {
+    const plotter = this.#freePlotter(id);
+    const { place: from } = this.#jobs.get(id);
+    const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
+    this.#begin(plotter, job).hold(this.#parts.nowIso());
+    const isLost = plotter.snapshot().xMm === null;
+    const place = isLost
+      ? "The board has lost its position: push the carriage to home by hand before you resume. The line may overlap a little where it continues."
+      : "The board still knows its position. Check it with the pen up, then resume.";
+    return this.#jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
+  }
+
+  /** Changes pen heights and speeds of a job that is plotting or held. */
+  async change(id: string, change: JobChange): Promise<Job> {
+    await this.#runnerOf(id, ["plotting", "paused"], "changed").change(change);
+    const job = this.#jobs.get(id);
+    const { pen = job.settings.pen, motion = job.settings.motion, speedPct = job.speedPct } = change;
+    return this.#jobs.save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
+  }
+
+  /** Stops without slowing down; afterwards the job is held. */
+  async emergencyStop(id: string): Promise<Job> {
+    await this.#runnerOf(id, ["plotting", "paused"], "stopped").live.emergencyStop();
+    return this.#jobs.get(id);
+  }
+
+  /** Moves the place from which a held job will resume. */
+  movePlace(id: string, by: MovePlace): Job {
+    const place = this.#runnerOf(id, ["paused"], "moved along").live.moveHoldPlace(by);
+    return this.#jobs.save({ ...this.#jobs.get(id), place: jobPlace(place) });
+  }
+
+  /** Travels to the place of a held job with the pen up. */
+  async checkPlace(id: string): Promise<Job> {
+    await this.#runnerOf(id, ["paused"], "checked").live.checkHoldPlace();
+    return this.#jobs.get(id);
+  }
+
+  pause(id: string): Job {
+    this.#runnerOf(id, ["plotting"], "paused").pause();
+    return this.#jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
+  }
+
+  resume(id: string): Job {
+    this.#runnerOf(id, ["paused"], "resumed").resume();
+    return this.#jobs.note(id, "Resuming.");
+  }
+
+  cancel(id: string): Job {
+    const running = this.#running.get(this.#jobs.get(id).plotterId);
+    if (running?.jobId !== id) return this.#jobs.apply(id, { type: "cancel" });
+    running.runner.cancel();
+    return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
+  }
+
+  /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
+  async close(): Promise<void> {
+    this.#closing = true;
+    const running = [...this.#running.values()];
+    for (const { runner } of running) runner.cancel();
+    await Promise.all(running.map(({ runner }) => runner.finished));
+    this.#jobs.close();
+  }
+
+  #begin(plotter: PlotterPort, job: Job): MotionTimer {
+    const drawing = this.#parts.store.drawingOf(job.id);
+    const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
+    const entry = this.#journal(job.id);
+    const isOfEntry = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
+    const runner = new Runner(
+      {
+        plotter,
+        settings: job.settings,
+        open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
+        from,
+        sent: isOfEntry ? entry?.sent : undefined,
+        speedPct: job.speedPct,
+      },
+      {
+        journal: (entry) => this.#safely(job.id, () => this.#saveJournal(job.id, entry)),
+        progress: (progress) => this.#progress(job.id, plotter.id, progress),
+        held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
+        refused: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
+        ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
+      },
+    );
+    const timer = new MotionTimer(this.#parts.nowIso());
+    this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+    return timer;
+  }
+
+  /**
+   * Stores the progress with the place: otherwise it is only in memory and lost when the server is killed.
+   */
+  #saveJournal(id: string, entry: JournalEntry): void {
+    const { progress, elapsedS, remainingS } = this.#jobs.get(id);
+    this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
+  }
+
+  /** A full disk must neither stop the pen in mid-stroke nor end the server: it may soon have room again. */
+  #safely(jobId: string, write: () => void): void {
+    try {
+      write();
+      this.#lastTrouble = null;
+    } catch (error) {
+      const trouble = error instanceof Error ? error.message : String(error);
+      if (trouble !== this.#lastTrouble) this.#parts.log?.(`the state of a plot can't be stored: ${trouble}`);
+      this.#lastTrouble = trouble;
+      if (isDiskFault(error)) this.#jobs.diskIsFull(jobId);
+    }
+  }
+
+  #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
+    const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp } = progress;
+    // The travel home of a cancelled plot is not progress of the drawing.
+    if (this.#running.get(plotterId)?.runner.isCancelling !== true) {
+      this.#jobs.progressed(jobId, { progress: part, elapsedS, remainingS });
+    }
+    this.#parts.announce({
+      type: "progress",
+      jobId,
+      plotterId,
+      progress: part,
+      elapsedS,
+      remainingS,
+      planS,
+      xMm,
+      yMm,
+      penUp,
+    });
+  }
+
+  /** An earlier wait (of an interrupted job) remains until it is answered. */
+  #held(id: string, held: boolean, wait: PlotWait | null): void {
+    const job = this.#jobs.get(id);
+    const running = this.#running.get(job.plotterId);
+    if (held && job.state === "plotting") {
+      running?.timer.hold(this.#parts.nowIso());
+      const waitsFor = wait ?? job.wait;
+      const message = waitsFor === null ? null : penWords(waitsFor);
+      this.#jobs.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
+    } else if (held && job.state === "paused") {
+      // A recovered job: only now has the board reported where it stopped.
+      const place = this.#holdPlace(running);
+      const isNewWait = wait !== null && wait.layerName !== job.wait?.layerName;
+      this.#jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
+    } else if (!held && job.state === "paused") {
+      running?.timer.release(this.#parts.nowIso());
+      this.#jobs.apply(id, { type: "release" }, { place: null });
+    }
+  }
+
+  #ended(id: string, plotterId: string, end: RunEnd): void {
+    const timer = this.#running.get(plotterId)?.timer;
+    this.#running.delete(plotterId);
+    const { store, nowIso } = this.#parts;
+    // A plot that is partly on paper must stay recoverable, whatever the error.
+    if (end.kind === "failed" && (canGoOn(end.error) || store.journal(id) !== undefined)) {
+      this.#interrupt(id, end.error.message);
+    } else if (end.kind === "failed") {
+      this.#jobs.apply(id, { type: "fail", message: end.error.message });
+    } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, SERVER_STOPPED);
+    else if (end.kind === "cancelled") this.#jobs.apply(id, { type: "cancel" });
+    else {
+      // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
+      if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
+      this.#jobs.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
+    }
+    const job = this.#jobs.get(id);
+    this.#jobs.announceOrder();
+    if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
+    if (job.state === "done") this.#done(job);
+  }
+
+  /**
+   * The place comes from the journal. Without a journal nothing was drawn, and the job starts at the
+   * beginning.
+   */
+  #interrupt(id: string, message: string): void {
+    const entry = this.#journal(id);
+    const { place } = this.#jobs.get(id);
+    const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id));
+    this.#jobs.apply(
+      id,
+      { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place },
+      progress.success ? progress.data : {},
+    );
+  }
+
+  #journal(id: string): z.infer<typeof journalSchema> | null {
+    return journalSchema.safeParse(this.#parts.store.journal(id)).data ?? null;
+  }
+
+  #holdPlace(running: Running | undefined): JobPlace | null {
+    const place = running?.runner.live.holdPlace ?? null;
+    return place === null ? null : jobPlace(place);
+  }
+
+  #runnerOf(id: string, states: readonly Job["state"][], verb: string): Runner {
+    const job = this.#jobs.get(id);
+    const running = this.#running.get(job.plotterId);
+    if (running?.jobId !== id || !states.includes(job.state)) {
+      throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
+    }
+    return running.runner;
+  }
+
+  /** The job's plotter; throws unless it is connected and has no other job. */
+  #freePlotter(id: string): PlotterPort {
+    if (this.#closing) throw new PlotwrightError("conflict", "The server is stopping.");
+    const plotter = plotterOf(this.#parts, this.#jobs.get(id).plotterId);
+    const other = this.#running.get(plotter.id);
+    if (other !== undefined && other.jobId !== id) {
+      throw new PlotwrightError(
+        "busy",
+        `"${this.#jobs.get(other.jobId).name}" is being plotted. Wait until it ends, or cancel it.`,
+      );
+    }
+    mustBeThere(plotter);
+    return plotter;
+  }
+}
+
+/** Throws `not-found`. */
+export function plotterOf({ plotters }: Pick<QueueParts, "plotters">, id: string): PlotterPort {
+  const plotter = plotters.get(id);
+  if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
+  return plotter;
+}
+
+function penWords({ penName, layerName }: PlotWait): string {
+  return penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
+}
+
+const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
+
+const canGoOn = (error: Error): boolean =>
+  error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
+
+/** What Store.journal returns. It may have been written by another version of this program. */
+const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
+const journalSchema = z.object({ place: placeSchema, sent: placeSchema.optional() });
+const journalProgressSchema = z.object({
+  progress: z.number().min(0).max(1),
+  elapsedS: z.number().min(0),
+  remainingS: z.number().min(0).nullable(),
+});
+
+function mustBeThere(plotter: PlotterPort): void {
+  const { connection, message, name } = plotter.snapshot();
+  if (connection === "idle") return;
+  if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);
+  throw new PlotwrightError("no-board", message ?? `${name} is not connected. Plug it in and switch it on.`);
+}

@@ -1,0 +1,58 @@
+/** Drawings that were uploaded for a job that is not added yet. One that no job claims in time is removed. */
+import { PlotwrightError } from "../../src/index.js";
+import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
+
+const KEEP_MS = 10 * 60_000;
+
+interface Upload {
+  readonly drawing: StoredDrawing;
+  readonly timer: NodeJS.Timeout;
+}
+
+export class UploadedDrawings {
+  readonly #files: DrawingFiles;
+  readonly #log: (line: string) => void;
+  readonly #keepMs: number;
+  readonly #uploads = new Map<string, Upload>();
+
+  constructor(files: DrawingFiles, log: (line: string) => void, keepMs = KEEP_MS) {
+    this.#files = files;
+    this.#log = log;
+    this.#keepMs = keepMs;
+  }
+
+  /** Stores a file and returns its id. Throws `too-large`, or `bad-file` for an empty one. */
+  async add(chunks: AsyncIterable<Uint8Array>): Promise<string> {
+    const drawing = await this.#files.addFile(chunks);
+    const timer = setTimeout(() => void this.#remove(drawing.id), this.#keepMs).unref();
+    this.#uploads.set(drawing.id, { drawing, timer });
+    return drawing.id;
+  }
+
+  /** Hands the drawing over to the caller, who has to remove it if it is not used. Throws `not-found`. */
+  claim(id: string): StoredDrawing {
+    const upload = this.#uploads.get(id);
+    if (upload === undefined) {
+      throw new PlotwrightError(
+        "not-found",
+        "There is no uploaded drawing with this drawingId. An upload serves one job and is kept for ten minutes: send the file again.",
+      );
+    }
+    clearTimeout(upload.timer);
+    this.#uploads.delete(id);
+    return upload.drawing;
+  }
+
+  /** Removes all drawings that were not claimed. */
+  async close(): Promise<void> {
+    await Promise.all([...this.#uploads.keys()].map((id) => this.#remove(id)));
+  }
+
+  async #remove(id: string): Promise<void> {
+    try {
+      await this.#files.remove(this.claim(id).id);
+    } catch (error) {
+      this.#log(`an uploaded drawing could not be removed: ${(error as Error).message}`);
+    }
+  }
+}

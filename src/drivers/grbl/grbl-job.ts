@@ -1,0 +1,142 @@
+/** Strokes to a job for a Grbl: a model of what its planner does, and the lines that it is sent. */
+import type { StrokeSet } from "../../drawing/stroke-set.js";
+import type { GrblController } from "../../machines/controllers.js";
+import type { MachineProfile } from "../../machines/profile.js";
+import { penMovesOf } from "../../plan/pen-moves.js";
+import { plan } from "../../plan/plan.js";
+import type { Trajectory } from "../../plan/trajectory.js";
+import type { PenSettings } from "../../settings/pen.js";
+import type {
+  DriverPlanOptions,
+  FirmwareRules,
+  JobSettings,
+  MachineCommands,
+  MachineJob,
+} from "../machine-job.js";
+import { dwellS, grblOf } from "./model/grbl-controller.js";
+import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
+import { moveTimeS } from "./model/planner.js";
+
+/** Lines of G-code, the last of which is answered when everything is done. */
+export interface GrblCommands extends MachineCommands {
+  readonly lines: readonly string[];
+}
+
+/** The commands of a job as this driver's own. Throws TypeError for those of another driver. */
+export function grblCommandsOf(commands: MachineCommands): GrblCommands {
+  if (!("lines" in commands)) throw new TypeError("these commands are for another controller");
+  return commands as GrblCommands;
+}
+
+/** The plan does not depend on the version. */
+export const grblFirmware: FirmwareRules = {
+  isOwn: (firmware) => firmware.startsWith("Grbl"),
+  limitsMotion: () => false,
+};
+
+/** mm, absolute, mm/min. A reset sets some of them back. */
+export const MODES = "G21G90G94";
+/** Answered when everything before it is done. */
+export const SYNC = "G4P0";
+
+export function planGrblJob(
+  strokes: StrokeSet,
+  { motion, pen }: JobSettings,
+  machine: MachineProfile,
+  options: DriverPlanOptions,
+): MachineJob<GrblCommands> {
+  const grbl = grblOf(machine);
+  const runs = new GrblRuns(machine, grbl);
+  const trajectory = plan(strokes, { ...motion, mode: "junction" }, timedPen(pen, grbl), {
+    from: options.from ?? undefined,
+    startX: options.startXMm,
+    startY: options.startYMm,
+    endX: options.endXMm,
+    endY: options.endYMm,
+    penBesideMm: 2 / machine.stepsPerMm,
+    liftFirst: options.liftFirst,
+    cancel: options.cancel,
+    runs,
+  });
+  let written: GrblCommands | null = null;
+  const commands = (): GrblCommands =>
+    (written ??= writeCommands(trajectory, runs.runs, grbl, options.liftFirst ?? false));
+  return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
+}
+
+/** The pen as the Z axis moves it: always between the profile's two heights. */
+function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
+  const ms = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
+  const { upPct, downPct, layers = {}, contactPct, fullHeightMm } = pen;
+  const waits = Object.entries(layers).map(([id, { beforeMs }]) => {
+    return [id, beforeMs ? { beforeMs: 1_000 * dwellS(beforeMs / 1_000) } : {}] as const;
+  });
+  // A Grbl moves the pen at rest only.
+  const heights = { upPct, downPct, overlap: "off", contactPct, fullHeightMm } as const;
+  return { ...heights, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
+}
+
+/** How long the Z axis moves. */
+const penTimeS = ({ penUpZMm, penDownZMm, penSpeedMmPerS, penAccelMmPerS2 }: GrblController): number =>
+  moveTimeS(Math.abs(penUpZMm - penDownZMm), penSpeedMmPerS, penAccelMmPerS2);
+
+/** To a height, and the wait after it. */
+export const penLines = (grbl: GrblController, zMm: number): [move: string, wait: string] => [
+  `G1Z${number(zMm)}F${number(60 * grbl.penSpeedMmPerS)}`,
+  wait(grbl.penWaitMs / 1_000),
+];
+
+const wait = (seconds: number): string => `G4P${number(dwellS(seconds))}`;
+
+/** At most three decimals. */
+const number = (value: number): string => String(Number(value.toFixed(3)));
+
+function writeCommands(
+  trajectory: Trajectory,
+  runs: readonly (readonly SentMove[])[],
+  grbl: GrblController,
+  liftFirst: boolean,
+): GrblCommands {
+  const lines: string[] = [];
+  const planS: number[] = [];
+  const add = (line: string, atS: number): void => {
+    lines.push(line);
+    planS.push(atS);
+  };
+  const penMoves = penMovesOf(trajectory);
+  let isUp: boolean | null = liftFirst ? null : true;
+  let next = 0;
+  for (let run = 0; run <= runs.length; run++) {
+    for (; next < penMoves.length && penMoves[next].beforeRun === run; next++) {
+      const { up, startS, waitS } = penMoves[next];
+      if (up && isUp) add(wait(waitS), startS);
+      else {
+        const [move, settle] = penLines(grbl, up ? grbl.penUpZMm : grbl.penDownZMm);
+        add(move, startS);
+        add(settle, startS + penTimeS(grbl));
+      }
+      isUp = up;
+    }
+    let feed = 0;
+    const moves = runs[run] ?? [];
+    for (const move of moves) {
+      const { x, y, startS } = move;
+      add(`G1X${number(x)}Y${number(y)}${move.feed === feed ? "" : `F${number(move.feed)}`}`, startS);
+      feed = move.feed;
+    }
+    // Runs begin at rest, and the planner rounds no corner across this.
+    if (moves.length > 0) add(SYNC, endOfRun(trajectory, run));
+  }
+  if (lines.length === 0) add(SYNC, 0);
+  return {
+    count: lines.length,
+    planS: Float64Array.from([...planS, trajectory.totalS]),
+    warnings: [],
+    lines,
+  };
+}
+
+function endOfRun({ runs, startS, durationS }: Trajectory, run: number): number {
+  const last = runs.firstBlock[run + 1] - 1;
+  return startS[last] + durationS[last];
+}

@@ -1,0 +1,238 @@
+/**
+ * One connected Grbl: where its carriage and its pen are, and the few ways to move them. Its work coordinates are mm from
+ * home. Where nobody knows the place, the carriage stands at home.
+ */
+import { PlotwrightError } from "../../../errors.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { machineOf } from "../../../machines/profiles.js";
+import type { PenSettings } from "../../../settings/pen.js";
+import type { ConnectOptions, ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
+import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
+import type { Clock } from "../../transport.js";
+import { grblCommandsOf, MODES, penLines, planGrblJob, SYNC, type GrblCommands } from "../grbl-job.js";
+import { grblOf } from "../model/grbl-controller.js";
+import type { Axes } from "../model/planner.js";
+import type { Status } from "../protocol.js";
+import { GrblRun } from "./grbl-run.js";
+import { LineStream } from "./line-stream.js";
+import type { GrblSession } from "./session.js";
+
+/** The line, the board and this computer. */
+const STOP_MS = 30;
+/** Here is home: kept over a reset. */
+const SET_HOME = "G10L20P1X0Y0";
+const NO_STROKES = {
+  xy: new Float64Array(0),
+  offsets: new Uint32Array(1),
+  layer: new Uint16Array(0),
+  layers: [],
+};
+
+export class GrblMachine implements Machine {
+  readonly name = null;
+  readonly left = null;
+  penUp: boolean | null = null;
+  motorsOn: boolean | null = null;
+  /** Work position, mm; null where nobody knows what it means. */
+  private at: Axes | null = null;
+  private isAsleep = false;
+  private byHand: LineStream | null = null;
+  /** A stop of a move by hand that is under way. */
+  private stopping: Promise<Status> | null = null;
+
+  constructor(
+    readonly session: GrblSession,
+    readonly firmware: string,
+    private readonly options: ConnectOptions,
+  ) {}
+
+  get clock(): Clock {
+    return this.options.machineClock;
+  }
+
+  get speed(): number {
+    return this.options.speed;
+  }
+
+  get state(): MachineState | null {
+    return this.at && { at: this.at };
+  }
+
+  place(profile: MachineProfile): { x: number; y: number } | null {
+    const { stepsPerMm } = profile;
+    return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
+  }
+
+  /** What it was doing for another program ends here. */
+  async takeOver(): Promise<void> {
+    const { state } = await this.session.status();
+    if (state === "Idle") await this.session.send(MODES);
+    else await this.recovered(await this.session.reset(stopped()));
+  }
+
+  async ready(profile: MachineProfile): Promise<MachineState> {
+    grblOf(profile);
+    if (this.isAsleep) await this.recovered(await this.session.reset(stopped()));
+    this.isAsleep = false;
+    if (!this.at) await this.homeIsHere();
+    this.motorsOn = true;
+    this.options.events.changed();
+    return { at: this.at };
+  }
+
+  async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
+    const grbl = grblOf(machineOf(settings));
+    const { upPct, downPct } = settings.pen;
+    const pct = heightPct ?? (up ? upPct : downPct);
+    const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
+    const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
+    if (this.isAsleep) await this.ready(machineOf(settings));
+    for (const line of [SYNC, ...penLines(grbl, zMm)]) await this.session.send(line);
+    this.penUp = up;
+    this.options.events.changed();
+  }
+
+  moveServo(): Promise<void> {
+    return Promise.reject(
+      new PlotwrightError(
+        "bad-setting",
+        "This machine lifts its pen with its Z axis: it has no servo to set up.",
+      ),
+    );
+  }
+
+  async walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
+    const machine = machineOf(settings);
+    await this.ready(machine);
+    if (this.penUp !== true) await this.movePen(true, settings);
+    const { x, y } = this.place(machine)!;
+    const way = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
+    const job = planGrblJob(NO_STROKES, settings, machine, way);
+    await this.perform({ trajectory: job.trajectory, commands: job.commands() });
+  }
+
+  async perform({ commands }: PlannedPlot): Promise<void> {
+    this.byHand = this.stream(grblCommandsOf(commands));
+    try {
+      await this.byHand.play();
+      await this.arrived();
+    } catch (error) {
+      if (this.stopping) await this.recovered(await this.stopping);
+      throw error;
+    } finally {
+      this.byHand = this.stopping = null;
+    }
+  }
+
+  /** After a job has been played to its end. */
+  async arrived(): Promise<void> {
+    this.at = (await this.session.status()).at;
+    this.penUp = true;
+    this.options.events.changed();
+  }
+
+  async setHome(profile: MachineProfile, _pen: PenSettings): Promise<void> {
+    await this.ready(profile);
+    await this.homeIsHere();
+  }
+
+  findHome(): Promise<boolean> {
+    return Promise.resolve(false);
+  }
+
+  async motorsOff(): Promise<void> {
+    if (!this.isAsleep) await this.session.send("$SLP");
+    this.isAsleep = true;
+    this.motorsOn = false;
+    await this.forgetPlace();
+  }
+
+  forgetPlace(): Promise<void> {
+    this.at = null;
+    this.options.events.changed();
+    return Promise.resolve();
+  }
+
+  async letGo(settings: MachineSettings): Promise<void> {
+    await this.movePen(true, settings);
+    await this.motorsOff();
+  }
+
+  async leave(settings: MachineSettings): Promise<void> {
+    await this.recovered(await this.session.reset(stopped()));
+    await this.movePen(true, settings);
+  }
+
+  stopAtOnce(): void {
+    const stream = this.byHand;
+    if (!stream || this.stopping) return;
+    this.stopping = stream.stop(new PlotwrightError("conflict", "The move was stopped at once."));
+    this.stopping.catch(() => undefined);
+  }
+
+  /** Nothing tells of the motors' supply; but a board that does not answer is noticed. */
+  async isSupplyLow(): Promise<boolean> {
+    await this.session.status();
+    return false;
+  }
+
+  emergencyStopMs(): number {
+    return STOP_MS;
+  }
+
+  async command(line: string): Promise<ConsoleAnswer> {
+    if (!/^[\x20-\x7e]{1,79}$/.test(line) || /[?!~]/.test(line)) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `${line} is not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
+      );
+    }
+    this.session.heard = [];
+    await this.session.send(line).catch((error: unknown) => {
+      // What it refuses, it says in a line of its own.
+      if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
+    });
+    const replies = [...this.session.heard];
+    if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, note: null };
+    await this.session.send(SYNC).catch(() => undefined);
+    this.penUp = null;
+    await this.forgetPlace();
+    return { replies, note: "The machine may have moved: home is where it stands when it moves next." };
+  }
+
+  log(): string {
+    return this.session.log.text();
+  }
+
+  startRun(request: RunRequest): MachineRun {
+    return new GrblRun(this, request);
+  }
+
+  close(): Promise<void> {
+    return this.session.close();
+  }
+
+  stream(commands: GrblCommands): LineStream {
+    this.motorsOn = true;
+    this.penUp = null;
+    return new LineStream(this.session, commands, this.clock);
+  }
+
+  /** After a reset: unlocked, in the modes that the lines are written for, at the position that it tells. */
+  async recovered({ state, at }: Status): Promise<void> {
+    if (state.startsWith("Alarm")) await this.session.send("$X");
+    await this.session.send(MODES);
+    this.penUp = null;
+    if (this.at) this.at = at;
+    this.options.events.changed();
+  }
+
+  private async homeIsHere(): Promise<void> {
+    await this.session.send(SET_HOME);
+    this.at = [0, 0, 0];
+    this.options.events.changed();
+  }
+}
+
+const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");

@@ -1,0 +1,157 @@
+/**
+ * One plot on a Grbl. A stop drops all that the Grbl has queued, so what follows is planned anew from where it stands; it
+ * cannot go over to another plan in motion.
+ */
+import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
+import { PlotwrightError } from "../../../errors.js";
+import { machineOf } from "../../../machines/profiles.js";
+import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
+import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
+import { stateAt, type Place } from "../../../plan/trajectory.js";
+import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js";
+import type { PlannedPlot } from "../../machine-job.js";
+import { RunProgress, type PlotProgress } from "../../run-progress.js";
+import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
+import type { Status } from "../protocol.js";
+import type { LineStream } from "./line-stream.js";
+import { stopTime } from "./stop-place.js";
+
+/** How far mm along the plan and mm along the drawing may be apart, which the plan rounds to whole steps. */
+const SNAP_MM = 0.5;
+
+/** What a run needs of the machine that it plays on. */
+interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place"> {
+  stream(commands: GrblCommands): LineStream;
+  /** After a job has been played to its end. */
+  arrived(): Promise<void>;
+  /** After a reset. */
+  recovered(status: Status): Promise<void>;
+}
+
+interface Playing {
+  readonly plot: PlannedPlot;
+  readonly commands: GrblCommands;
+  readonly stream: LineStream;
+}
+
+export class GrblRun implements MachineRun {
+  readonly progress = new RunProgress();
+  stopped: { readonly place: Place | null } | null = null;
+  readonly isGoingOver = false;
+
+  private current: Playing | null = null;
+  /** A stop on purpose that is under way. */
+  private stopping: Promise<Status> | null = null;
+  private isEmergency = false;
+  private failure: PlotwrightError | null = null;
+  private readonly strokes: StrokeSet;
+  private readonly events: RunEvents;
+
+  constructor(
+    private readonly machine: Carriage,
+    private readonly request: RunRequest,
+  ) {
+    this.strokes = request.strokes;
+    this.events = request.events;
+  }
+
+  get playing(): object | null {
+    return this.current;
+  }
+
+  get sentPlace(): Place | undefined {
+    if (!this.current || this.stopping) return undefined;
+    return placeAt(this.current.plot.trajectory, this.current.stream.sentS) ?? undefined;
+  }
+
+  now(): PlotProgress | null {
+    if (!this.current) return null;
+    const { commands, stream } = this.current;
+    return this.progress.update({ stream: commands, planS: stream.planS });
+  }
+
+  async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
+    const { machine, progress } = this;
+    this.stopped = null;
+    this.stopping = null;
+    this.isEmergency = false;
+    if (machine.penUp !== true) await machine.movePen(true, this.request.settings());
+    // It may have come while the pen went up.
+    if (this.failure) throw this.failure;
+    const commands = grblCommandsOf(plot.commands);
+    progress.add({ commands, trajectory: plot.trajectory, afterS });
+    const stream = machine.stream(commands);
+    this.current = { plot, commands, stream };
+    const played = stream.play();
+    begun();
+    let left: Place | null = null;
+    try {
+      await played;
+      await machine.arrived();
+      this.events.tell(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
+      left = progress.place;
+    } catch (error) {
+      left = progress.place;
+      if (!this.stopping) throw error;
+      left = await this.whereStopped(this.current, await this.stopping);
+      this.stopped = { place: left };
+    } finally {
+      this.current = null;
+      this.events.ended(left);
+    }
+    if (this.wasStopped()) await machine.movePen(true, this.request.settings());
+  }
+
+  slowToRest(): void {
+    this.stop((stream) => stream.slowDown(stopped()));
+  }
+
+  stopAtOnce(): void {
+    this.isEmergency = true;
+    this.stop((stream) => stream.stop(stopped()));
+  }
+
+  fail(error: PlotwrightError): void {
+    this.failure = error;
+    this.current?.stream.abandon(error);
+  }
+
+  placeAhead(): null {
+    return null;
+  }
+
+  private stop(how: (stream: LineStream) => Promise<Status>): void {
+    if (!this.current || this.stopping) return;
+    this.stopping = how(this.current.stream);
+    // `play` tells of what it fails with.
+    this.stopping.catch((error: unknown) => {
+      if (error instanceof PlotwrightError) this.current?.stream.abandon(error);
+    });
+  }
+
+  /** The Grbl has dropped its queue: what it has drawn is what its position says. */
+  private async whereStopped({ plot, commands, stream }: Playing, status: Status): Promise<Place | null> {
+    const { machine, progress, strokes } = this;
+    await machine.recovered(status);
+    const at = machine.place(machineOf(this.request.settings()))!;
+    const { trajectory } = plot;
+    const planS = stopTime(trajectory, at, stream.boundsS, stream.planS);
+    this.events.tell({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
+    const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
+    if (stroke < 0) return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
+    return snappedPlace(strokes, { stroke, alongMm }, { ...at, vx, vy }, SNAP_MM);
+  }
+
+  /** What is left is the way home: not gone after an emergency stop before somebody says so. */
+  private endOfDrawing(): Place {
+    const stroke = strokeCount(this.strokes) - 1;
+    return { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
+  }
+
+  /** Set by what happens during `play`, which the compiler cannot see. */
+  private wasStopped(): boolean {
+    return this.stopped !== null;
+  }
+}
+
+const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The plot was stopped.");

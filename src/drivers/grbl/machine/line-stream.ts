@@ -1,0 +1,121 @@
+/** Plays the lines of one job: as many as fit into the buffer are on their way. */
+import { PlotwrightError } from "../../../errors.js";
+import type { Clock } from "../../transport.js";
+import type { GrblCommands } from "../grbl-job.js";
+import { QUEUE_MOVES } from "../model/planner.js";
+import { NOW, type Status } from "../protocol.js";
+import type { GrblSession } from "./session.js";
+
+/** How often it is asked whether it rests, s. */
+const ASK_S = 0.05;
+const REST_TRIES = 200;
+
+export class LineStream {
+  /** The next line to be sent. */
+  private next = 0;
+  private answeredCount = 0;
+  private isOver = false;
+  /** The last instant at which its place on the plan was known. */
+  private known: { readonly planS: number; readonly clockS: number };
+  private settle: (error: PlotwrightError | null) => void = () => undefined;
+
+  constructor(
+    private readonly session: GrblSession,
+    private readonly commands: GrblCommands,
+    /** Counts the machine's seconds. */
+    private readonly clock: Clock,
+  ) {
+    this.known = { planS: commands.planS[0], clockS: clock.nowS() };
+  }
+
+  /** Resolves when all is done. Rejects with what `stop` was given, or with what the Grbl refused. */
+  play(): Promise<void> {
+    return new Promise((resolve, reject) => {
+      this.settle = (error) => {
+        this.isOver = true;
+        if (error) reject(error);
+        else resolve();
+      };
+      this.session.onBreak = (error) => this.end(error);
+      this.feed();
+    });
+  }
+
+  /** What is sent next, seconds along the plan. */
+  get sentS(): number {
+    return this.commands.planS[this.next];
+  }
+
+  /** About where it is, seconds along the plan: no further than what it has taken. */
+  get planS(): number {
+    const { planS } = this.commands;
+    const nowS = this.known.planS + this.clock.nowS() - this.known.clockS;
+    return Math.min(Math.max(nowS, planS[Math.max(0, this.answeredCount - QUEUE_MOVES)]), this.takenS);
+  }
+
+  /** Between these, seconds along the plan, it surely is. */
+  get boundsS(): readonly [fromS: number, toS: number] {
+    const { planS, count } = this.commands;
+    const from = Math.max(0, this.answeredCount - QUEUE_MOVES - 1);
+    return [planS[from], planS[Math.min(count, this.answeredCount + 2)]];
+  }
+
+  /** Slows down along the path; what was sent and not drawn is dropped. `play` rejects with the error. */
+  async slowDown(error: PlotwrightError): Promise<Status> {
+    this.isOver = true;
+    this.session.now(NOW.hold);
+    for (let i = 0; i < REST_TRIES; i++) {
+      const { state } = await this.session.status();
+      if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) break;
+      await new Promise<void>((resolve) => void this.clock.after(ASK_S, resolve));
+    }
+    return this.stop(error);
+  }
+
+  /** Stops at once. `play` rejects with the error. */
+  async stop(error: PlotwrightError): Promise<Status> {
+    this.isOver = true;
+    const status = await this.session.reset(error);
+    this.settle(error);
+    return status;
+  }
+
+  /** Nothing is sent any more, and `play` rejects. */
+  abandon(error: PlotwrightError): void {
+    this.session.now(NOW.reset);
+    this.end(error);
+  }
+
+  private get takenS(): number {
+    return this.commands.planS[this.answeredCount];
+  }
+
+  private end(error: PlotwrightError): void {
+    if (!this.isOver) this.settle(error);
+    this.isOver = true;
+  }
+
+  private feed(): void {
+    const { lines, count } = this.commands;
+    while (!this.isOver && this.next < count && this.session.hasRoom(lines[this.next])) {
+      const index = this.next++;
+      this.session.write(lines[index], (error) => this.answered(index, error));
+    }
+  }
+
+  private answered(index: number, error: PlotwrightError | null): void {
+    if (error) {
+      // The Grbl would go on with the lines behind the one that it refused.
+      if (!this.isOver) this.session.now(NOW.hold);
+      return this.end(error);
+    }
+    this.answeredCount = index + 1;
+    // It is answered when everything before it, and its own wait, are over.
+    if (this.commands.lines[index].startsWith("G4")) {
+      this.known = { planS: this.takenS, clockS: this.clock.nowS() };
+    }
+    if (this.isOver) return;
+    if (this.answeredCount === this.commands.count) this.settle(null);
+    else this.feed();
+  }
+}

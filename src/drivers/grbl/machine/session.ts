@@ -1,0 +1,253 @@
+/**
+ * One Grbl over one transport: counts the characters that it has not answered yet, matches each `ok` or `error:n` to its
+ * line, and notices when it falls silent. Knows nothing about motion.
+ */
+import { PlotwrightError } from "../../../errors.js";
+import { LineSplitter } from "../../line-splitter.js";
+import { SessionLog } from "../../session-log.js";
+import type { Clock, Transport } from "../../transport.js";
+import type { Axes } from "../model/planner.js";
+import {
+  alarm,
+  isGreeting,
+  NOW,
+  offsetOf,
+  refusal,
+  RX_BYTES,
+  rxBytesOf,
+  statusOf,
+  versionOf,
+  type Status,
+} from "../protocol.js";
+
+type Settle = (error: PlotwrightError | null) => void;
+
+interface SentLine {
+  readonly line: string;
+  readonly settle: Settle;
+}
+
+/** Silence after which it counts as gone, s; it is asked for its status meanwhile. */
+const PATIENCE_S = 3;
+const ASK_S = 0.5;
+/** An Arduino restarts when its port is opened, and is deaf for up to two seconds. */
+const IDENTIFY_TRIES = 4;
+const IDENTIFY_S = 1;
+
+export class GrblSession {
+  readonly log: SessionLog;
+  version: string | null = null;
+  /** Called when it restarts or stops by itself; what was sent is gone then. */
+  onBreak: (error: PlotwrightError) => void = () => undefined;
+  /** Lines that were received, until the next command of the console. */
+  heard: string[] = [];
+
+  private rxBytes = RX_BYTES;
+  private sentBytes = 0;
+  private sent: SentLine[] = [];
+  private offset: Axes = [0, 0, 0];
+  private statusWaiters: ((status: Status) => void)[] = [];
+  private greetingWaiters: (() => void)[] = [];
+  private failures: ((error: PlotwrightError) => void)[] = [];
+  private readonly lines = new LineSplitter();
+  private failure: PlotwrightError | null = null;
+  private closed = false;
+  private heardS: number;
+  private cancelWatch: (() => void) | null = null;
+
+  constructor(
+    private readonly transport: Transport,
+    private readonly clock: Clock,
+    private readonly onLost: (error: PlotwrightError) => void,
+  ) {
+    this.log = new SessionLog(clock);
+    this.heardS = clock.nowS();
+    transport.onData((bytes) => this.lines.push(bytes, (line) => this.take(line)));
+    transport.onClose(() => this.fail(lineLost()));
+  }
+
+  /** Rejects with `no-board` when something else answers, with `board-timeout` when nothing does. */
+  async identify(): Promise<string> {
+    for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
+      // Asleep, held or at work for another program, it answers nothing else.
+      if (i > 0) this.now(NOW.reset);
+      const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
+      // An empty line closes what another program may have left unfinished.
+      const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
+      await Promise.race([answered, tooLate]);
+      this.dropSent(silent("$I"));
+      // An answer to an earlier attempt must not count for a later line.
+      if (i > 0) await tooLate;
+    }
+    if (this.failure) throw this.failure;
+    if (this.version === null) throw notGrbl(this.heard.slice(-4));
+    return this.version;
+  }
+
+  /** Whether the buffer takes another line now. */
+  hasRoom(line: string): boolean {
+    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.rxBytes;
+  }
+
+  /** Sends one line; `settle` is called once, with its answer or with what has gone wrong. */
+  write(line: string, settle: Settle): void {
+    if (this.failure) return settle(this.failure);
+    this.sent.push({ line, settle });
+    this.sentBytes += line.length + 1;
+    this.log.add("sent", line);
+    this.put(`${line}\n`);
+    if (!this.cancelWatch) this.watch();
+  }
+
+  /** Resolves when the line is accepted; for `G4` when everything before it is done. */
+  send(line: string): Promise<void> {
+    return new Promise((resolve, reject) => this.write(line, (error) => (error ? reject(error) : resolve())));
+  }
+
+  /** A byte that is obeyed at once. */
+  now(byte: string): void {
+    if (byte !== NOW.status) this.log.add("sent", byte === NOW.reset ? "(reset)" : byte);
+    this.put(byte);
+  }
+
+  status(): Promise<Status> {
+    return this.within("its status", (resolve) => {
+      this.statusWaiters.push(resolve);
+      this.now(NOW.status);
+    });
+  }
+
+  /** Drops all that it has. What was sent and not answered is settled with the error. */
+  async reset(error: PlotwrightError): Promise<Status> {
+    const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
+    this.now(NOW.reset);
+    await greeted;
+    this.dropSent(error);
+    return this.status();
+  }
+
+  async close(): Promise<void> {
+    if (this.closed) return;
+    this.closed = true;
+    this.fail(new PlotwrightError("disconnected", "The connection to the board was closed."));
+    await this.transport.close();
+  }
+
+  private within<T>(what: string, begin: (resolve: (value: T) => void) => void): Promise<T> {
+    return new Promise((resolve, reject) => {
+      if (this.failure) return reject(this.failure);
+      const cancel = this.clock.after(PATIENCE_S, () => reject(silent(what)));
+      const failed = (error: PlotwrightError): void => {
+        cancel();
+        reject(error);
+      };
+      this.failures.push(failed);
+      begin((value) => {
+        cancel();
+        this.failures = this.failures.filter((one) => one !== failed);
+        resolve(value);
+      });
+    });
+  }
+
+  private put(text: string): void {
+    const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
+    this.transport.write(bytes).catch(() => this.fail(lineLost()));
+  }
+
+  private take(line: string): void {
+    this.heardS = this.clock.nowS();
+    this.offset = offsetOf(line) ?? this.offset;
+    const status = statusOf(line, this.offset);
+    if (status) {
+      for (const waiter of this.statusWaiters.splice(0)) waiter(status);
+      return;
+    }
+    this.log.add("received", line);
+    this.heard.push(line);
+    if (this.heard.length > 100) this.heard.shift();
+    this.version = versionOf(line) ?? this.version;
+    this.rxBytes = rxBytesOf(line) ?? this.rxBytes;
+    const refused = /^error:(\d+)/.exec(line);
+    const alarmed = /^ALARM:(\d+)/.exec(line);
+    if (line === "ok") this.settleFirst(null);
+    else if (refused) this.settleFirst(Number(refused[1]));
+    else if (alarmed) {
+      if (this.greetingWaiters.length === 0) this.broken(alarm(Number(alarmed[1])));
+    } else if (isGreeting(line)) {
+      const waiters = this.greetingWaiters.splice(0);
+      if (waiters.length === 0) this.broken(restarted());
+      for (const waiter of waiters) waiter();
+    }
+  }
+
+  private settleFirst(code: number | null): void {
+    const first = this.sent.shift();
+    if (!first) return;
+    this.sentBytes -= first.line.length + 1;
+    first.settle(code === null ? null : refusal(first.line, code));
+  }
+
+  private broken(error: PlotwrightError): void {
+    if (this.version === null) return;
+    this.dropSent(error);
+    this.onBreak(error);
+  }
+
+  private dropSent(error: PlotwrightError): void {
+    this.sentBytes = 0;
+    for (const { settle } of this.sent.splice(0)) settle(error);
+  }
+
+  /** While an answer is missing, it is asked for its status: that comes even where a line waits for motion. */
+  private watch(): void {
+    this.cancelWatch = null;
+    if (this.failure || this.sent.length === 0) return;
+    // The first look must not find what was heard long ago.
+    const sinceS = this.clock.nowS();
+    this.cancelWatch = this.clock.after(ASK_S, () => {
+      if (this.clock.nowS() - Math.max(this.heardS, sinceS - PATIENCE_S) > PATIENCE_S) {
+        this.fail(silent(this.sent[0]?.line ?? ""));
+      } else {
+        this.now(NOW.status);
+        this.watch();
+      }
+    });
+  }
+
+  private fail(error: PlotwrightError): void {
+    if (this.failure) return;
+    this.failure = error;
+    this.cancelWatch?.();
+    this.log.add("note", error.message);
+    this.dropSent(error);
+    for (const failed of this.failures.splice(0)) failed(error);
+    if (!this.closed) this.onLost(error);
+  }
+}
+
+const lineLost = (): PlotwrightError =>
+  new PlotwrightError(
+    "disconnected",
+    "The connection to the board is lost: check its USB cable and power, then connect again.",
+  );
+
+const silent = (waitingFor: string): PlotwrightError =>
+  new PlotwrightError(
+    "board-timeout",
+    `The board has stopped answering (waiting on ${waitingFor}): check its USB cable and power, and that no other program uses the port.`,
+  );
+
+const restarted = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The Grbl has started anew in the middle of its work: its reset button was pressed, or its supply failed. Put the carriage to home before you go on.",
+  );
+
+function notGrbl(heard: readonly string[]): PlotwrightError {
+  if (heard.length === 0) return silent("its version");
+  return new PlotwrightError(
+    "no-board",
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It said: ${heard.join("; ")}.`,
+  );
+}

@@ -1,0 +1,41 @@
+/** Where on a plan a stop has left the carriage. */
+import type { Trajectory } from "../../../plan/trajectory.js";
+
+/** Blocks that lie about as near as the nearest one: the path may cross itself. */
+const SAME_MM = 0.03;
+
+/** Seconds along the plan of the point nearest to x, y between two instants, and to an estimate where several are. */
+export function stopTime(
+  trajectory: Trajectory,
+  { x, y }: { readonly x: number; readonly y: number },
+  [fromS, toS]: readonly [number, number],
+  nearS: number,
+): number {
+  const found: { readonly awayMm: number; readonly atS: number }[] = [];
+  for (let k = 0; k < trajectory.blockCount; k++) {
+    const startS = trajectory.startS[k];
+    if (startS + trajectory.durationS[k] < fromS || startS > toS) continue;
+    found.push(nearestOn(trajectory, k, x, y));
+  }
+  const leastMm = Math.min(...found.map(({ awayMm }) => awayMm));
+  const near = found.filter(({ awayMm }) => awayMm <= leastMm + SAME_MM);
+  near.sort((a, b) => Math.abs(a.atS - nearS) - Math.abs(b.atS - nearS));
+  return near[0]?.atS ?? nearS;
+}
+
+function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): { awayMm: number; atS: number } {
+  const { vx, vy, ax, ay, durationS, startS } = trajectory;
+  const t = durationS[k];
+  const dx = vx[k] * t + (ax[k] * t * t) / 2;
+  const dy = vy[k] * t + (ay[k] * t * t) / 2;
+  const lengthMm = Math.hypot(dx, dy);
+  const [px, py] = [x - trajectory.x[k], y - trajectory.y[k]];
+  const share = lengthMm > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / lengthMm ** 2)) : 0;
+  const awayMm = Math.hypot(px - share * dx, py - share * dy);
+  const v = Math.hypot(vx[k], vy[k]);
+  const a = lengthMm > 0 ? (ax[k] * dx + ay[k] * dy) / lengthMm : 0;
+  const s = share * lengthMm;
+  // s = v t + a t²/2, in a form that holds for a = 0 too.
+  const root = v + Math.sqrt(Math.max(0, v * v + 2 * a * s));
+  return { awayMm, atS: startS[k] + Math.min(t, root > 0 ? (2 * s) / root : 0) };
+}

@@ -1,0 +1,91 @@
+/** Writes the runs of a plan as Grbl performs them, and keeps the moves to be sent for them. */
+import type { GrblController } from "../../../machines/controllers.js";
+import { motor1FromXy, motor2FromXy, placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import type { BlockColumns } from "../../../plan/block-columns.js";
+import { capSegments, type RunLimits } from "../../../plan/limits.js";
+import type { RunPath } from "../../../plan/run-path.js";
+import type { WritesRuns } from "../../../plan/run-writer.js";
+import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
+import { axisLimits } from "./grbl-controller.js";
+import { moveOf, plannedSpeeds2, type AxisLimits, type Move } from "./planner.js";
+
+/** A line to be sent: to a position of the axes, mm. */
+export interface SentMove {
+  readonly x: number;
+  readonly y: number;
+  /** mm/min. */
+  readonly feed: number;
+  /** Seconds from the plan's start. */
+  readonly startS: number;
+}
+
+/** A point of a run on whole steps. */
+interface Point {
+  readonly steps1: number;
+  readonly steps2: number;
+  readonly x: number;
+  readonly y: number;
+  readonly alongMm: number;
+}
+
+export class GrblRuns implements WritesRuns {
+  /** By run. */
+  readonly runs: SentMove[][] = [];
+  private readonly limits: AxisLimits;
+
+  constructor(
+    private readonly machine: MachineProfile,
+    grbl: GrblController,
+  ) {
+    this.limits = axisLimits(grbl);
+  }
+
+  write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
+    capSegments(path, limits);
+    const sent: SentMove[] = [];
+    this.runs.push(sent);
+    const points = [this.pointAt(path, 0, path.startAlong)];
+    const moves: Move[] = [];
+    const feeds: number[] = [];
+    let alongMm = path.startAlong;
+    for (let i = 0; i < path.segmentCount; i++) {
+      alongMm += path.length[i];
+      const from = points[points.length - 1];
+      const to = this.pointAt(path, i + 1, alongMm);
+      if (to.steps1 === from.steps1 && to.steps2 === from.steps2) continue;
+      const feed = feedOf(Math.sqrt(path.cap2[i]));
+      const before = moves[moves.length - 1] ?? null;
+      moves.push(moveOf([from.x, from.y, 0], [to.x, to.y, 0], feed / 60, this.limits, before));
+      feeds.push(feed);
+      points.push(to);
+    }
+    const speeds2 = plannedSpeeds2(moves);
+    const { stepsPerMm } = this.machine;
+    const straight = newStraight();
+    moves.forEach((move, i) => {
+      const [from, to] = [points[i], points[i + 1]];
+      sent.push({ x: to.steps1 / stepsPerMm, y: to.steps2 / stepsPerMm, feed: feeds[i], startS: out.clockS });
+      straight.x = from.x;
+      straight.y = from.y;
+      [straight.ux, straight.uy] = move.unit;
+      straight.length = move.lengthMm;
+      straight.v0 = Math.sqrt(speeds2[i]);
+      straight.v1 = Math.sqrt(speeds2[i + 1]);
+      straight.cap2 = move.speed ** 2;
+      straight.alongMm = from.alongMm;
+      straight.alongPerMm = (to.alongMm - from.alongMm) / move.lengthMm;
+      writeStraight(straight, move.accel, out);
+    });
+    out.addSegments(path.segmentCount);
+  }
+
+  private pointAt({ x, y }: RunPath, i: number, alongMm: number): Point {
+    const steps1 = Math.round(motor1FromXy(this.machine, x[i], y[i]));
+    const steps2 = Math.round(motor2FromXy(this.machine, x[i], y[i]));
+    return { steps1, steps2, ...placeFromMotors(this.machine, steps1, steps2), alongMm };
+  }
+}
+
+/** mm/min, as it is written. Grbl takes nothing below 1. */
+const feedOf = (speedMmPerS: number): number => Math.max(1, Math.round(60_000 * speedMmPerS) / 1_000);

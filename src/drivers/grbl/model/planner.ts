@@ -1,0 +1,91 @@
+/**
+ * Grbl's own planner: how fast it takes each move of a queue. The job uses it to know the motion beforehand, the virtual
+ * Grbl to perform it. From the description of planner.c: a limit for each corner by junction deviation, then one pass
+ * backwards from rest at the end of the queue, then constant acceleration.
+ */
+
+/** X, Y and Z: a position in mm, a unit vector, or the limits of the axes. */
+export type Axes = readonly [x: number, y: number, z: number];
+
+export interface AxisLimits {
+  /** mm/s. */
+  readonly speed: Axes;
+  /** mm/s². */
+  readonly accel: Axes;
+  readonly junctionMm: number;
+}
+
+/** One straight move in the queue. */
+export interface Move {
+  readonly unit: Axes;
+  readonly lengthMm: number;
+  readonly accel: number;
+  /** Of the feed and the axes, mm/s. */
+  readonly speed: number;
+  /** The highest speed² at its start, whatever follows. */
+  readonly maxEntry2: number;
+}
+
+/** Moves that fit into the queue, with the one that is being performed. */
+export const QUEUE_MOVES = 15;
+
+/** Beyond these a corner counts as a reversal or as straight. */
+const SAME = 0.999999;
+
+/** A move from one position to another, which are not the same. `before`: the move that is queued before it. */
+export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
+  const way: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+  const lengthMm = Math.hypot(...way);
+  const unit: Axes = [way[0] / lengthMm, way[1] / lengthMm, way[2] / lengthMm];
+  const speed = Math.min(feed, alongAxes(limits.speed, unit));
+  const maxEntry2 = before
+    ? Math.min(junctionSpeed2(before.unit, unit, limits), speed ** 2, before.speed ** 2)
+    : 0;
+  return { unit, lengthMm, accel: alongAxes(limits.accel, unit), speed, maxEntry2 };
+}
+
+/** The most along a direction that exceeds the limit of no axis. */
+function alongAxes(limits: Axes, unit: Axes): number {
+  let most = Infinity;
+  for (let i = 0; i < 3; i++) if (unit[i] !== 0) most = Math.min(most, limits[i] / Math.abs(unit[i]));
+  return most;
+}
+
+/** The highest speed² around a corner: that of a circle that passes it within the junction deviation. */
+export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }: AxisLimits): number {
+  const cos = -(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
+  if (cos > SAME) return 0;
+  if (cos < -SAME) return Infinity;
+  const sine = Math.sqrt((1 - cos) / 2);
+  const turn: Axes = [after[0] - before[0], after[1] - before[1], after[2] - before[2]];
+  const size = Math.hypot(...turn);
+  const along = alongAxes(accel, [turn[0] / size, turn[1] / size, turn[2] / size]);
+  return (along * junctionMm * sine) / (1 - sine);
+}
+
+/** The highest speed² at the end of move `i` from which the moves before `end` can come to rest. */
+export function exitLimit2(moves: readonly Move[], i: number, end: number): number {
+  let speed2 = 0;
+  for (let j = end - 1; j > i; j--) {
+    const { maxEntry2, accel, lengthMm } = moves[j];
+    speed2 = Math.min(maxEntry2, speed2 + 2 * accel * lengthMm);
+  }
+  return speed2;
+}
+
+/** Speed² at the start of each move and at the end of the last one, from rest to rest, with a queue that is kept full. */
+export function plannedSpeeds2(moves: readonly Move[]): Float64Array {
+  const speeds2 = new Float64Array(moves.length + 1);
+  for (let i = 0; i < moves.length; i++) {
+    const { accel, lengthMm } = moves[i];
+    const limit2 = exitLimit2(moves, i, Math.min(moves.length, i + QUEUE_MOVES));
+    speeds2[i + 1] = Math.min(limit2, speeds2[i] + 2 * accel * lengthMm);
+  }
+  return speeds2;
+}
+
+/** Seconds for a straight move from rest to rest. */
+export function moveTimeS(lengthMm: number, speed: number, accel: number): number {
+  const peak = Math.min(speed, Math.sqrt(accel * lengthMm));
+  return lengthMm === 0 ? 0 : peak / accel + lengthMm / peak;
+}

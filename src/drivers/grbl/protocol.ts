@@ -1,0 +1,78 @@
+/** What Grbl says, and the bytes that it obeys at once. */
+import { PlotwrightError } from "../../errors.js";
+import type { Axes } from "./model/planner.js";
+
+/** Taken out at receipt: they need no line end and no room, and get no `ok`. */
+export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
+
+/** Characters, with line ends, that may be unanswered: what an Arduino buffers. */
+export const RX_BYTES = 128;
+
+export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
+
+/** "Grbl 1.1h" of a greeting or of the answer to `$I`; null where the line tells no version. */
+export function versionOf(line: string): string | null {
+  const match = /^Grbl(?:HAL)? ([\w.]+)/.exec(line) ?? /^\[VER:([\w.]*[a-z\d])/.exec(line);
+  if (!match) return null;
+  // "1.1h.20190830": the date says nothing that the letter does not.
+  return `Grbl ${match[1].replace(/\.\d{6,}$/, "")}`;
+}
+
+/** The receive buffer that `[OPT:V,15,128]` tells of; null where it tells of none. */
+export function rxBytesOf(line: string): number | null {
+  const match = /^\[OPT:[^,\]]*,\d+,(\d+)/.exec(line);
+  return match ? Number(match[1]) : null;
+}
+
+export interface Status {
+  /** "Idle", "Run", "Hold:0" … */
+  readonly state: string;
+  /** Work position, mm. */
+  readonly at: Axes;
+}
+
+/** Work offset of a report, which not every one has. */
+export const offsetOf = (line: string): Axes | null => axesOf(/\|WCO:([^|>]+)/.exec(line)?.[1]);
+
+/** A status report; null for another line. `offset`: the last work offset that was told. */
+export function statusOf(line: string, offset: Axes): Status | null {
+  const state = /^<([^|>]+)/.exec(line)?.[1];
+  if (state === undefined) return null;
+  const work = axesOf(/\|WPos:([^|>]+)/.exec(line)?.[1]);
+  const machine = axesOf(/\|MPos:([^|>]+)/.exec(line)?.[1]);
+  if (work) return { state, at: work };
+  return machine && { state, at: [machine[0] - offset[0], machine[1] - offset[1], machine[2] - offset[2]] };
+}
+
+function axesOf(text: string | undefined): Axes | null {
+  const [x, y, z] = (text ?? "").split(",").map(Number);
+  return Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(z) ? [x, y, z] : null;
+}
+
+const ERRORS: Readonly<Record<number, string>> = {
+  8: "it must be idle for that",
+  9: "it is locked after an alarm",
+  11: "the line is too long",
+  15: "the target is beyond its travel",
+  20: "it does not know that command",
+  22: "no feed rate was set",
+  33: "the target is wrong",
+};
+
+export const refusal = (line: string, code: number): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The Grbl refused ${line} with error:${code}${ERRORS[code] ? ` (${ERRORS[code]})` : ""}: check the machine's profile against its settings ($$).`,
+  );
+
+const ALARMS: Readonly<Record<number, string>> = {
+  1: "a limit switch was hit",
+  2: "the target is beyond its soft limits",
+  3: "it was reset while it moved",
+};
+
+export const alarm = (code: number): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The Grbl has stopped with ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}. Check where the carriage stands, and put it to home before you go on.`,
+  );

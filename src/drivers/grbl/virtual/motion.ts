@@ -1,0 +1,160 @@
+/** The queue of moves of the virtual Grbl, and the axes that perform them over time. */
+import type { AxisLimits, Axes, Move } from "../model/planner.js";
+import { exitLimit2, moveOf, QUEUE_MOVES } from "../model/planner.js";
+
+/** A stretch of constant acceleration. */
+interface Phase {
+  readonly durationS: number;
+  readonly accel: number;
+}
+
+/** Below this a speed is 0 and a length is over: mm/s, mm. */
+const NOTHING = 1e-9;
+
+export class GrblMotion {
+  /** The first one is being performed. */
+  private moves: Move[] = [];
+  private phases: Phase[] = [];
+  /** Where the first move began, and how far it is at `atS`. */
+  private start: Axes = [0, 0, 0];
+  private doneMm = 0;
+  private speed = 0;
+  private atS = 0;
+  /** Where the last move of the queue ends. */
+  private target: Axes = [0, 0, 0];
+  private lastMove: Move | null = null;
+  private isHolding = false;
+
+  constructor(
+    private readonly limits: AxisLimits,
+    private readonly arrived: (at: Axes) => void,
+  ) {}
+
+  get isFull(): boolean {
+    return this.moves.length >= QUEUE_MOVES;
+  }
+
+  get isEmpty(): boolean {
+    return this.moves.length === 0;
+  }
+
+  get isMoving(): boolean {
+    return this.speed > 0 || this.phases.length > 0;
+  }
+
+  get freeCount(): number {
+    return QUEUE_MOVES - this.moves.length;
+  }
+
+  get end(): Axes {
+    return this.target;
+  }
+
+  get at(): Axes {
+    const unit = this.moves[0]?.unit ?? [0, 0, 0];
+    return [0, 1, 2].map((i) => this.start[i] + unit[i] * this.doneMm) as unknown as Axes;
+  }
+
+  get speedMmPerS(): number {
+    return this.speed;
+  }
+
+  /** Machine seconds at which what it does now ends; Infinity at rest. */
+  get nextS(): number {
+    return this.phases.length > 0 ? this.atS + this.phases[0].durationS : Infinity;
+  }
+
+  /** `to` differs from where the queue ends. It does not set out by itself: see `go`. */
+  queue(to: Axes, feed: number): void {
+    const before = this.isEmpty ? null : this.lastMove;
+    this.lastMove = moveOf(this.target, to, feed, this.limits, before);
+    this.moves.push(this.lastMove);
+    this.target = to;
+    if (this.isMoving && !this.isHolding) this.plan();
+  }
+
+  /** Sets out, or goes on after a hold. */
+  go(nowS: number): void {
+    this.atS = nowS;
+    this.isHolding = false;
+    this.plan();
+  }
+
+  /** Brakes along the path. */
+  hold(): void {
+    this.isHolding = true;
+    this.plan();
+  }
+
+  /** Drops the queue where it stands. */
+  stop(): void {
+    this.start = this.target = this.at;
+    this.moves = [];
+    this.phases = [];
+    this.doneMm = this.speed = 0;
+    this.isHolding = false;
+    this.arrived(this.start);
+  }
+
+  /** Performs what falls before an instant. */
+  advance(toS: number): void {
+    while (this.phases.length > 0) {
+      const { durationS, accel } = this.phases[0];
+      const isWhole = this.atS + durationS <= toS;
+      const t = isWhole ? durationS : Math.max(0, toS - this.atS);
+      this.doneMm += this.speed * t + (accel * t * t) / 2;
+      this.speed = Math.max(0, this.speed + accel * t);
+      this.atS += t;
+      if (!isWhole) {
+        this.phases[0] = { durationS: durationS - t, accel };
+        return;
+      }
+      this.phases.shift();
+      if (this.phases.length === 0) this.phasesOver();
+    }
+    this.atS = Math.max(this.atS, toS);
+  }
+
+  private phasesOver(): void {
+    const [move] = this.moves;
+    const isOver = move.lengthMm - this.doneMm < 1e-6;
+    if (isOver) {
+      this.start = [0, 1, 2].map((i) => this.start[i] + move.unit[i] * move.lengthMm) as unknown as Axes;
+      // The sum of many moves must not drift from what was asked for.
+      if (this.moves.length === 1) this.start = this.target;
+      this.moves.shift();
+      this.doneMm = 0;
+      this.arrived(this.start);
+    }
+    if (this.speed < 1e-6) this.speed = 0;
+    if (this.isEmpty) this.speed = 0;
+    else if (!(this.isHolding && this.speed === 0)) this.plan();
+  }
+
+  /** The rest of the first move, from the speed that it has now. */
+  private plan(): void {
+    this.phases = [];
+    if (this.isEmpty) return;
+    const { accel, speed, lengthMm } = this.moves[0];
+    const leftMm = Math.max(0, lengthMm - this.doneMm);
+    const now2 = this.speed ** 2;
+    if (this.isHolding) {
+      const end2 = Math.max(0, now2 - 2 * accel * leftMm);
+      this.add((this.speed - Math.sqrt(end2)) / accel, -accel);
+      return;
+    }
+    const end2 = Math.min(exitLimit2(this.moves, 0, this.moves.length), now2 + 2 * accel * leftMm);
+    const peak2 = Math.max(now2, Math.min(speed ** 2, accel * leftMm + (now2 + end2) / 2));
+    const [peak, end] = [Math.sqrt(peak2), Math.sqrt(end2)];
+    const cruiseMm = leftMm - (2 * peak2 - now2 - end2) / (2 * accel);
+    this.add((peak - this.speed) / accel, accel);
+    if (cruiseMm > NOTHING) this.add(cruiseMm / peak, 0);
+    this.add((peak - end) / accel, -accel);
+    // Nothing is left of it but rounding.
+    if (this.phases.length === 0) this.phases.push({ durationS: 0, accel: 0 });
+  }
+
+  private add(durationS: number, accel: number): void {
+    if (durationS > 0) this.phases.push({ durationS, accel });
+  }
+}

@@ -1,0 +1,360 @@
+/**
+ * A small Grbl in software: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model, reports
+ * and the bytes that act at once. It knows the commands that this driver sends, and refuses others as Grbl does.
+ */
+import { PlotwrightError } from "../../../errors.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
+import type { Clock, Transport } from "../../transport.js";
+import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
+import { QUEUE_MOVES, type Axes } from "../model/planner.js";
+import { RX_BYTES } from "../protocol.js";
+import { GrblMotion } from "./motion.js";
+
+const VERSION = "1.1h";
+/** It waits so long for more lines before it sets out with a queue that is not full. */
+const START_S = 0.005;
+const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
+const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused: 36 } as const;
+/** Modes that it is always in. */
+const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
+
+export interface GrblDrawn {
+  readonly penDown: boolean;
+  /** mm from home: x, y, x, y … */
+  readonly xy: Float64Array;
+}
+
+export interface VirtualGrblState {
+  readonly state: string;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly zMm: number;
+  readonly penUp: boolean;
+  /** Characters that came when the buffer was full: a real Grbl loses them without a word. */
+  readonly lostCount: number;
+}
+
+export class VirtualGrbl implements VirtualMachine {
+  private readonly clock: Clock;
+  private readonly speed: number;
+  private readonly machine: MachineProfile;
+  private readonly motion: GrblMotion;
+  private readonly startS: number;
+  private line: VirtualLine | null = null;
+  private received = "";
+  private lostCount = 0;
+  private isLocked = false;
+  private isAsleep = false;
+  private isHeld = false;
+  private feed = 0;
+  private isRapid = true;
+  /** Of the work coordinates, mm. */
+  private offset: Axes = [0, 0, 0];
+  private isOffsetTold = false;
+  /** Machine seconds until which it waits; null: no G4 runs. */
+  private waitUntilS: number | null = null;
+  private setOutS: number | null = null;
+  private cancelTimer: () => void = () => undefined;
+  private isClosed = false;
+  private readonly polylines: { penDown: boolean; xy: number[] }[] = [];
+
+  constructor({ clock, speed, machine }: VirtualMachineOptions) {
+    this.clock = clock;
+    this.speed = speed;
+    this.machine = machine;
+    this.startS = clock.nowS();
+    this.motion = new GrblMotion(axisLimits(grblOf(machine)), () => this.record());
+    this.polylines.push({ penDown: false, xy: [0, 0] });
+  }
+
+  transport(): Transport {
+    this.line?.drop();
+    this.line = new VirtualLine((bytes) => this.take(bytes));
+    return this.line;
+  }
+
+  close(): void {
+    this.isClosed = true;
+    this.cancelTimer();
+    this.line?.drop();
+  }
+
+  state(): VirtualGrblState {
+    this.catchUp();
+    const [x, y, z] = this.workAt();
+    const { x: xMm, y: yMm } = this.onPage(x, y);
+    return { state: this.stateName(), xMm, yMm, zMm: z, penUp: !this.isDown(z), lostCount: this.lostCount };
+  }
+
+  drawn(): GrblDrawn[] {
+    this.catchUp();
+    return this.polylines.map(({ penDown, xy }) => ({ penDown, xy: Float64Array.from(xy) }));
+  }
+
+  private get nowS(): number {
+    return (this.clock.nowS() - this.startS) * this.speed;
+  }
+
+  private take(bytes: Uint8Array): void {
+    this.catchUp();
+    for (const byte of bytes) {
+      const character = String.fromCharCode(byte);
+      if (character === "?") this.report();
+      else if (character === "!") this.hold();
+      else if (character === "~") this.goOn();
+      else if (character === "\x18") this.reset();
+      else if (this.received.length < RX_BYTES) this.received += character;
+      else this.lostCount++;
+    }
+    this.work();
+  }
+
+  /** Reads lines as long as nothing keeps it from that, and sets a timer for what ends next. */
+  private work(): void {
+    while (!this.isHeld && !this.isAsleep && this.waitUntilS === null) {
+      const end = this.received.indexOf("\n");
+      if (end < 0) break;
+      const line = this.received.slice(0, end).replace(/\s|\(.*?\)|;.*/g, "");
+      const answer = this.perform(line.toUpperCase());
+      if (answer === null) break;
+      this.received = this.received.slice(end + 1);
+      this.say(answer === 0 ? "ok" : `error:${answer}`);
+    }
+    if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
+      this.setOutS ??= this.nowS + START_S;
+      if (this.motion.isFull || this.isWaitingForMotion()) this.setOutS = this.nowS;
+    }
+    this.schedule();
+  }
+
+  private isWaitingForMotion(): boolean {
+    return this.received.startsWith("G4");
+  }
+
+  private schedule(): void {
+    this.cancelTimer();
+    if (this.isClosed) return;
+    const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.setOutS ?? Infinity);
+    if (dueS === Infinity) return;
+    const delayS = Math.max(0, dueS - this.nowS) / this.speed;
+    this.cancelTimer = this.clock.after(delayS, () => {
+      this.catchUp(dueS);
+      this.work();
+    });
+  }
+
+  /** Brings motion and waits to now, in the order in which they end. `leastS`: a timer may fire a little early. */
+  private catchUp(leastS = 0): void {
+    const toS = Math.max(this.nowS, leastS);
+    if (this.setOutS !== null && this.setOutS <= toS) {
+      this.motion.go(this.setOutS);
+      this.setOutS = null;
+    }
+    this.motion.advance(toS);
+    if (this.waitUntilS !== null && this.waitUntilS <= toS) {
+      this.waitUntilS = null;
+      this.say("ok");
+    }
+  }
+
+  /** 0: done or queued; above: the error; null: it has to wait with this line. */
+  private perform(line: string): number | null {
+    if (line === "") return 0;
+    if (line.startsWith("$")) return this.system(line);
+    if (this.isLocked) return ERROR.locked;
+    if (line.replace(WORDS, "") !== "") return ERROR.number;
+    const words = new Map<string, number>();
+    const modes: string[] = [];
+    for (const [, letter, value] of line.matchAll(WORDS)) {
+      if (letter === "G" || letter === "M") modes.push(`${letter}${Number(value)}`);
+      else words.set(letter, Number(value));
+    }
+    if (modes.includes("G4")) return this.dwell(words.get("P"));
+    if (modes.includes("G10")) return this.setOffset(words);
+    if (modes.some((mode) => !FIXED_MODES.has(mode))) return ERROR.unknown;
+    return this.move(modes, words);
+  }
+
+  private system(line: string): number {
+    if (line === "$I") {
+      this.say(`[VER:${VERSION}.20190830:]`);
+      this.say(`[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`);
+    } else if (line === "$X") this.isLocked = false;
+    else if (line === "$SLP") this.isAsleep = true;
+    else return ERROR.dollar;
+    return 0;
+  }
+
+  /** Its own wait ends it, and only then it is answered: the line is taken out of the buffer here. */
+  private dwell(seconds: number | undefined): number | null {
+    if (seconds === undefined) return 28;
+    if (!this.motion.isEmpty) return null;
+    if (seconds <= 0) return 0;
+    this.waitUntilS = this.nowS + dwellS(seconds);
+    this.received = this.received.slice(this.received.indexOf("\n") + 1);
+    return null;
+  }
+
+  private setOffset(words: ReadonlyMap<string, number>): number | null {
+    if (words.get("L") !== 20 || words.get("P") !== 1) return ERROR.unknown;
+    if (!this.motion.isEmpty) return null;
+    const at = this.motion.at;
+    const set = (i: 0 | 1 | 2, letter: string): number =>
+      words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
+    this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
+    this.isOffsetTold = false;
+    this.newLine(false);
+    return 0;
+  }
+
+  private move(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
+    const isMove = words.has("X") || words.has("Y") || words.has("Z");
+    if (isMove && this.motion.isFull) return null;
+    if (modes.includes("G0")) this.isRapid = true;
+    if (modes.includes("G1")) this.isRapid = false;
+    const feed = words.get("F") ?? this.feed;
+    if (isMove && !this.isRapid && feed === 0) return ERROR.noFeed;
+    this.feed = feed;
+    if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
+    const { end } = this.motion;
+    const to: Axes = [
+      this.target(words.get("X"), 0, end),
+      this.target(words.get("Y"), 1, end),
+      this.target(words.get("Z"), 2, end),
+    ];
+    if (to.every((value, i) => value === end[i])) return 0;
+    this.motion.queue(to, this.isRapid ? Infinity : feed / 60);
+    return 0;
+  }
+
+  /** X and Y are rounded to whole steps. */
+  private target(word: number | undefined, axis: 0 | 1 | 2, end: Axes): number {
+    if (word === undefined) return end[axis];
+    const mm = word + this.offset[axis];
+    const { stepsPerMm } = this.machine;
+    return axis === 2 ? mm : Math.round(mm * stepsPerMm) / stepsPerMm;
+  }
+
+  private hold(): void {
+    if (this.isLocked || this.isAsleep) return;
+    this.isHeld = true;
+    this.setOutS = null;
+    if (this.motion.isMoving) this.motion.hold();
+  }
+
+  private goOn(): void {
+    if (!this.isHeld || this.motion.isMoving) return;
+    this.isHeld = false;
+    if (!this.motion.isEmpty) this.motion.go(this.nowS);
+  }
+
+  private reset(): void {
+    const wasMoving = this.motion.isMoving;
+    this.motion.stop();
+    this.received = "";
+    this.isHeld = this.isAsleep = false;
+    this.waitUntilS = this.setOutS = null;
+    this.feed = 0;
+    this.isRapid = true;
+    this.isOffsetTold = false;
+    if (wasMoving) this.say("ALARM:3");
+    this.isLocked ||= wasMoving;
+    this.say(`Grbl ${VERSION} ['$' for help]`);
+    if (this.isLocked) this.say("[MSG:'$H'|'$X' to unlock]");
+  }
+
+  private report(): void {
+    const mm = (at: Axes): string => at.map((value) => value.toFixed(3)).join(",");
+    const offset = this.isOffsetTold ? "" : `|WCO:${mm(this.offset)}`;
+    this.isOffsetTold = true;
+    const free = `${this.motion.freeCount},${RX_BYTES - this.received.length}`;
+    const feed = Math.round(60 * this.motion.speedMmPerS);
+    this.say(`<${this.stateName()}|MPos:${mm(this.motion.at)}|Bf:${free}|FS:${feed},0${offset}>`);
+  }
+
+  private stateName(): string {
+    if (this.isAsleep) return "Sleep";
+    if (this.isLocked) return "Alarm";
+    if (this.isHeld) return this.motion.isMoving ? "Hold:1" : "Hold:0";
+    return this.motion.isEmpty ? "Idle" : "Run";
+  }
+
+  private say(line: string): void {
+    this.line?.deliver(`${line}\r\n`);
+  }
+
+  private workAt(): Axes {
+    const at = this.motion.at;
+    return [at[0] - this.offset[0], at[1] - this.offset[1], at[2] - this.offset[2]];
+  }
+
+  private isDown(z: number): boolean {
+    const { penUpZMm, penDownZMm } = grblOf(this.machine);
+    return Math.abs(z - penDownZMm) < Math.abs(z - penUpZMm);
+  }
+
+  private onPage(x: number, y: number): { x: number; y: number } {
+    const { stepsPerMm } = this.machine;
+    return placeFromMotors(this.machine, x * stepsPerMm, y * stepsPerMm);
+  }
+
+  private record(): void {
+    const [x, y, z] = this.workAt();
+    const penDown = this.isDown(z);
+    if (this.polylines[this.polylines.length - 1].penDown !== penDown) this.newLine(penDown);
+    else {
+      const page = this.onPage(x, y);
+      this.polylines[this.polylines.length - 1].xy.push(page.x, page.y);
+    }
+  }
+
+  private newLine(penDown: boolean): void {
+    const [x, y] = this.workAt();
+    const page = this.onPage(x, y);
+    this.polylines.push({ penDown, xy: [page.x, page.y] });
+  }
+}
+
+/** A connection to it: what is written arrives at once, what it says a moment later. */
+class VirtualLine implements Transport {
+  private listener: (bytes: Uint8Array) => void = () => undefined;
+  private closeListener: (error?: Error) => void = () => undefined;
+  private isOpen = true;
+
+  constructor(private readonly take: (bytes: Uint8Array) => void) {}
+
+  write(bytes: Uint8Array): Promise<void> {
+    if (!this.isOpen) {
+      return Promise.reject(
+        new PlotwrightError("disconnected", "The connection to the virtual Grbl is closed: open it again."),
+      );
+    }
+    const copy = bytes.slice();
+    return Promise.resolve().then(() => this.take(copy));
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.listener = listener;
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.closeListener = listener;
+  }
+
+  close(): Promise<void> {
+    this.drop();
+    return Promise.resolve();
+  }
+
+  drop(): void {
+    if (!this.isOpen) return;
+    this.isOpen = false;
+    this.closeListener();
+  }
+
+  deliver(text: string): void {
+    if (this.isOpen) this.listener(Uint8Array.from(text, (character) => character.charCodeAt(0)));
+  }
+}

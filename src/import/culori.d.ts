@@ -1,0 +1,12 @@
+/** Only what color.ts uses: the package has no types of its own. */
+declare module "culori/css" {}
+declare module "culori/fn" {
+  interface CssColor {
+    readonly mode: string;
+    readonly alpha?: number;
+  }
+  export function parse(text: string): CssColor | undefined;
+  export function converter(mode: "rgb"): (color: CssColor) => CssColor;
+  export function clampRgb(color: CssColor): CssColor;
+  export function formatHex(color: CssColor): string;
+}

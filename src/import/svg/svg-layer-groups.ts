@@ -1,0 +1,42 @@
+/** The drawing's group for each element: its layer, or one that shapes outside every layer share. */
+import type { DrawingBuilder } from "../drawing-builder.js";
+import type { Warnings } from "../warnings.js";
+import type { Context } from "./svg-context.js";
+import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
+
+export class LayerGroups {
+  /** The group for shapes outside every layer; −1 until needed. */
+  private looseGroup = -1;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly layers: LayerPlan,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+  ) {}
+
+  /** The group of an element inside `outer`; adds it if the element is a layer. */
+  groupOf(element: number, tag: string, outer: Context): number {
+    const { tree, layers, builder } = this;
+    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
+    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
+    const number = builder.groups.length + 1;
+    if (isLayer) {
+      const name = layerName(tree, element) ?? `Layer ${number}`;
+      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
+    }
+    if (this.looseGroup < 0) this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    return this.looseGroup;
+  }
+
+  hide(group: number): void {
+    const { groups } = this.builder;
+    groups[group] = { ...groups[group], hidden: true };
+    this.warnOfHidden(group);
+  }
+
+  warnOfHidden(group: number): void {
+    this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
+  }
+}

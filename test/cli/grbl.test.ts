@@ -1,0 +1,61 @@
+/** `plan` and `plot` for a machine with a Grbl: its profile is a file. */
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterEach, beforeEach, expect, it } from "vitest";
+import { GRBL } from "../support/grbl-machine.js";
+import { cli } from "./support.js";
+
+const SAMPLE = join(import.meta.dirname, "../../samples/whirling-triangles.svg");
+const LIMIT_MS = 60_000;
+
+let dir: string;
+let profile: string;
+beforeEach(() => {
+  dir = mkdtempSync(join(tmpdir(), "plotwright-grbl-"));
+  profile = join(dir, "my-grbl.json");
+  writeFileSync(profile, JSON.stringify(GRBL));
+});
+afterEach(() => rmSync(dir, { recursive: true, force: true }));
+
+it(
+  "plan writes G-code for it, with the pen up at both ends",
+  async () => {
+    const { code, out } = await cli("plan", SAMPLE, "--machine-file", profile, "--ebb", "-");
+    expect(code).toBe(0);
+    const lines = out.trim().split("\n");
+    expect(lines.slice(0, 3)).toEqual(["G21G90G94", "G1Z5F3000", "G4P0.1"]);
+    expect(lines.slice(-2)).toEqual([expect.stringMatching(/^G1X0Y0/), "G4P0"]);
+    expect(lines.filter((line) => !/^G1[XZ][-\d.]+(Y[-\d.]+)?(F[\d.]+)?$|^G4P[\d.]+$/.test(line))).toEqual([
+      "G21G90G94",
+    ]);
+    expect(lines.filter((line) => line.startsWith("G1Z0")).length).toBe(
+      lines.filter((line) => line.startsWith("G1Z5")).length - 1,
+    );
+  },
+  LIMIT_MS,
+);
+
+it(
+  "plot draws it on a virtual Grbl",
+  async () => {
+    const options = [
+      "--machine-file",
+      profile,
+      "--device",
+      "virtual",
+      "--virtual-speed",
+      "300",
+      "--data",
+      dir,
+    ];
+    const { code, err } = await cli("plot", SAMPLE, ...options);
+    expect({ code, err }).toEqual({
+      code: 0,
+      err: expect.stringMatching(
+        /^Plotting whirling-triangles\.svg\.\nDone: whirling-triangles\.svg, after/,
+      ) as string,
+    });
+  },
+  LIMIT_MS,
+);

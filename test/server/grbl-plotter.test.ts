@@ -1,0 +1,200 @@
+/** A plotter whose machine has a Grbl, virtual, on a clock that the test leads. */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
+import { grblDriver } from "../../src/drivers/grbl/grbl-driver.js";
+import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { GRBL } from "../support/grbl-machine.js";
+import { DRAWING, drawnMm, expectDrawn } from "../support/live-plot.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
+
+const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+
+async function newPlotter() {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
+  await world.run(driver.start());
+  const board = driver.virtualMachine;
+  if (!(board instanceof VirtualGrbl)) throw new TypeError("it is no virtual Grbl");
+  const begin = async (strokes: StrokeSet = TWO_LINES, start = {}) =>
+    world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, start));
+  return { world, driver, board, begin };
+}
+
+const drawn = (board: VirtualGrbl): number[][] =>
+  board
+    .drawn()
+    .filter(({ penDown, xy }) => penDown && xy.length > 2)
+    .map(({ xy }) => [xy[0], xy[1], xy[xy.length - 2], xy[xy.length - 1]]);
+
+const lengthMm = ({ xy, offsets }: StrokeSet): number => {
+  let sum = 0;
+  for (let s = 0; s + 1 < offsets.length; s++) {
+    for (let i = offsets[s] + 1; i < offsets[s + 1]; i++) {
+      sum += Math.hypot(xy[2 * i] - xy[2 * i - 2], xy[2 * i + 1] - xy[2 * i - 1]);
+    }
+  }
+  return sum;
+};
+
+describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
+  it("says who it is, plots to the end, and is idle at home again", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    expect(driver.state).toMatchObject({ kind: "virtual", connection: "idle", firmware: "Grbl 1.1h" });
+    const run = await begin();
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(drawn(board)).toEqual([
+      [10, 10, 60, 40],
+      [20, 50, 80, 50],
+    ]);
+    expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, penUp: true, lostCount: 0 });
+    expect(driver.state).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
+  });
+
+  it("takes as long as the preview says, and tells its progress on the way", async () => {
+    const { world, begin } = await newPlotter();
+    const { trajectory } = planJob({ strokes: DRAWING }, SETTINGS, GRBL);
+    const run = await begin(DRAWING);
+    const startS = world.nowS();
+    const seen: { atS: number; planS: number; progress: number }[] = [];
+    run.onProgress(({ planS, progress }) => seen.push({ atS: world.nowS() - startS, planS, progress }));
+    await world.run(run.finished);
+    // The pen goes up before the plan begins.
+    const liftS = 0.25;
+    expect(world.nowS() - startS - liftS).toBeGreaterThan(trajectory.totalS - 0.02);
+    expect(world.nowS() - startS - liftS).toBeLessThan(trajectory.totalS + 0.02);
+    expect(seen.every((one, i) => i === 0 || one.progress >= seen[i - 1].progress)).toBe(true);
+    expect(seen[seen.length - 1].progress).toBe(1);
+    expect(seen.filter(({ atS, planS }) => Math.abs(atS - liftS - planS) > 0.3)).toEqual([]);
+  });
+
+  it("comes to rest along the path, lifts the pen, and goes on where it stopped", async () => {
+    const { world, driver, board, begin } = await newPlotter();
+    const run = await begin(DRAWING);
+    for (let i = 0; i < 8; i++) {
+      await world.advance(0.43 + 0.11 * i);
+      await world.run(run.pause());
+      expect(driver.state.activity).toBe("held");
+      expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+      expect(driver.state.penUp).toBe(true);
+      await world.run(run.resume());
+    }
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expectDrawn(board as never, DRAWING, 0.02);
+    expect(Math.abs(drawnMm(board) - lengthMm(DRAWING))).toBeLessThan(0.2);
+    expect(driver.log()).not.toMatch(/ALARM|error:/);
+    expect(board.state().lostCount).toBe(0);
+  });
+
+  it("stops at once, and goes on from there", async () => {
+    const { world, board, driver, begin } = await newPlotter();
+    const run = await begin(DRAWING);
+    await world.advance(2.1);
+    const before = world.nowS();
+    await world.run(run.emergencyStop());
+    expect(driver.log()).toContain("ALARM:3");
+    expect(world.nowS() - before).toBeLessThan(1);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expectDrawn(board as never, DRAWING, 0.02);
+  });
+
+  it("is cancelled: lifts the pen and goes home", async () => {
+    const { world, board, begin } = await newPlotter();
+    const run = await begin(DRAWING);
+    await world.advance(2.5);
+    await world.run(run.cancel());
+    expect(await run.finished).toEqual({ kind: "cancelled" });
+    expect(board.state()).toMatchObject({ xMm: 0, yMm: 0, penUp: true });
+    expect(drawnMm(board)).toBeLessThan(lengthMm(DRAWING) / 2);
+  });
+
+  it("takes new speeds when it goes on after a pause", async () => {
+    const { world, begin } = await newPlotter();
+    const run = await begin(DRAWING);
+    await world.advance(1.5);
+    await world.run(run.pause());
+    await world.run(run.change({ speedPct: 50 }));
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+
+  it("moves by hand, sets home, switches its motors off, and answers what is typed", async () => {
+    const { world, driver, board } = await newPlotter();
+    await world.run(driver.walkTo(30, 20));
+    expect(board.state()).toMatchObject({ xMm: 30, yMm: 20, penUp: true });
+    await world.run(driver.setHome());
+    await world.run(driver.jog(5, 0));
+    expect(driver.state).toMatchObject({ xMm: 5, yMm: 0 });
+    await world.run(driver.cyclePen());
+    await world.run(driver.drawTestPatch());
+    expect(board.state()).toMatchObject({ xMm: 5, yMm: 0, penUp: true });
+    expect(await world.run(driver.command("$I"))).toMatchObject({
+      replies: ["[VER:1.1h.20190830:]", "[OPT:V,15,128]", "ok"],
+    });
+    expect(await world.run(driver.command("G38.2 Z-1"))).toMatchObject({ replies: ["error:20"] });
+    expect(await outcome(world.run(driver.command("!")))).toMatch(/^bad-setting/);
+    await world.run(driver.motorsOff());
+    expect(driver.state).toMatchObject({ motorsOn: false, xMm: null });
+    await world.run(driver.walkTo(1, 2));
+    expect(driver.state).toMatchObject({ motorsOn: true, xMm: 1, yMm: 2 });
+  });
+
+  it("stops a plot whose line the Grbl refuses, and says which", async () => {
+    const { world, driver, board } = await newPlotter();
+    const planner = new LocalPlanner(TWO_LINES);
+    const plan = planner.plan.bind(planner);
+    planner.plan = async (request) => {
+      const plot = await plan(request);
+      const { lines } = plot.commands as unknown as { lines: string[] };
+      lines[lines.length - 3] = "G5X1";
+      return plot;
+    };
+    const run = await world.run(driver.plot(planner, SETTINGS));
+    expect(await outcome(world.run(run.finished))).toMatch(
+      /^board-error: The Grbl refused G5X1 with error:20/,
+    );
+    expect(board.state().state).not.toBe("Run");
+  });
+
+  it.each(["asleep", "held", "moving"])("is found again when it was left %s", async (how) => {
+    const world = new ManualClock();
+    const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
+    const line = board.transport();
+    const left = { asleep: "$SLP\n", held: "G1X50F600\n!", moving: "G1X50F600\n" }[how] ?? "";
+    await line.write(new TextEncoder().encode(left));
+    await world.advance(1);
+    const events = {
+      changed: () => undefined,
+      buttonPressed: () => undefined,
+      supplyRead: () => undefined,
+      lost: () => undefined,
+    };
+    const options = { clock: world, machineClock: world, speed: 1, events };
+    const machine = await world.run(grblDriver.identify(board.transport(), options));
+    await world.run(machine.takeOver());
+    expect(machine.firmware).toBe("Grbl 1.1h");
+    expect(board.state().state).toBe("Idle");
+    await world.run(machine.walk(10, 20, SETTINGS));
+    expect(board.state()).toMatchObject({ zMm: 5, penUp: true });
+    expect(machine.place(GRBL)?.x).toBeCloseTo(10, 3);
+    await machine.close();
+  });
+
+  it("gives way to an EiBotBoard for a job of such a machine, and comes back", async () => {
+    const { world, driver } = await newPlotter();
+    const run = await world.run(driver.plot(new LocalPlanner(TWO_LINES), DEFAULT_PLOT_SETTINGS));
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(driver.state.firmware).toBe("2.8.1");
+    expect(virtualBoardOf(driver).state()).toMatchObject({ steps1: 0, penUp: true });
+    await world.run(driver.walkTo(10, 10, SETTINGS));
+    expect(driver.state).toMatchObject({ firmware: "Grbl 1.1h", xMm: 10, yMm: 10 });
+  });
+});

@@ -1,0 +1,39 @@
+import { useEffect, useState } from "react";
+import { fetchLicences } from "../pwa/licences.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { aboutText } from "./about-text.js";
+import { Dialog } from "../ui/dialog.js";
+import "./sheets.css";
+
+const words = aboutText;
+
+/** Which version this is, and the licences of all that is built into the page. */
+export const AboutDialog = () => {
+  const store = usePageStore();
+  const version = usePageState((state) => state.version);
+  const licences = useLicences();
+  return (
+    <Dialog title={words.title} onClose={() => store.setState({ openDialog: null })}>
+      <p>{version === null ? words.what : words.whatVersion(version)}</p>
+      <p className="note">{words.licences}</p>
+      <pre className="licences" tabIndex={0} aria-label={words.licencesLabel}>
+        {licences}
+      </pre>
+    </Dialog>
+  );
+};
+
+/** The build writes them beside the page; while it is developed there is no such file. */
+function useLicences(): string {
+  const [licences, setLicences] = useState<string>(words.loading);
+  useEffect(() => {
+    const stop = new AbortController();
+    fetchLicences(stop.signal)
+      .then((found) => setLicences(found ?? words.absent))
+      .catch(() => {
+        if (!stop.signal.aborted) setLicences(words.absent);
+      });
+    return () => stop.abort();
+  }, []);
+  return licences;
+}

@@ -1,0 +1,109 @@
+import { useCallback, useState } from "react";
+import { DrawingPanel } from "../drawing/drawing.js";
+import { ExportPanel } from "../drawing/export.js";
+import { FillPanel } from "../drawing/fill.js";
+import { Dialogs } from "./dialogs.js";
+import { LayersPanel } from "../layers/layers.js";
+import { LinesPanel } from "../drawing/lines.js";
+import { MachinePanel } from "../plotter/machine.js";
+import { MotionPanel } from "../motion/motion.js";
+import { Notices } from "../ui/notices.js";
+import { PaperPanel } from "../drawing/paper.js";
+import { PenPanel } from "../pens/pen.js";
+import { PensPanel } from "../pens/pens.js";
+import { PlotBar } from "../queue/plot-bar.js";
+import { HistoryPanel, QueuePanel } from "../queue/queue.js";
+import { PresetsPanel } from "../plotter/presets.js";
+import type { Player } from "../preview/player.js";
+import type { Shortcut } from "./shortcuts.js";
+import { Strips } from "./strips.js";
+import { TopBar } from "./top-bar.js";
+import { Preview } from "../preview/preview.js";
+import { TimeLine } from "../preview/time-line.js";
+import { activeJob } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { drawingText } from "../drawing/text.js";
+import { tabsText } from "./text.js";
+import { DropZone } from "../ui/drop-zone.js";
+import { lazyPart } from "../ui/lazy-part.js";
+
+const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js")).EmptyPaper);
+const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera);
+
+const TABS = ["setup", "queue", "machine"] as const;
+type Tab = (typeof TABS)[number];
+
+interface AppProps {
+  readonly player: Player;
+  readonly shortcuts: readonly Shortcut[];
+}
+
+/** Where the panels stand. On a narrow screen the side columns become tabs under the paper. */
+export const App = ({ player, shortcuts }: AppProps) => {
+  const [tab, setTab] = useState<Tab>("setup");
+  const { openFile, openPasted } = useActions();
+  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
+  const isEmpty = usePageState(
+    (state) =>
+      state.drawing === null && !state.isStarting && state.link !== "connecting" && activeJob(state) === null,
+  );
+  const onFile = useCallback((file: File) => void openFile(file), [openFile]);
+  return (
+    <DropZone hint={drawingText.dropHere} onFile={onFile} onText={openPasted}>
+      <div className="app" data-tab={tab}>
+        <TopBar />
+        <main className="centre">
+          <Strips />
+          <div className="paper-area">
+            <Preview />
+            {isEmpty && <EmptyPaper />}
+            <Notices />
+          </div>
+          <TimeLine player={player} />
+        </main>
+        <Tabs tab={tab} onChange={setTab} />
+        <aside className="column column-setup" aria-label={tabsText.setup}>
+          <DrawingPanel />
+          <PaperPanel />
+          <LayersPanel />
+          <PensPanel />
+          <MotionPanel />
+          <PenPanel />
+          <PresetsPanel />
+          <FillPanel />
+          <LinesPanel />
+          <ExportPanel />
+        </aside>
+        <aside className="column column-run" aria-label={tabsText.queue}>
+          <PlotBar />
+          <div className="tab-queue">
+            <QueuePanel />
+          </div>
+          <div className="tab-machine">
+            {hasCamera && <Camera />}
+            <MachinePanel />
+          </div>
+          <div className="tab-queue">
+            <HistoryPanel />
+          </div>
+        </aside>
+      </div>
+      <Dialogs shortcuts={shortcuts} />
+    </DropZone>
+  );
+};
+
+const Tabs = ({ tab, onChange }: { tab: Tab; onChange(tab: Tab): void }) => (
+  <nav className="tabs" aria-label={tabsText.label}>
+    {TABS.map((name) => (
+      <button
+        key={name}
+        type="button"
+        aria-current={name === tab ? "page" : undefined}
+        onClick={() => onChange(name)}
+      >
+        {tabsText[name]}
+      </button>
+    ))}
+  </nav>
+);

@@ -1,0 +1,31 @@
+import type { Shortcut } from "./shortcuts.js";
+import { usePageState } from "../state/use-store.js";
+import { lazyPart } from "../ui/lazy-part.js";
+
+const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
+const AboutDialog = lazyPart(async () => (await import("./about.js")).AboutDialog);
+const Wizard = lazyPart(async () => (await import("../plotter/wizard.js")).Wizard);
+const MachinesDialog = lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog);
+const Console = lazyPart(async () => (await import("../plotter/console.js")).Console);
+const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
+
+/** The sheet that lies over the page, if any. */
+export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
+  const dialog = usePageState((state) => state.openDialog);
+  switch (dialog) {
+    case "keys":
+      return <HelpSheet shortcuts={shortcuts} />;
+    case "about":
+      return <AboutDialog />;
+    case "wizard":
+      return <Wizard />;
+    case "machines":
+      return <MachinesDialog />;
+    case "console":
+      return <Console />;
+    case "studio":
+      return <StudioDialog />;
+    case null:
+      return null;
+  }
+};

@@ -1,0 +1,35 @@
+import { usePageStore } from "../state/use-store.js";
+import type { Shortcut } from "./shortcuts.js";
+import { shortcutsText } from "./text.js";
+import { previewText } from "../preview/text.js";
+import { aboutText } from "./about-text.js";
+import { Dialog } from "../ui/dialog.js";
+import "./sheets.css";
+
+const words = shortcutsText;
+
+/** The sheet with all keys. */
+export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
+  const store = usePageStore();
+  return (
+    <Dialog title={words.title} onClose={() => store.setState({ openDialog: null })}>
+      <dl className="key-list">
+        {shortcuts.map(({ keys, label }) => (
+          <div key={keys}>
+            <dt>
+              {keys.split(" ").map((key) => (
+                <kbd key={key}>{key}</kbd>
+              ))}
+            </dt>
+            <dd>{label}</dd>
+          </div>
+        ))}
+      </dl>
+      <p className="note">{previewText.hint}</p>
+      <p className="note">{words.fields}</p>
+      <button type="button" className="link" onClick={() => store.setState({ openDialog: "about" })}>
+        {aboutText.title}
+      </button>
+    </Dialog>
+  );
+};

@@ -1,0 +1,159 @@
+/** Mounts the page: the only file that does something when it is imported. */
+import { StrictMode } from "react";
+import { createRoot } from "react-dom/client";
+import { createServerBackend } from "../backend/server/server-backend.js";
+import { App } from "./app.js";
+import { keepPage, lookForUpdate } from "../pwa/register.js";
+import { createActions } from "../state/actions.js";
+import { replanForBoard } from "../plotter/board-watch.js";
+import { browserDrawings, keepDrawing, readKeptDrawing } from "../drawing/kept-drawing.js";
+import { readRemembered, writeRemembered, type TextStore } from "../state/persist.js";
+import { watchJobs } from "../queue/notify.js";
+import { Player } from "../preview/player.js";
+import { readPresets, writePresets } from "../state/presets.js";
+import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
+import { applyServerEvent } from "../state/server-events.js";
+import { createPageStore, unfinishedJob, type PageStore } from "../state/store.js";
+import { PageContext } from "../state/use-store.js";
+import { appName } from "../ui/text.js";
+import { ErrorBoundary } from "../ui/error-boundary.js";
+import { saveFile } from "../ui/save-file.js";
+import { Planner } from "../worker/planner.js";
+import "./index.css";
+
+const storage = ((): TextStore | null => {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
+})();
+
+const EXPORTED = {
+  svg: { ending: "svg", type: "image/svg+xml" },
+  json: { ending: "json", type: "application/json" },
+  ebb: { ending: "ebb.txt", type: "text/plain" },
+};
+
+/** A new plan has other moments and other places. */
+const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
+
+const remembered = readRemembered(storage);
+const store = createPageStore(remembered);
+const planner = new Planner(
+  () => new Worker(new URL("../worker/plan.worker.ts", import.meta.url), { type: "module" }),
+  {
+    after: (delayMs, callback) => {
+      const timer = setTimeout(callback, delayMs);
+      return () => clearTimeout(timer);
+    },
+  },
+  {
+    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
+    onExported: (format, exported) => {
+      const name = store.getState().drawing?.name ?? appName;
+      saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
+    },
+    onExportFailed: (message) => actions.notify("error", message),
+    onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT }),
+  },
+);
+const backend = createServerBackend();
+const actions = createActions({
+  store,
+  backend,
+  planner,
+  nowMs: () => performance.now(),
+  after: (delayMs, callback) => void setTimeout(callback, delayMs),
+});
+
+const drawings = browserDrawings();
+keepRemembered(store);
+keepDrawing(store, drawings);
+keepPresets(store);
+const player = new Player(store);
+const shortcuts = shortcutsFor({ store, actions, player });
+listenForShortcuts(shortcuts);
+watchJobs(store, (sentence, { state }) => {
+  // What waits, or was interrupted, stands on the page until it is answered.
+  if (state === "done" || state === "failed") actions.notify(state === "done" ? "info" : "error", sentence);
+  if (window.Notification?.permission === "granted") new Notification(appName, { body: sentence });
+});
+keepPage(() => store.setState({ isOutdated: true }));
+backend.listen({
+  onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
+  onLink: (isConnected) => {
+    store.setState({ link: isConnected ? "connected" : "lost" });
+    if (!isConnected) return;
+    void actions.meet();
+    void lookForUpdate();
+  },
+});
+replanForBoard(store, actions.replan);
+void greet(store);
+
+const root = document.getElementById("root");
+if (!root) throw new Error("index.html has no #root");
+createRoot(root).render(
+  <StrictMode>
+    <ErrorBoundary>
+      <PageContext value={{ store, backend, actions }}>
+        <App player={player} shortcuts={shortcuts} />
+      </PageContext>
+    </ErrorBoundary>
+  </StrictMode>,
+);
+
+/** Settings and view outlive the visit; the theme is on the root element, where the style sheet reads it. */
+function keepRemembered(pageStore: PageStore): void {
+  let kept: ReturnType<typeof setTimeout> | null = null;
+  const showTheme = (): void => {
+    document.documentElement.dataset.theme = pageStore.getState().view.theme;
+  };
+  showTheme();
+  pageStore.subscribe((state, before) => {
+    if (state.view.theme !== before.view.theme) showTheme();
+    if (state.settings === before.settings && state.view === before.view) return;
+    if (kept !== null) clearTimeout(kept);
+    kept = setTimeout(write, 300);
+  });
+  const write = (): void => {
+    kept = null;
+    writeRemembered(storage, pageStore.getState());
+  };
+  window.addEventListener("pagehide", () => {
+    if (kept !== null) write();
+  });
+}
+
+function keepPresets(pageStore: PageStore): void {
+  pageStore.setState({ presets: readPresets(storage) });
+  pageStore.subscribe(({ presets }, before) => {
+    if (presets !== before.presets) writePresets(storage, presets);
+  });
+}
+
+/** The last drawing comes back. A browser without one sees the plot that is under way, or an empty sheet. */
+async function greet(pageStore: PageStore): Promise<void> {
+  const kept = await readKeptDrawing(drawings);
+  if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
+  pageStore.setState({ isStarting: false });
+  await connected(pageStore);
+  await Promise.all([actions.loadSamples(), actions.loadMachines()]);
+  actions.takeJobSettings();
+  const state = pageStore.getState();
+  if (state.drawing !== null) return;
+  const job = unfinishedJob(state);
+  if (job) await actions.openJob(job);
+}
+
+const connected = (pageStore: PageStore): Promise<void> =>
+  new Promise((resolve) => {
+    const look = (): void => {
+      if (pageStore.getState().link !== "connected") return;
+      stop();
+      resolve();
+    };
+    const stop = pageStore.subscribe(look);
+    look();
+  });

@@ -1,0 +1,76 @@
+import { activeJob, otherOperator } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { stripsText } from "./text.js";
+import { errorText } from "../ui/text.js";
+import { lazyPart } from "../ui/lazy-part.js";
+
+const words = stripsText;
+const PenWait = lazyPart(async () => (await import("../queue/pen-wait.js")).PenWait);
+
+/** Over the paper, whatever panel is open: what the server, another person or the plot itself wants to be known. */
+export const Strips = () => (
+  <div className="strips">
+    <LinkStrip />
+    <PenStrip />
+    <div role="status">
+      <OperatorStrip />
+    </div>
+    <ServerNotices />
+  </div>
+);
+
+/** The server is away, or has a newer page. */
+const LinkStrip = () => {
+  const link = usePageState((state) => state.link);
+  const isOutdated = usePageState((state) => state.isOutdated);
+  if (link === "lost") return <p className="strip strip-bad">{words.offline}</p>;
+  if (!isOutdated) return null;
+  return (
+    <p className="strip">
+      <span>{words.outdated}</span>
+      <button type="button" className="button button-small" onClick={() => location.reload()}>
+        {errorText.reload}
+      </button>
+    </p>
+  );
+};
+
+const PenStrip = () => {
+  const job = usePageState(activeJob);
+  if (job?.state !== "paused" || job.wait === null) return null;
+  return (
+    <div className="strip strip-wait">
+      <PenWait job={job} wait={job.wait} />
+    </div>
+  );
+};
+
+const OperatorStrip = () => {
+  const isWatching = usePageState((state) => state.me?.role === "watch");
+  const other = usePageState(otherOperator);
+  const { takeOver } = useActions();
+  if (isWatching) return <p className="strip">{words.watching(other?.name ?? null)}</p>;
+  if (!other) return null;
+  return (
+    <p className="strip">
+      <span>{words.operating(other.name)}</span>
+      <button type="button" className="button button-small" onClick={() => void takeOver()}>
+        {words.takeOver}
+      </button>
+    </p>
+  );
+};
+
+/** What went wrong with nobody asking, such as a file in the watched folder; stays until somebody has read it. */
+const ServerNotices = () => {
+  const notices = usePageState((state) => state.serverNotices);
+  const { dismissServerNotice } = useActions();
+  return notices.slice(-3).map(({ id, message }) => (
+    <p key={id} className="strip strip-bad" role="alert">
+      <span>{message}</span>
+      <button type="button" className="button button-small" onClick={() => void dismissServerNotice(id)}>
+        {words.read}
+      </button>
+    </p>
+  ));
+};

@@ -1,0 +1,43 @@
+/** Words of the page's frame: header, tabs, strips over the paper, keys. */
+export const historyText = {
+  undo: "Undo",
+  redo: "Redo",
+};
+
+export const tabsText = {
+  label: "Panels",
+  setup: "Set up",
+  queue: "Queue",
+  machine: "Plotter",
+};
+
+export const studioLink = "Sharing, plotters, camera";
+
+export const themeText = {
+  label: "Appearance",
+  auto: "As the system",
+  light: "Light",
+  dark: "Dark",
+};
+
+export const stripsText = {
+  watching: (operator: string | null) =>
+    operator === null
+      ? "This device watches. It may stop a plot, nothing else."
+      : `${operator} is operating; this device watches. It may stop a plot, nothing else.`,
+  operating: (name: string) => `${name} is operating.`,
+  takeOver: "Take over",
+  read: "I have read it",
+  outdated: "plotwright was brought up to date on the server.",
+  offline:
+    "plotwright’s server can’t be reached: switched off, or this device has no network. Drawings can be laid out meanwhile.",
+};
+
+export const shortcutsText = {
+  title: "Keys",
+  play: "Play the plot, or stop",
+  travel: "Show pen-up moves",
+  graph: "Show speed over time",
+  pause: "Pause the plotter, or resume",
+  fields: "In a number: arrow up and down step it, with Shift ten times as far.",
+};

@@ -1,0 +1,136 @@
+import { currentPlotter, mayOperate } from "../state/store.js";
+import { THEMES, type Theme } from "../state/persist.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { appName } from "../ui/text.js";
+import { historyText, shortcutsText, studioLink, themeText } from "./text.js";
+import { plotterText } from "../plotter/text.js";
+import { Icon, type IconName } from "../ui/icon.js";
+import { MachineState } from "../plotter/machine-state.js";
+
+const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
+
+export const TopBar = () => (
+  <header className="top-bar">
+    <h1 className="wordmark">
+      <Mark />
+      {appName}
+    </h1>
+    <PlotterSwitch />
+    <MachineState />
+    <div className="top-tools">
+      <UndoButtons />
+      <StudioButton />
+      <ThemeButton />
+      <HelpButton />
+    </div>
+  </header>
+);
+
+const Mark = () => (
+  <svg className="mark" viewBox="0 0 32 32" aria-hidden="true">
+    <path d="M5 24c4.5-16 8-16 10-6.5S21 22.500 25.500 8.500" />
+    <circle cx="26" cy="7" r="3" />
+  </svg>
+);
+
+const UndoButtons = () => {
+  const canUndo = usePageState((state) => state.undoStack.length > 0);
+  const canRedo = usePageState((state) => state.redoStack.length > 0);
+  const { undo, redo } = useActions();
+  return (
+    <>
+      <button
+        type="button"
+        className="tool"
+        aria-label={historyText.undo}
+        title={historyText.undo}
+        disabled={!canUndo}
+        onClick={undo}
+      >
+        <Icon name="undo" />
+      </button>
+      <button
+        type="button"
+        className="tool"
+        aria-label={historyText.redo}
+        title={historyText.redo}
+        disabled={!canRedo}
+        onClick={redo}
+      >
+        <Icon name="redo" />
+      </button>
+    </>
+  );
+};
+
+const StudioButton = () => {
+  const store = usePageStore();
+  const isMine = usePageState(mayOperate);
+  if (!isMine) return null;
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={studioLink}
+      title={studioLink}
+      onClick={() => store.setState({ openDialog: "studio" })}
+    >
+      <Icon name="share" />
+    </button>
+  );
+};
+
+/** Which of the server's plotters the page shows and sends to; absent where there is one. */
+const PlotterSwitch = () => {
+  const plotters = usePageState((state) => state.plotters);
+  const current = usePageState(currentPlotter);
+  const { choosePlotter } = useActions();
+  if (plotters.length < 2 || !current) return null;
+  return (
+    <select
+      className="plotter-switch"
+      aria-label={plotterText.which}
+      value={current.id}
+      onChange={(event) => choosePlotter(event.target.value)}
+    >
+      {plotters.map(({ id, name }) => (
+        <option key={id} value={id}>
+          {name}
+        </option>
+      ))}
+    </select>
+  );
+};
+
+const HelpButton = () => {
+  const store = usePageStore();
+  return (
+    <button
+      type="button"
+      className="tool tool-keys"
+      aria-label={shortcutsText.title}
+      title={shortcutsText.title}
+      onClick={() => store.setState({ openDialog: "keys" })}
+    >
+      <Icon name="help" />
+    </button>
+  );
+};
+
+const ThemeButton = () => {
+  const theme = usePageState((state) => state.view.theme);
+  const { changeView } = useActions();
+  const label = `${themeText.label}: ${themeText[theme]}`;
+  const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "auto";
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={label}
+      title={label}
+      onClick={() => changeView({ theme: next })}
+    >
+      <Icon name={THEME_ICON[theme]} />
+    </button>
+  );
+};

@@ -1,0 +1,144 @@
+/**
+ * Everything that the page asks of what keeps the jobs and drives the plotters. The page knows only this interface;
+ * `server/` implements it by plotwright's server. A failed request rejects with a BackendFault.
+ */
+import type { MachineProfile } from "../../src/index.js";
+import type {
+  AccessEntry,
+  BoxMm,
+  CommandAnswer,
+  Device,
+  Job,
+  JobChange,
+  JobPatch,
+  ListedMachine,
+  Me,
+  MovePlace,
+  NewJob,
+  NewKey,
+  NewPlotter,
+  NewSharedJob,
+  NewWebhook,
+  Operator,
+  Pairing,
+  PenRequest,
+  PlotSettings,
+  Plotter,
+  PlotterPatch,
+  QueueSettings,
+  ServerEvent,
+  SharedJob,
+  Webhook,
+} from "../../src/schema/index.js";
+import type { DrawingText } from "../worker/drawing-text.js";
+
+/** The message can be shown to the user as it is. */
+export class BackendFault extends Error {
+  override readonly name = "BackendFault";
+  readonly code: string;
+
+  constructor(code: string, message: string) {
+    super(message);
+    this.code = code;
+  }
+}
+
+export type JobAction =
+  "start" | "pause" | "resume" | "cancel" | "requeue" | "emergency-stop" | "recover" | "check-place";
+
+export interface SampleInfo {
+  readonly name: string;
+  readonly title: string;
+}
+
+/** A drawing that the backend has. */
+export interface DrawingSource {
+  readonly of: "job" | "sample";
+  readonly id: string;
+}
+
+export interface BackendListener {
+  onEvent(event: ServerEvent): void;
+  /** Connected, or no longer. Each connection begins with an event "snapshot". */
+  onLink(isConnected: boolean): void;
+}
+
+export interface Backend {
+  /** Reports everything once, then each change. Returns a function that stops. */
+  listen(listener: BackendListener): () => void;
+
+  addJob(job: Omit<NewJob, "drawing">, drawing: DrawingText): Promise<Job>;
+  patchJob(id: string, patch: JobPatch): Promise<Job>;
+  actOnJob(id: string, action: JobAction): Promise<Job>;
+  /** Of a job that is being plotted. */
+  changeJob(id: string, change: JobChange): Promise<Job>;
+  movePlace(id: string, way: MovePlace): Promise<Job>;
+  /** `beforeId` null: to the end. */
+  moveJob(id: string, beforeId: string | null): Promise<void>;
+  duplicateJob(id: string): Promise<Job>;
+  removeJob(id: string): Promise<void>;
+  jobDrawing(id: string): Promise<DrawingText>;
+  setQueue(plotterId: string, settings: QueueSettings): Promise<QueueSettings>;
+
+  /** Who this browser is. */
+  me(): Promise<Me>;
+  takeOver(): Promise<Operator | null>;
+  dismissNotice(id: string): Promise<void>;
+
+  setPlotterMachine(id: string, machine: string): Promise<Plotter>;
+  movePen(id: string, request: PenRequest): Promise<Plotter>;
+  motorsOff(id: string): Promise<Plotter>;
+  home(id: string, settings: PlotSettings): Promise<Plotter>;
+  /** Address that the browser saves the log of the plotter's connection from. */
+  logHref(plotterId: string): string;
+
+  machines(): Promise<readonly ListedMachine[]>;
+  saveMachine(profile: MachineProfile): Promise<MachineProfile>;
+  removeMachine(id: string): Promise<void>;
+
+  samples(): Promise<readonly SampleInfo[]>;
+  sample(name: string): Promise<string>;
+  /** The SVG of a drawing, for a small picture of it; null where it is no SVG or larger than `maxBytes`. */
+  svgOf(source: DrawingSource, maxBytes: number): Promise<string | null>;
+
+  /** Parts that the first view does not need; they are loaded when they are first asked for. */
+  hand(): Promise<HandBackend>;
+  studio(): Promise<StudioBackend>;
+}
+
+/** Moves by hand, with the speeds and the machine of `settings`. */
+export interface HandBackend {
+  walk(plotterId: string, settings: PlotSettings, xMm: number, yMm: number): Promise<Plotter>;
+  jog(plotterId: string, settings: PlotSettings, dxMm: number, dyMm: number): Promise<Plotter>;
+  setHome(plotterId: string, settings: PlotSettings): Promise<Plotter>;
+  cyclePen(plotterId: string, settings: PlotSettings): Promise<Plotter>;
+  testPatch(plotterId: string, settings: PlotSettings): Promise<Plotter>;
+  frameBox(plotterId: string, settings: PlotSettings, boxMm: BoxMm): Promise<Plotter>;
+  square(plotterId: string, settings: PlotSettings, sizeMm: number): Promise<Plotter>;
+  servo(plotterId: string, settings: PlotSettings, pos: number): Promise<Plotter>;
+  /** A line for the board, as typed. */
+  command(plotterId: string, line: string): Promise<CommandAnswer>;
+}
+
+/** Plotters, devices that are let in, programs that are told, and the queue that several servers share. */
+export interface StudioBackend {
+  devices(): Promise<readonly Device[]>;
+  addPlotter(plotter: NewPlotter): Promise<Plotter>;
+  patchPlotter(id: string, patch: PlotterPatch): Promise<Plotter>;
+  removePlotter(id: string): Promise<void>;
+
+  pairing(): Promise<Pairing>;
+  access(): Promise<readonly AccessEntry[]>;
+  addKey(key: NewKey): Promise<{ readonly entry: AccessEntry; readonly secret: string }>;
+  revoke(id: string): Promise<void>;
+
+  webhooks(): Promise<readonly Webhook[]>;
+  addWebhook(webhook: NewWebhook): Promise<{ readonly webhook: Webhook; readonly secret: string }>;
+  removeWebhook(id: string): Promise<void>;
+
+  /** Null where no queue is shared. */
+  sharedJobs(): Promise<readonly SharedJob[] | null>;
+  shareJob(job: Omit<NewSharedJob, "drawing">, drawing: DrawingText): Promise<void>;
+  giveBackShared(id: string): Promise<void>;
+  withdrawShared(id: string): Promise<void>;
+}

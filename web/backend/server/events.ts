@@ -1,0 +1,74 @@
+/** The live event stream: connects, parses every event by the schema, and connects again for ever. */
+import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.js";
+import type { BackendListener } from "../backend.js";
+
+const RETRY_MS = 1_500;
+/** A page that was out of sight for so long (a phone in a pocket) may have a stream that is dead and does not know. */
+const ASLEEP_MS = 15_000;
+
+/**
+ * Returns a function that closes it. The browser's own retry stops for good after an HTTP error
+ * (a server that is just starting), so a closed stream is opened anew; so is one that has lost its network.
+ */
+export const openEvents = (path: string, listener: BackendListener): (() => void) => {
+  let source: EventSource | null = null;
+  let retry: ReturnType<typeof setTimeout> | null = null;
+
+  const close = (): void => {
+    if (retry !== null) clearTimeout(retry);
+    retry = null;
+    source?.close();
+    source = null;
+  };
+  const open = (): void => {
+    close();
+    const opened = new EventSource(path);
+    source = opened;
+    opened.onmessage = ({ data }: MessageEvent<string>) => {
+      const event = parseServerEvent(data);
+      if (!event) return;
+      if (event.type === "snapshot") listener.onLink(true);
+      listener.onEvent(event);
+    };
+    opened.onerror = () => {
+      listener.onLink(false);
+      if (opened.readyState === EventSource.CLOSED) retry ??= setTimeout(open, RETRY_MS);
+    };
+  };
+  const stopWatching = watchNetwork(open, () => {
+    close();
+    listener.onLink(false);
+  });
+  open();
+  return () => {
+    stopWatching();
+    close();
+  };
+};
+
+/** Calls back when the device has its network again, or wakes up, and when it has lost its network. */
+const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
+  let hiddenAtMs: number | null = null;
+  const onSight = (): void => {
+    if (document.visibilityState === "hidden") hiddenAtMs = Date.now();
+    else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) onBack();
+  };
+  window.addEventListener("online", onBack);
+  window.addEventListener("offline", onGone);
+  document.addEventListener("visibilitychange", onSight);
+  return () => {
+    window.removeEventListener("online", onBack);
+    window.removeEventListener("offline", onGone);
+    document.removeEventListener("visibilitychange", onSight);
+  };
+};
+
+/** Null for what is no event of ours: a newer server may send kinds that this page does not know. */
+export const parseServerEvent = (data: string): ServerEvent | null => {
+  try {
+    const parsed = serverEventSchema.safeParse(JSON.parse(data));
+    return parsed.success ? parsed.data : null;
+  } catch {
+    return null;
+  }
+};

@@ -1,0 +1,72 @@
+/** The page's backend by plotwright's server: REST requests and the live event stream. */
+import { z } from "zod";
+import {
+  jobSchema,
+  machineListSchema,
+  machineProfileSchema,
+  meSchema,
+  operatorSchema,
+  plotterSchema,
+  queueSettingsSchema,
+} from "../../../src/schema/index.js";
+import { contentOf } from "../../worker/drawing-text.js";
+import type { Backend, DrawingSource } from "../backend.js";
+import { openEvents } from "./events.js";
+import { API, createRequests, one, type Fetch } from "./requests.js";
+
+const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
+const operatorAnswerSchema = z.object({ operator: operatorSchema.nullable() });
+
+const drawingPath = ({ of, id }: DrawingSource): string =>
+  of === "job" ? `${one("jobs", id)}/drawing` : one("samples", id);
+
+export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(path, init)): Backend => {
+  const requests = createRequests(fetchPath);
+  const { ask, send, tell, askWithDrawing } = requests;
+  return {
+    listen: (listener) => openEvents(`${API}/events`, listener),
+
+    addJob: (job, drawing) => askWithDrawing(jobSchema, "/jobs", job, drawing),
+    patchJob: (id, patch) => ask(jobSchema, "PATCH", one("jobs", id), patch),
+    actOnJob: (id, action) => ask(jobSchema, "POST", `${one("jobs", id)}/${action}`),
+    changeJob: (id, change) => ask(jobSchema, "POST", `${one("jobs", id)}/change`, change),
+    movePlace: (id, way) => ask(jobSchema, "POST", `${one("jobs", id)}/place`, way),
+    moveJob: (id, beforeId) => tell("POST", `${one("jobs", id)}/move`, { beforeId }),
+    duplicateJob: (id) => ask(jobSchema, "POST", `${one("jobs", id)}/duplicate`),
+    removeJob: (id) => tell("DELETE", one("jobs", id)),
+    jobDrawing: async (id) =>
+      contentOf(await (await send("GET", drawingPath({ of: "job", id }))).arrayBuffer()),
+    setQueue: (plotterId, settings) =>
+      ask(queueSettingsSchema, "PATCH", `${one("plotters", plotterId)}/queue`, settings),
+
+    me: () => ask(meSchema, "GET", "/me"),
+    takeOver: async () => (await ask(operatorAnswerSchema, "POST", "/operator/take")).operator,
+    dismissNotice: (id) => tell("DELETE", one("notices", id)),
+
+    setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", one("plotters", id), { machine }),
+    movePen: (id, request) => ask(plotterSchema, "POST", `${one("plotters", id)}/pen`, request),
+    motorsOff: (id) => ask(plotterSchema, "POST", `${one("plotters", id)}/motors-off`),
+    home: (id, settings) => ask(plotterSchema, "POST", `${one("plotters", id)}/home`, { settings }),
+    logHref: (id) => `${API}${one("plotters", id)}/log`,
+
+    machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
+    saveMachine: (profile) => ask(machineProfileSchema, "PUT", one("machines", profile.id), profile),
+    removeMachine: (id) => tell("DELETE", one("machines", id)),
+
+    samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
+    sample: async (name) => (await send("GET", drawingPath({ of: "sample", id: name }))).text(),
+    svgOf: async (source, maxBytes) => {
+      const stop = new AbortController();
+      const response = await fetchPath(`${API}${drawingPath(source)}`, { signal: stop.signal });
+      if (!response.ok || Number(response.headers.get("content-length") ?? 0) > maxBytes) {
+        stop.abort();
+        return null;
+      }
+      const file = await response.text();
+      return /<svg[\s>]/i.test(file.slice(0, 20_000)) ? file : null;
+    },
+
+    hand: async () => (await import("./hand-routes.js")).handRoutes(requests),
+    studio: async () => (await import("./studio-routes.js")).studioRoutes(requests),
+  };
+};

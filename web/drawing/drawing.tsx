@@ -1,0 +1,121 @@
+import { useId } from "react";
+import { DRAWING_EXTENSIONS } from "../../src/internal.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { drawingText, reportText } from "./text.js";
+import { formatNumber } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+
+const words = drawingText;
+
+export const DrawingPanel = () => {
+  const drawing = usePageState((state) => state.drawing);
+  const planned = usePageState((state) => state.planned);
+  const size =
+    planned && words.size(formatNumber(planned.pageWidthMm, 1), formatNumber(planned.pageHeightMm, 1));
+  return (
+    <SettingsGroup id="drawing" title={words.title}>
+      {drawing && (
+        <p className="drawing-name">
+          <strong title={drawing.name}>{drawing.name}</strong>
+          {size && <span className="note">{size}</span>}
+        </p>
+      )}
+      <ChooseFile label={words.choose} />
+      <p className="note">{words.chooseHint}</p>
+      <Samples />
+      <Report />
+    </SettingsGroup>
+  );
+};
+
+const ACCEPTED = ["image/svg+xml", ...DRAWING_EXTENSIONS.map((extension) => `.${extension}`)].join();
+
+export const ChooseFile = ({ label }: { label: string }) => {
+  const id = useId();
+  const { openFile } = useActions();
+  return (
+    <div className="choose">
+      <input
+        id={id}
+        type="file"
+        accept={ACCEPTED}
+        className="visually-hidden"
+        onChange={(event) => {
+          const file = event.target.files?.[0];
+          if (file) void openFile(file);
+          event.target.value = "";
+        }}
+      />
+      <label htmlFor={id} className="button">
+        <Icon name="file" />
+        {label}
+      </label>
+    </div>
+  );
+};
+
+const Samples = () => {
+  const id = useId();
+  const samples = usePageState((state) => state.samples);
+  const { openSample } = useActions();
+  if (samples.length === 0) return null;
+  return (
+    <div className="field">
+      <label htmlFor={id}>{words.sample}</label>
+      <select
+        id={id}
+        value=""
+        onChange={(event) => {
+          const sample = samples.find(({ name }) => name === event.target.value);
+          if (sample) void openSample(sample.name, sample.title);
+        }}
+      >
+        <option value="" disabled>
+          {words.sampleHint}
+        </option>
+        {samples.map(({ name, title }) => (
+          <option key={name} value={name}>
+            {title}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+};
+
+/** What the plot will lack; a note with places is a button that shows them on the paper. */
+const Report = () => {
+  const planned = usePageState((state) => state.planned);
+  const noteBoxes = usePageState((state) => state.noteBoxes);
+  const store = usePageStore();
+  if (!planned || planned.fileWarnings.length + planned.layoutWarnings.length === 0) return null;
+  return (
+    <div className="report">
+      <h3>
+        <Icon name="warning" />
+        {reportText.title}
+      </h3>
+      <ul>
+        {planned.fileWarnings.map(({ code, message, boxes }) => (
+          <li key={code + message}>
+            {message}
+            {boxes.length > 0 && (
+              <button
+                type="button"
+                className="link"
+                aria-pressed={noteBoxes === boxes}
+                onClick={() => store.setState({ noteBoxes: noteBoxes === boxes ? [] : boxes })}
+              >
+                {reportText.show}
+              </button>
+            )}
+          </li>
+        ))}
+        {planned.layoutWarnings.map((note) => (
+          <li key={note}>{note}</li>
+        ))}
+      </ul>
+    </div>
+  );
+};

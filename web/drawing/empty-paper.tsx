@@ -1,0 +1,44 @@
+import "./empty-paper.css";
+import { usePageState, useActions } from "../state/use-store.js";
+import { emptyPaperText } from "./text.js";
+import { ChooseFile } from "./drawing.js";
+import { Thumb } from "./thumb.js";
+
+const words = emptyPaperText;
+
+/** Stands on the paper while there is no drawing: how to begin, and the samples to try. */
+export const EmptyPaper = () => (
+  <div className="empty-paper">
+    <strong>{words.title}</strong>
+    <p>{words.hint}</p>
+    <ChooseFile label={words.choose} />
+    <Samples />
+  </div>
+);
+
+const Samples = () => {
+  const samples = usePageState((state) => state.samples);
+  const isBusy = usePageState((state) => state.busyAction === "sample");
+  const { openSample } = useActions();
+  if (samples.length === 0) return null;
+  return (
+    <section className="samples" aria-label={words.samples}>
+      <h2>{words.samples}</h2>
+      <ul>
+        {samples.map(({ name, title }) => (
+          <li key={name}>
+            <button
+              type="button"
+              className="sample"
+              disabled={isBusy}
+              onClick={() => void openSample(name, title)}
+            >
+              <Thumb of="sample" id={name} />
+              <span>{title}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+};

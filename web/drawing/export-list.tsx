@@ -1,0 +1,53 @@
+import "./save.css";
+import { useState } from "react";
+import { boardFirmware } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { saveText } from "./text.js";
+import { Select } from "../ui/choice.js";
+import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
+
+const words = saveText;
+/** One for each way in which boards understand motion, newest first. */
+const FIRMWARES = ["3.0.3", "2.8.1", "2.7.0", "2.5.3"];
+
+const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: string }> = {
+  svg: { title: words.svg, hint: words.svgHint },
+  json: { title: words.json, hint: words.jsonHint },
+  ebb: { title: words.ebb, hint: words.ebbHint },
+};
+
+export const ExportList = () => {
+  const connected = usePageState(boardFirmware);
+  const [chosen, setChosen] = useState<string | null>(null);
+  const { exportAs } = useActions();
+  const firmwares = connected && !FIRMWARES.includes(connected) ? [connected, ...FIRMWARES] : FIRMWARES;
+  const firmware = chosen ?? connected ?? FIRMWARES[0];
+  return (
+    <ul className="export-list">
+      {EXPORT_FORMATS.map((format) => (
+        <li key={format}>
+          <div className="export-head">
+            <strong>{WORDS[format].title}</strong>
+            <button
+              type="button"
+              className="button button-small"
+              aria-label={words.save(WORDS[format].title)}
+              onClick={() => exportAs(format, firmware)}
+            >
+              {words.saveShort}
+            </button>
+          </div>
+          <p className="note">{WORDS[format].hint}</p>
+          {format === "ebb" && (
+            <Select
+              label={words.firmware}
+              value={firmware}
+              options={firmwares.map((value) => ({ value, label: value }))}
+              onChange={setChosen}
+            />
+          )}
+        </li>
+      ))}
+    </ul>
+  );
+};

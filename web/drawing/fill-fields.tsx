@@ -1,0 +1,55 @@
+import { HATCH_TABLE, PREPARE_TABLE } from "../../src/internal.js";
+import { usePageState } from "../state/use-store.js";
+import { fillText } from "./text.js";
+import { Switch } from "../ui/choice.js";
+import { SettingField } from "../ui/setting-field.js";
+import { usePrepareChange } from "./use-prepare-change.js";
+
+const words = fillText;
+const FIRST_SPACING_MM = 0.6;
+
+/** Filled shapes: shaded with lines, outlined, covering what lies under them. */
+export const FillFields = () => {
+  const { hatch, outlineFills, hideCovered } = usePageState((state) => state.settings.prepare);
+  const change = usePrepareChange();
+  const isOn = hatch.spacingMm > 0;
+  return (
+    <>
+      <Switch
+        label={words.switch}
+        isOn={isOn}
+        onChange={(on) => change("hatch", { hatch: { ...hatch, spacingMm: on ? FIRST_SPACING_MM : 0 } })}
+      />
+      {isOn && (
+        <>
+          <SettingField
+            setting={HATCH_TABLE.spacingMm}
+            value={hatch.spacingMm}
+            hint={words.spacingHint}
+            onChange={(spacingMm) => change("hatch spacing", { hatch: { ...hatch, spacingMm } })}
+          />
+          <SettingField
+            setting={HATCH_TABLE.angleDeg}
+            value={hatch.angleDeg}
+            onChange={(angleDeg) => change("hatch angle", { hatch: { ...hatch, angleDeg } })}
+          />
+          <Switch
+            label={HATCH_TABLE.cross.label}
+            isOn={hatch.cross}
+            onChange={(cross) => change("hatch cross", { hatch: { ...hatch, cross } })}
+          />
+        </>
+      )}
+      <Switch
+        label={PREPARE_TABLE.outlineFills.label}
+        isOn={outlineFills}
+        onChange={(on) => change("outline", { outlineFills: on })}
+      />
+      <Switch
+        label={PREPARE_TABLE.hideCovered.label}
+        isOn={hideCovered}
+        onChange={(on) => change("hide", { hideCovered: on })}
+      />
+    </>
+  );
+};

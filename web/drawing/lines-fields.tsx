@@ -1,0 +1,67 @@
+import { PREPARE_TABLE, type Setting } from "../../src/internal.js";
+import { usePageState } from "../state/use-store.js";
+import { linesText } from "./text.js";
+import { Segments, Switch } from "../ui/choice.js";
+import { SettingField } from "../ui/setting-field.js";
+import { usePrepareChange } from "./use-prepare-change.js";
+
+const words = linesText;
+
+type Key = keyof typeof PREPARE_TABLE;
+/** The numbers and switches that the settings table lists for this panel, in its order. */
+const ROWS = (Object.entries(PREPARE_TABLE) as [Key, Setting][]).filter(([, { panel }]) => panel === "lines");
+
+/** How strokes are ordered, joined and cleaned. */
+export const LinesFields = () => {
+  const prepare = usePageState((state) => state.settings.prepare);
+  const change = usePrepareChange();
+  return (
+    <>
+      <Segments
+        label={PREPARE_TABLE.order.label}
+        value={prepare.order}
+        options={[
+          { value: "none", label: words.orderNone },
+          { value: "fast", label: words.orderFast },
+          { value: "best", label: words.orderBest },
+        ]}
+        onChange={(order) => change("order", { order })}
+      />
+      {prepare.order === "best" && (
+        <SettingField
+          setting={PREPARE_TABLE.orderS}
+          value={prepare.orderS}
+          onChange={(orderS) => change("order time", { orderS })}
+        />
+      )}
+      <Segments
+        label={PREPARE_TABLE.spread.label}
+        value={prepare.spread}
+        options={[
+          { value: "none", label: words.spreads.none },
+          { value: "interleave", label: words.spreads.interleave },
+          { value: "shuffle", label: words.spreads.shuffle },
+        ]}
+        onChange={(spread) => change("spread", { spread })}
+      />
+      {prepare.spread !== "none" && <p className="note">{words.spreadHint}</p>}
+      {ROWS.map(([key, setting]) =>
+        setting.kind === "number" ? (
+          <SettingField
+            key={key}
+            setting={setting}
+            value={prepare[key] as number}
+            onChange={(value) => change(key, { [key]: value })}
+          />
+        ) : (
+          <Switch
+            key={key}
+            label={setting.label}
+            isOn={prepare[key] as boolean}
+            onChange={(value) => change(key, { [key]: value })}
+          />
+        ),
+      )}
+    </>
+  );
+};

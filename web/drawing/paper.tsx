@@ -1,0 +1,187 @@
+import { PAPER_SIZES } from "../../src/index.js";
+import { PAPER_TABLE, PREPARE_TABLE, type PaperName } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { usePageState } from "../state/use-store.js";
+import { paperText } from "./text.js";
+import { Segments, Select, Switch } from "../ui/choice.js";
+import { formatNumber } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
+import { SettingField } from "../ui/setting-field.js";
+import { placeOfFrame, wholeTurn } from "../scene/placing.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+import { usePrepareChange } from "./use-prepare-change.js";
+
+const words = paperText;
+const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
+type PrepareSettings = PlotSettings["prepare"];
+const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
+const CUSTOM = "custom";
+
+const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName | typeof CUSTOM =>
+  PAPER_NAMES.find(
+    (name) => PAPER_SIZES[name].widthMm === widthMm && PAPER_SIZES[name].heightMm === heightMm,
+  ) ?? CUSTOM;
+
+export const PaperPanel = () => {
+  const prepare = usePageState((state) => state.settings.prepare);
+  const change = usePrepareChange();
+  const { paper, landscape, marginMm, rotateDeg } = prepare;
+  const frame = usePageState((state) => state.planned?.frameMm ?? null);
+  const firstPlace = placeOfFrame(
+    frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100, turnDeg: 0 },
+  );
+  const angleDeg = wholeTurn(rotateDeg + (prepare.place?.turnDeg ?? 0));
+  // A placed drawing turns about its own middle and keeps its size.
+  const turnTo = (what: string, deg: number): void =>
+    change(
+      what,
+      prepare.place
+        ? { place: { ...prepare.place, turnDeg: wholeTurn(deg - rotateDeg) } }
+        : { rotateDeg: wholeTurn(deg) },
+    );
+  const name = nameOfPaper(paper);
+  const size = landscape
+    ? `${formatNumber(paper.heightMm, 1)} × ${formatNumber(paper.widthMm, 1)}`
+    : `${formatNumber(paper.widthMm, 1)} × ${formatNumber(paper.heightMm, 1)}`;
+
+  return (
+    <SettingsGroup id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size} mm`}>
+      <Select
+        label={words.size}
+        value={name}
+        options={[
+          ...PAPER_NAMES.map((value) => ({ value, label: value.replace("in", " in").replace("x", " × ") })),
+          { value: CUSTOM, label: words.custom },
+        ]}
+        onChange={(value) => {
+          // A size of one's own begins a hair beside the named one, so that its fields show.
+          if (value !== CUSTOM) change("paper", { paper: PAPER_SIZES[value] });
+          else change("paper", { paper: { ...paper, widthMm: paper.widthMm + 1 } });
+        }}
+      />
+      {name === CUSTOM && <CustomSize paper={paper} change={change} />}
+      <Segments
+        label={words.orientation}
+        value={landscape ? "landscape" : "portrait"}
+        options={[
+          { value: "portrait", label: words.portrait },
+          { value: "landscape", label: words.landscape },
+        ]}
+        onChange={(value) => change("orientation", { landscape: value === "landscape" })}
+      />
+      {!prepare.margins && (
+        <SettingField
+          setting={PREPARE_TABLE.marginMm}
+          value={marginMm}
+          max={Math.floor(Math.min(paper.widthMm, paper.heightMm) / 2) - 1}
+          onChange={(value) => change("margin", { marginMm: value })}
+        />
+      )}
+      <Margins prepare={prepare} change={change} />
+      <Segments
+        label={words.placement}
+        value={prepare.place ? "place" : prepare.fit ? "fit" : "true"}
+        options={[
+          { value: "fit", label: words.fit },
+          { value: "true", label: words.trueSize },
+          { value: "place", label: words.byNumbers },
+        ]}
+        onChange={(value) =>
+          change("fit", value === "place" ? { place: firstPlace } : { fit: value === "fit", place: null })
+        }
+      />
+      {prepare.place && <PlaceFields place={prepare.place} />}
+      <div className="field-with-button">
+        <SettingField
+          setting={PREPARE_TABLE.rotateDeg}
+          value={angleDeg}
+          onChange={(value) => turnTo("rotate", value)}
+        />
+        <button
+          type="button"
+          className="button button-icon"
+          title={words.rotateQuarter}
+          aria-label={words.rotateQuarter}
+          onClick={() => turnTo("quarter", angleDeg + 90)}
+        >
+          <Icon name="again" />
+        </button>
+      </div>
+      <Segments
+        label={PREPARE_TABLE.mirror.label}
+        value={prepare.mirror}
+        options={[
+          { value: "none", label: words.mirrors.none },
+          { value: "leftRight", label: words.mirrors.leftRight },
+          { value: "upDown", label: words.mirrors.upDown },
+        ]}
+        onChange={(mirror) => change("mirror", { mirror })}
+      />
+      <Switch
+        label={PREPARE_TABLE.cropToPage.label}
+        isOn={prepare.cropToPage}
+        onChange={(cropToPage) => change("crop", { cropToPage })}
+      />
+      <Switch
+        label={PREPARE_TABLE.clipToMargins.label}
+        isOn={prepare.clipToMargins}
+        onChange={(clipToMargins) => change("clip", { clipToMargins })}
+      />
+    </SettingsGroup>
+  );
+};
+
+interface CustomSizeProps {
+  readonly paper: PrepareSettings["paper"];
+  change(what: string, change: Partial<PrepareSettings>): void;
+}
+
+const CustomSize = ({ paper, change }: CustomSizeProps) => (
+  <div className="field-pair">
+    <SettingField
+      setting={PAPER_TABLE.widthMm}
+      value={paper.widthMm}
+      onChange={(widthMm) => change("paper width", { paper: { ...paper, widthMm } })}
+    />
+    <SettingField
+      setting={PAPER_TABLE.heightMm}
+      value={paper.heightMm}
+      onChange={(heightMm) => change("paper height", { paper: { ...paper, heightMm } })}
+    />
+  </div>
+);
+
+interface PartProps {
+  readonly prepare: PrepareSettings;
+  change(what: string, change: Partial<PrepareSettings>): void;
+}
+
+const SIDES = ["topMm", "rightMm", "bottomMm", "leftMm"] as const;
+const SIDE_WORDS = { topMm: words.top, rightMm: words.right, bottomMm: words.bottom, leftMm: words.left };
+
+const Margins = ({ prepare: { margins, marginMm }, change }: PartProps) => (
+  <>
+    <Switch
+      label={words.margins}
+      isOn={margins !== null}
+      onChange={(isOn) =>
+        change("four margins", {
+          margins: isOn ? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm } : null,
+        })
+      }
+    />
+    {margins && (
+      <div className="field-pair">
+        {SIDES.map((side) => (
+          <SettingField
+            key={side}
+            setting={{ ...PREPARE_TABLE.marginMm, label: SIDE_WORDS[side] }}
+            value={margins[side]}
+            onChange={(value) => change(`margin ${side}`, { margins: { ...margins, [side]: value } })}
+          />
+        ))}
+      </div>
+    )}
+  </>
+);

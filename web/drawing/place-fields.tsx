@@ -1,0 +1,93 @@
+import "./place.css";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { boxAround, snapLinesOf } from "../scene/placing.js";
+import { frameNow } from "../preview/frame.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { placeText } from "./text.js";
+import { NumberField } from "../ui/number-field.js";
+import { orientedPaper } from "../../src/internal.js";
+import { usePrepareChange } from "./use-prepare-change.js";
+
+const words = placeText;
+type Place = NonNullable<PlotSettings["prepare"]["place"]>;
+
+/** Where the drawing stands and how large; its proportions stay, so one of the sizes decides. */
+export const PlaceFields = ({ place }: { place: Place }) => {
+  const frame = usePageState((state) => state.planned?.frameMm ?? null);
+  const change = usePrepareChange();
+  const set = (part: Partial<Place>): void =>
+    change(`place ${Object.keys(part).join()}`, { place: { ...place, ...part } });
+  const fields = [
+    ["xMm", words.x, place.xMm, -10_000],
+    ["yMm", words.y, place.yMm, -10_000],
+    ["widthMm", words.width, place.widthMm ?? frame?.widthMm ?? 0, 0.1],
+    ["heightMm", words.height, place.heightMm ?? frame?.heightMm ?? 0, 0.1],
+  ] as const;
+  return (
+    <>
+      <div className="field-pair">
+        {fields.map(([key, label, value, min]) => (
+          <NumberField
+            key={key}
+            label={label}
+            value={value}
+            unit="mm"
+            min={min}
+            max={10_000}
+            step={1}
+            onChange={(mm) => {
+              if (key === "widthMm") set({ widthMm: mm, heightMm: null });
+              else if (key === "heightMm") set({ widthMm: null, heightMm: mm });
+              else set({ [key]: mm });
+            }}
+          />
+        ))}
+      </div>
+      <Aligning set={set} place={place} />
+      <p className="note">{words.hint}</p>
+    </>
+  );
+};
+
+interface AligningProps {
+  readonly place: Place;
+  set(part: Partial<Place>): void;
+}
+
+/** To the middle of the paper, and into the margins. */
+const Aligning = ({ place, set }: AligningProps) => {
+  const store = usePageStore();
+  const align = (where: "across" | "down" | "fill"): void => {
+    const frame = frameNow(store.getState());
+    if (!frame) return;
+    const { paper, landscape, margins, marginMm: all } = store.getState().settings.prepare;
+    const { widthMm: width, heightMm: height } = orientedPaper(paper, landscape);
+    const sides = margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all };
+    const { xs, ys } = snapLinesOf({ width, height }, sides);
+    const { x0, y0, x1, y1 } = boxAround(frame);
+    const [left, right, top, bottom] = [xs[1], xs[3], ys[1], ys[3]];
+    if (where === "across") return set({ xMm: rounded(place.xMm + (width - x0 - x1) / 2) });
+    if (where === "down") return set({ yMm: rounded(place.yMm + (height - y0 - y1) / 2) });
+    const factor = Math.min((right - left) / (x1 - x0), (bottom - top) / (y1 - y0));
+    if (!Number.isFinite(factor)) return;
+    const widthMm = frame.widthMm * factor;
+    set({
+      xMm: rounded((left + right - widthMm) / 2),
+      yMm: rounded((top + bottom - frame.heightMm * factor) / 2),
+      widthMm: rounded(widthMm),
+      heightMm: null,
+    });
+  };
+  return (
+    <div className="align-buttons">
+      {(["across", "down", "fill"] as const).map((where) => (
+        <button key={where} type="button" className="button button-small" onClick={() => align(where)}>
+          {words.align[where]}
+        </button>
+      ))}
+    </div>
+  );
+};
+
+/** Down to a hundredth, so that what fills the margins is not cut by them. */
+const rounded = (mm: number): number => Math.floor(mm * 100 + 1e-6) / 100;

@@ -1,0 +1,81 @@
+/** Words of the drawing and its paper, of filling, lines and saving. */
+export const drawingText = {
+  title: "Drawing",
+  choose: "Choose a drawing",
+  chooseHint: "SVG, DXF, HPGL or JSON. Drop it anywhere, paste it, or choose a file.",
+  sample: "Samples",
+  sampleHint: "Try one of the samples",
+  dropHere: "Drop the drawing to lay it on the paper",
+  size: (width: string, height: string) => `${width} × ${height} mm in the file`,
+};
+
+export const reportText = {
+  title: "Won’t be drawn as on screen",
+  show: "Show where",
+};
+
+export const paperText = {
+  title: "Paper",
+  size: "Paper",
+  custom: "Own size",
+  orientation: "Orientation",
+  portrait: "Portrait",
+  landscape: "Landscape",
+  placement: "Size of the drawing",
+  fit: "Fit paper",
+  trueSize: "True size",
+  byNumbers: "Own place",
+  margins: "Each margin by itself",
+  top: "Top",
+  right: "Right",
+  bottom: "Bottom",
+  left: "Left",
+  mirrors: { none: "Off", leftRight: "Left–right", upDown: "Up–down" },
+  rotateQuarter: "Turn a quarter",
+};
+
+export const saveText = {
+  title: "Save to a file",
+  svg: "Prepared drawing as SVG",
+  svgHint: "What will be plotted, in order, with its layers’ settings in their names.",
+  json: "Polylines as JSON",
+  jsonHint: "Plain numbers in mm, for other programs. Can be opened here again.",
+  ebb: "Commands for the board",
+  ebbHint: "The lines that a plot would send, from motors on to motors off.",
+  firmware: "Firmware of the board",
+  save: (what: string) => `Save: ${what}`,
+  saveShort: "Save",
+};
+
+export const fillText = {
+  title: "Fill and shade",
+  off: "off",
+  on: (spacing: string) => `every ${spacing} mm`,
+  switch: "Fill areas with lines",
+  spacingHint: "The distance of the lines: as wide as the pen draws fills without gaps.",
+};
+
+export const linesText = {
+  title: "Lines",
+  spreads: { none: "Off", interleave: "Take turns", shuffle: "Shuffle" },
+  spreadHint: "Neighbouring strokes are drawn apart in time, so that ink dries and paper survives.",
+  orderNone: "As in the file",
+  orderFast: "Short way",
+  orderBest: "Shortest way",
+};
+
+export const emptyPaperText = {
+  title: "Drop a drawing here",
+  hint: "SVG, DXF, HPGL or JSON. You can also paste it.",
+  choose: "Choose a file",
+  samples: "Or try a sample",
+};
+
+export const placeText = {
+  x: "From the left",
+  y: "From the top",
+  width: "Width",
+  height: "Height",
+  hint: "Drag the drawing on the paper, its corners or its knob, or move it with the arrow keys. It is drawn to margins and middles; Alt keeps it free.",
+  align: { across: "Centre across", down: "Centre down", fill: "Fill margins" },
+};

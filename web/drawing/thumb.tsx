@@ -1,0 +1,52 @@
+import { useEffect, useRef, useState } from "react";
+import type { Backend, DrawingSource } from "../backend/backend.js";
+import { useBackend } from "../state/use-store.js";
+import "./thumb.css";
+
+/** Larger files are not fetched for a picture of a thumb's size. */
+const MAX_BYTES = 1_000_000;
+const pictures = new Map<string, string | null>();
+const MAX_PICTURES = 200;
+
+const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
+
+/**
+ * A small picture of a drawing on the server, a job's or a sample. As the source of an image an SVG runs no scripts
+ * and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
+ */
+export const Thumb = ({ of, id }: DrawingSource) => {
+  const backend = useBackend();
+  const key = keyOf({ of, id });
+  const box = useRef<HTMLSpanElement>(null);
+  const [url, setUrl] = useState(pictures.get(key) ?? null);
+  useEffect(() => {
+    if (!box.current || pictures.has(key)) return;
+    const watcher = new IntersectionObserver((entries) => {
+      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+      watcher.disconnect();
+      void pictureOf(backend, { of, id }).then(setUrl);
+    });
+    watcher.observe(box.current);
+    return () => watcher.disconnect();
+  }, [backend, of, id, key]);
+  return (
+    <span className="thumb" ref={box} aria-hidden="true">
+      {url !== null && <img src={url} alt="" loading="lazy" decoding="async" />}
+    </span>
+  );
+};
+
+const pictureOf = async (backend: Backend, source: DrawingSource): Promise<string | null> => {
+  const svg = await backend.svgOf(source, MAX_BYTES).catch(() => null);
+  const url = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  if (pictures.size >= MAX_PICTURES) forgetOldest();
+  pictures.set(keyOf(source), url);
+  return url;
+};
+
+const forgetOldest = (): void => {
+  const [oldest] = pictures;
+  if (!oldest) return;
+  if (oldest[1] !== null) URL.revokeObjectURL(oldest[1]);
+  pictures.delete(oldest[0]);
+};

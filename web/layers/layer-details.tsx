@@ -1,0 +1,219 @@
+import {
+  DRAW_TABLE,
+  HATCH_TABLE,
+  LAYER_REPEATS,
+  LAYER_WAIT,
+  PEN_TABLE,
+  parseLayerName,
+  penOfLayer,
+  speedOfCode,
+  withLayerCodes,
+  type LayerMotion,
+  type LayerPen,
+  type PreparedLayer,
+} from "../../src/internal.js";
+import {
+  hatchLayer,
+  repeatLayer,
+  setLayerMotion,
+  setLayerPenMotion,
+  showOnly,
+  stopBefore,
+  withoutLayer,
+} from "./layer-settings.js";
+import { usePageState } from "../state/use-store.js";
+import { layersText } from "./text.js";
+import { Segments } from "../ui/choice.js";
+import { Icon } from "../ui/icon.js";
+import { IconButton } from "../ui/icon-button.js";
+import { OwnNumber } from "../ui/own-number.js";
+import { useChange } from "../ui/use-change.js";
+
+const words = layersText;
+
+interface LayerDetailsProps {
+  readonly row: PreparedLayer;
+  readonly rows: readonly PreparedLayer[];
+  readonly index: number;
+  onMove(place: number): void;
+}
+
+/** What one layer does in its own way; empty fields are as for all, or as its name asks. */
+export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) => {
+  const change = useChange();
+  return (
+    <div className="layer-details">
+      {row.colorCount > 1 && <p className="note">{words.colorsHint}</p>}
+      <CodesNote row={row} />
+      <MotionFields row={row} />
+      <PenFields row={row} />
+      <InkFields row={row} />
+      <StopChoice row={row} />
+      {rows.length > 1 && (
+        <div className="button-row">
+          <button
+            type="button"
+            className="button button-small"
+            onClick={() => change(`solo ${row.id}`, (settings) => showOnly(settings, rows, row.id))}
+          >
+            <Icon name="eye" />
+            {words.onlyThis}
+          </button>
+          <span className="spacer" />
+          <IconButton icon="up" label={words.earlier} isOff={index === 0} onClick={() => onMove(index - 1)} />
+          <IconButton
+            icon="down"
+            label={words.later}
+            isOff={index === rows.length - 1}
+            onClick={() => onMove(index + 1)}
+          />
+        </div>
+      )}
+    </div>
+  );
+};
+
+type RowProps = Pick<LayerDetailsProps, "row">;
+
+/** What the layer's name says about the plot, in words. */
+const CodesNote = ({ row }: RowProps) => {
+  const { skip, pause, penDownPct, drawSpeedPct, delayMs } = parseLayerName(row.name);
+  const said = [
+    skip ? words.code.skip : null,
+    pause ? words.code.pause : null,
+    penDownPct === null ? null : words.code.penDownPct(penDownPct),
+    drawSpeedPct === null ? null : words.code.drawSpeedPct(speedOfCode(drawSpeedPct)),
+    delayMs === null ? null : words.code.delayMs(delayMs),
+  ].filter((one) => one !== null);
+  if (said.length === 0) return null;
+  return <p className="note">{words.codes(said.join(", "))}</p>;
+};
+
+/** The settings as they would be for a layer without any of its own, its name's codes included. */
+const useInherited = (row: PreparedLayer) => {
+  const settings = usePageState((state) => state.settings);
+  const bare = {
+    motion: { ...settings.motion, layers: withoutLayer(settings.motion.layers, row.id) },
+    pen: { ...settings.pen, layers: withoutLayer(settings.pen.layers, row.id) },
+  };
+  const { motion, pen } = withLayerCodes(bare, [row]);
+  const own = motion.layers?.[row.id] ?? {};
+  return {
+    motion: { ...motion.draw, ...own },
+    pen: { ...penOfLayer(pen, row.id), beforeMs: pen.layers?.[row.id]?.beforeMs ?? 0 },
+  };
+};
+
+const MotionFields = ({ row }: RowProps) => {
+  const own: LayerMotion = usePageState(({ settings }) => settings.motion.layers?.[row.id]) ?? {};
+  const { motion } = useInherited(row);
+  const change = useChange();
+  return (["speedMmPerS", "accelMmPerS2"] as const).map((key) => (
+    <OwnNumber
+      key={key}
+      {...DRAW_TABLE[key]}
+      value={own[key] ?? null}
+      inherited={motion[key] ?? null}
+      resetLabel={words.reset(DRAW_TABLE[key].label)}
+      onChange={(value) =>
+        change(`${key} of ${row.id}`, (settings) => setLayerMotion(settings, row.id, { [key]: value }))
+      }
+    />
+  ));
+};
+
+const LAYER_PEN_FIELDS = [
+  ["downPct", PEN_TABLE.downPct],
+  ["upPct", PEN_TABLE.upPct],
+  ["liftMs", PEN_TABLE.liftMs],
+  ["dropMs", PEN_TABLE.dropMs],
+  ["beforeMs", LAYER_WAIT],
+] as const;
+
+const PenFields = ({ row }: RowProps) => {
+  const own: LayerPen = usePageState(({ settings }) => settings.pen.layers?.[row.id]) ?? {};
+  const { pen } = useInherited(row);
+  const change = useChange();
+  return LAYER_PEN_FIELDS.map(([key, setting]) => (
+    <OwnNumber
+      key={key}
+      {...setting}
+      value={own[key] ?? null}
+      inherited={pen[key]}
+      resetLabel={words.reset(setting.label)}
+      onChange={(value) =>
+        change(`${key} of ${row.id}`, (settings) => setLayerPenMotion(settings, row.id, { [key]: value }))
+      }
+    />
+  ));
+};
+
+const InkFields = ({ row }: RowProps) => {
+  const { layerRepeats, layerHatches, hatch } = usePageState(({ settings }) => settings.prepare);
+  const own = layerHatches.find(({ layer }) => layer === row.id) ?? null;
+  const change = useChange();
+  return (
+    <>
+      <OwnNumber
+        {...LAYER_REPEATS}
+        value={layerRepeats[row.id] ?? null}
+        inherited={LAYER_REPEATS.default}
+        resetLabel={words.reset(LAYER_REPEATS.label)}
+        onChange={(times) =>
+          change(`repeat ${row.id}`, (settings) =>
+            repeatLayer(settings, row.id, times === null ? null : Math.round(times)),
+          )
+        }
+      />
+      <OwnNumber
+        {...HATCH_TABLE.spacingMm}
+        label={words.hatch}
+        value={own?.spacingMm ?? null}
+        inherited={hatch.spacingMm}
+        resetLabel={words.reset(words.hatch)}
+        onChange={(spacingMm) =>
+          change(`hatch of ${row.id}`, (settings) =>
+            hatchLayer(settings, row.id, spacingMm === null ? null : { ...(own ?? hatch), spacingMm }),
+          )
+        }
+      />
+      {own && own.spacingMm > 0 && (
+        <OwnNumber
+          {...HATCH_TABLE.angleDeg}
+          label={words.hatchAngle}
+          value={own.angleDeg}
+          inherited={hatch.angleDeg}
+          resetLabel={words.reset(words.hatchAngle)}
+          onChange={(angleDeg) =>
+            change(`hatch angle of ${row.id}`, (settings) =>
+              hatchLayer(settings, row.id, { ...own, angleDeg: angleDeg ?? hatch.angleDeg }),
+            )
+          }
+        />
+      )}
+    </>
+  );
+};
+
+const StopChoice = ({ row }: RowProps) => {
+  const stop = usePageState(({ settings }) => settings.layerStops[row.id]);
+  const isNever = usePageState(({ settings }) => settings.penStops === "never");
+  const change = useChange();
+  if (isNever) return null;
+  return (
+    <Segments
+      label={words.stopBefore}
+      value={stop === undefined ? "auto" : stop ? "yes" : "no"}
+      options={[
+        { value: "auto", label: words.stops.auto },
+        { value: "yes", label: words.stops.yes },
+        { value: "no", label: words.stops.no },
+      ]}
+      onChange={(value) =>
+        change(`stop before ${row.id}`, (settings) =>
+          stopBefore(settings, row.id, value === "auto" ? null : value === "yes"),
+        )
+      }
+    />
+  );
+};

@@ -1,0 +1,101 @@
+import "../ui/row-drag.css";
+import "./layers.css";
+import { useRef, useState } from "react";
+import type { Planned } from "../worker/protocol.js";
+import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-settings.js";
+import { usePageState } from "../state/use-store.js";
+import { layersText } from "./text.js";
+import { Segments } from "../ui/choice.js";
+import { Icon } from "../ui/icon.js";
+import { LayerRow } from "./layer-row.js";
+import { useChange } from "../ui/use-change.js";
+
+const words = layersText;
+type PenStop = Planned["penStops"][number];
+
+/** The layers in the order of drawing, each with its switch and pen, and the stops between them. */
+export const LayerList = () => {
+  const planned = usePageState((state) => state.planned);
+  const change = useChange();
+  const list = useRef<HTMLUListElement>(null);
+  const [openId, setOpenId] = useState<string | null>(null);
+  const settings = usePageState((state) => state.settings);
+  const { layers: mode, layerOrder } = settings.prepare;
+  const rows = inWantedOrder(settings, planned?.layers ?? []);
+  const hasHidden = rows.some((row) => !isLayerShown(settings, row));
+  const move = (id: string, place: number): void =>
+    change(`order of ${id}`, (now) => moveLayer(now, rows, id, place));
+
+  return (
+    <>
+      <Segments
+        label={words.by}
+        value={mode}
+        options={[
+          { value: "group", label: words.group },
+          { value: "stroke", label: words.stroke },
+          { value: "all", label: words.all },
+        ]}
+        onChange={(layers) =>
+          change("layers from", (now) => ({ ...now, prepare: { ...now.prepare, layers } }))
+        }
+      />
+      {planned && rows.length === 0 && <p className="note">{words.none}</p>}
+      <ul className="layer-list" ref={list}>
+        {rows.map((row, index) => (
+          <li key={row.id} data-row={row.id}>
+            <StopsBefore stops={planned?.penStops ?? []} layerId={row.id} />
+            <LayerRow
+              row={row}
+              index={index}
+              rows={rows}
+              list={list}
+              isOpen={openId === row.id}
+              onToggle={() => setOpenId(openId === row.id ? null : row.id)}
+              onMove={(place) => move(row.id, place)}
+            />
+          </li>
+        ))}
+      </ul>
+      {(hasHidden || layerOrder.length > 0) && (
+        <div className="layer-links">
+          {hasHidden && (
+            <button
+              type="button"
+              className="link"
+              onClick={() => change("all layers", (now) => showAll(now, rows))}
+            >
+              {words.everything}
+            </button>
+          )}
+          {layerOrder.length > 0 && (
+            <button
+              type="button"
+              className="link"
+              onClick={() =>
+                change("file order", (now) => ({
+                  ...now,
+                  prepare: { ...now.prepare, layerOrder: [] },
+                }))
+              }
+            >
+              {words.fileOrder}
+            </button>
+          )}
+        </div>
+      )}
+    </>
+  );
+};
+
+/** Where the plot waits before this layer, as it was planned. */
+const StopsBefore = ({ stops, layerId }: { stops: readonly PenStop[]; layerId: string }) => {
+  const stop = stops.find((one) => one.layerId === layerId);
+  if (!stop) return null;
+  return (
+    <p className="layer-stop">
+      <Icon name="pause" />
+      {stop.penName === null ? words.stopNoPen : words.stop(stop.penName)}
+    </p>
+  );
+};

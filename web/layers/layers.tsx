@@ -1,0 +1,15 @@
+import { usePageState } from "../state/use-store.js";
+import { layersText } from "./text.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+
+const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerList);
+
+export const LayersPanel = () => {
+  const count = usePageState((state) => state.planned?.layers.length ?? 0);
+  return (
+    <SettingsGroup id="layers" title={layersText.title} summary={count > 0 ? String(count) : ""}>
+      <LayerList />
+    </SettingsGroup>
+  );
+};

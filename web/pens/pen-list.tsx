@@ -1,0 +1,238 @@
+import { PLOT_PEN_TABLE, PEN_STOP_MODES, type PlotPen } from "../../src/internal.js";
+import "../layers/layers.css";
+import "./pens.css";
+import { useState } from "react";
+import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
+import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { pensText } from "./text.js";
+import { Segments, Select, type ChoiceOption } from "../ui/choice.js";
+import { formatNumber } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
+import { SettingField } from "../ui/setting-field.js";
+import { useChange } from "../ui/use-change.js";
+
+const words = pensText;
+
+export const PenList = () => {
+  const pens = usePageState(({ settings }) => settings.pens);
+  const penStops = usePageState(({ settings }) => settings.penStops);
+  const [openId, setOpenId] = useState<string | null>(null);
+  const change = useChange();
+  return (
+    <>
+      <p className="note">{words.hint}</p>
+      <ul className="pen-list">
+        {pens.map((pen) => (
+          <li key={pen.id} className="layer-card" data-open={openId === pen.id || undefined}>
+            <PenRow
+              pen={pen}
+              isOpen={openId === pen.id}
+              onToggle={() => setOpenId(openId === pen.id ? null : pen.id)}
+            />
+          </li>
+        ))}
+      </ul>
+      <div className="pen-buttons">
+        <FromColors />
+        <button
+          type="button"
+          className="button"
+          onClick={() =>
+            change("add pen", (settings) => addPen(settings, { name: words.newName(pens.length + 1) }))
+          }
+        >
+          <Icon name="plus" />
+          {words.add}
+        </button>
+      </div>
+      {pens.length > 0 && (
+        <Segments
+          label={words.stops}
+          value={penStops}
+          options={PEN_STOP_MODES.map((value) => ({ value, label: words.stopModes[value] })).reverse()}
+          onChange={(value) => change("pen stops", (settings) => ({ ...settings, penStops: value }))}
+        />
+      )}
+      <ShowInPens />
+    </>
+  );
+};
+
+/** Where the layers have colours: the colours as pens. */
+const FromColors = () => {
+  const rows = usePageState((state) => state.planned?.layers);
+  const settings = usePageState((state) => state.settings);
+  const change = useChange();
+  if (!rows) return null;
+  const withPens = pensFromColors(settings, rows, nameOfColor);
+  const isDone = JSON.stringify(withPens.layerPens) === JSON.stringify(settings.layerPens);
+  if (isDone) return null;
+  return (
+    <button
+      type="button"
+      className="button"
+      onClick={() => change("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}
+    >
+      {words.fromColors}
+    </button>
+  );
+};
+
+/** A word for a colour, roughly; its own name where no word fits. */
+const nameOfColor = (hex: string | null): string => {
+  if (hex === null) return words.noColor;
+  const [r = 0, g = 0, b = 0] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
+  const most = Math.max(r, g, b);
+  const least = Math.min(r, g, b);
+  if (most - least < 36)
+    return most < 70 ? words.tones.black : most > 215 ? words.tones.white : words.tones.grey;
+  const sixth =
+    most === r
+      ? (g - b) / (most - least)
+      : most === g
+        ? 2 + (b - r) / (most - least)
+        : 4 + (r - g) / (most - least);
+  const hueDeg = (sixth * 60 + 360) % 360;
+  const tone = words.tones.hues.find(([upToDeg]) => hueDeg < upToDeg)?.[1] ?? hex;
+  return most < 110 ? words.tones.dark(tone) : tone;
+};
+
+const ShowInPens = () => {
+  const hasPens = usePageState(({ settings }) => Object.keys(settings.layerPens).length > 0);
+  const colorBy = usePageState(({ view }) => view.colorBy);
+  const { changeView } = useActions();
+  if (!hasPens || colorBy === "pen") return null;
+  return (
+    <button type="button" className="link" onClick={() => changeView({ colorBy: "pen" })}>
+      {words.showInPens}
+    </button>
+  );
+};
+
+interface PenRowProps {
+  readonly pen: PlotPen;
+  readonly isOpen: boolean;
+  onToggle(): void;
+}
+
+const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
+  const change = useChange();
+  const facts = [
+    `${formatNumber(pen.widthMm)} mm`,
+    ...(pen.offsetXMm !== 0 || pen.offsetYMm !== 0
+      ? [`${formatNumber(pen.offsetXMm)} / ${formatNumber(pen.offsetYMm)} mm`]
+      : []),
+  ];
+  return (
+    <>
+      <div className="layer-head">
+        <ColorField pen={pen} />
+        <input
+          className="text-field pen-name"
+          type="text"
+          maxLength={200}
+          aria-label={words.name}
+          value={pen.name}
+          onChange={(event) => {
+            const name = event.target.value;
+            change(`name of ${pen.id}`, (settings) => changePen(settings, pen.id, { name }));
+          }}
+        />
+        <span className="layer-count">{facts.join(" · ")}</span>
+        <button
+          type="button"
+          className="tool layer-more"
+          aria-label={words.edit(pen.name)}
+          title={words.edit(pen.name)}
+          aria-expanded={isOpen}
+          onClick={onToggle}
+        >
+          <Icon name="chevron" />
+        </button>
+      </div>
+      {isOpen && <PenDetails pen={pen} />}
+    </>
+  );
+};
+
+const ColorField = ({ pen }: { pen: PlotPen }) => {
+  const change = useChange();
+  return (
+    <span className="color-field" data-none={pen.color === null || undefined}>
+      <input
+        type="color"
+        aria-label={`${words.color}: ${pen.name}`}
+        title={words.color}
+        value={pen.color ?? "#808080"}
+        onChange={(event) => {
+          const color = event.target.value.toLowerCase();
+          change(`colour of ${pen.id}`, (settings) => changePen(settings, pen.id, { color }));
+        }}
+      />
+    </span>
+  );
+};
+
+const PenDetails = ({ pen }: { pen: PlotPen }) => {
+  const change = useChange();
+  const set = (part: Partial<PlotPen>): void =>
+    change(`${Object.keys(part).join()} of ${pen.id}`, (settings) => changePen(settings, pen.id, part));
+  return (
+    <div className="layer-details">
+      <SettingField
+        setting={PLOT_PEN_TABLE.widthMm}
+        value={pen.widthMm}
+        onChange={(widthMm) => set({ widthMm })}
+      />
+      <SettingField
+        setting={PLOT_PEN_TABLE.offsetXMm}
+        value={pen.offsetXMm}
+        onChange={(offsetXMm) => set({ offsetXMm })}
+      />
+      <SettingField
+        setting={PLOT_PEN_TABLE.offsetYMm}
+        value={pen.offsetYMm}
+        hint={words.offsetHint}
+        onChange={(offsetYMm) => set({ offsetYMm })}
+      />
+      <Mark pen={pen} />
+      <button
+        type="button"
+        className="button button-small"
+        onClick={() => change(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
+      >
+        <Icon name="close" />
+        {words.remove(pen.name)}
+      </button>
+    </div>
+  );
+};
+
+/** The cross that shows where this pen draws. */
+const Mark = ({ pen }: { pen: PlotPen }) => {
+  const [corner, setCorner] = useState<Corner>("topLeft");
+  const isBusy = usePageState((state) => state.busyAction !== null || state.link !== "connected");
+  const store = usePageStore();
+  const { plotJob } = useActions();
+  return (
+    <>
+      <Select
+        label={words.markCorner}
+        value={corner}
+        options={CORNERS.map((value): ChoiceOption<Corner> => ({ value, label: words.corners[value] }))}
+        onChange={(value) => setCorner(value)}
+      />
+      <button
+        type="button"
+        className="button"
+        disabled={isBusy}
+        onClick={() =>
+          void plotJob(alignmentJob(store.getState().settings, pen, corner, words.markName(pen.name)))
+        }
+      >
+        {words.plotMark}
+      </button>
+    </>
+  );
+};

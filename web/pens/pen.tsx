@@ -1,0 +1,21 @@
+import { usePageState } from "../state/use-store.js";
+import { heightsText } from "./text.js";
+import { formatNumber } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+
+const PenFields = lazyPart(async () => (await import("./pen-fields.js")).PenFields);
+
+export const PenPanel = () => {
+  const { upPct, downPct } = usePageState((state) => state.settings.pen);
+  const isOpen = usePageState((state) => state.view.openGroups.includes("pen"));
+  return (
+    <SettingsGroup
+      id="pen"
+      title={heightsText.title}
+      summary={`${formatNumber(upPct)} / ${formatNumber(downPct)} %`}
+    >
+      {isOpen && <PenFields />}
+    </SettingsGroup>
+  );
+};

@@ -1,0 +1,17 @@
+import { usePageState } from "../state/use-store.js";
+import { pensText } from "./text.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+
+const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
+
+/** The pens that layers are drawn with. */
+export const PensPanel = () => {
+  const pens = usePageState(({ settings }) => settings.pens);
+  const isOpen = usePageState(({ view }) => view.openGroups.includes("pens"));
+  return (
+    <SettingsGroup id="pens" title={pensText.title} summary={pens.map(({ name }) => name).join(", ")}>
+      {isOpen && <PenList />}
+    </SettingsGroup>
+  );
+};

@@ -1,0 +1,57 @@
+/** Words of the pens and their heights. */
+export const pensText = {
+  title: "Pens",
+  hint: "Name your pens and give them to layers: the plot stops where another one is needed.",
+  fromColors: "A pen for each colour",
+  add: "Add a pen",
+  newName: (number: number) => `Pen ${number}`,
+  noColor: "Pen without a colour",
+  name: "Name",
+  color: "Colour",
+  offsetHint: "Plot the mark with the first pen, then with this one. Type how far its mark lies off.",
+  markCorner: "Corner of the mark",
+  corners: {
+    topLeft: "Top left",
+    topRight: "Top right",
+    bottomLeft: "Bottom left",
+    bottomRight: "Bottom right",
+  },
+  plotMark: "Plot alignment mark with this pen",
+  markName: (pen: string) => `Alignment mark, ${pen}`,
+  edit: (name: string) => `Settings of the pen ${name}`,
+  remove: (name: string) => `Remove the pen ${name}`,
+  stops: "Stop for pens",
+  stopModes: { pens: "Other pen", layers: "Each layer", never: "Never" },
+  tones: {
+    black: "Black",
+    grey: "Grey",
+    white: "White",
+    dark: (tone: string) => `Dark ${tone.toLowerCase()}`,
+    /** Hues, each up to an angle. */
+    hues: [
+      [16, "Red"],
+      [45, "Orange"],
+      [70, "Yellow"],
+      [165, "Green"],
+      [200, "Turquoise"],
+      [255, "Blue"],
+      [290, "Violet"],
+      [345, "Pink"],
+      [361, "Red"],
+    ] as readonly (readonly [upToDeg: number, tone: string])[],
+  },
+  showInPens: "Show the drawing in its pens",
+};
+
+export const heightsText = {
+  title: "Pen",
+  heightHint: "Percent of the servo’s way: 100 % is as high as it goes.",
+  try: "Try",
+  tryUp: "Try the height up",
+  tryDown: "Try the height down",
+  gentle: "Lower the pen gently",
+  overlaps: { off: "Off", safe: "Safe", fast: "Fast" },
+  tryContact: "Try the height at which the tip leaves the paper",
+  contactHint:
+    "Put paper under the pen, press Try, and lower the number until the tip just marks. 0 % is the height down, 100 % the height up.",
+};

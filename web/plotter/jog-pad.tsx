@@ -1,0 +1,95 @@
+import { useRef, useState, type KeyboardEvent } from "react";
+import { jogText } from "./hand-text.js";
+import { Segments } from "../ui/choice.js";
+import { formatNumber } from "../ui/format.js";
+import { Icon } from "../ui/icon.js";
+
+const words = jogText;
+const STEPS_MM = ["0.1", "1", "10", "50"] as const;
+type StepMm = (typeof STEPS_MM)[number];
+
+/** x to the right, y down the page, towards whoever stands before the plotter. */
+const WAYS = [
+  ["upLeft", -1, -1],
+  ["up", 0, -1],
+  ["upRight", 1, -1],
+  ["left", -1, 0],
+  ["home", 0, 0],
+  ["right", 1, 0],
+  ["downLeft", -1, 1],
+  ["down", 0, 1],
+  ["downRight", 1, 1],
+] as const;
+
+const KEY_WAYS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+/** Moves asked for while one is on its way; more of them would run on after the finger is off the key. */
+const MAX_WAITING = 2;
+
+interface JogPadProps {
+  readonly isOff: boolean;
+  jog(dxMm: number, dyMm: number): Promise<unknown>;
+  home(): Promise<unknown>;
+}
+
+/** Eight directions and a step, by finger, mouse or the arrow keys. */
+export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
+  const [step, setStep] = useState<StepMm>("10");
+  const move = useOneAfterTheOther();
+  const go = (x: number, y: number): void => {
+    const stepMm = Number(step);
+    if (!isOff) move(() => (x === 0 && y === 0 ? home() : jog(x * stepMm, y * stepMm)));
+  };
+  const onKeyDown = (event: KeyboardEvent): void => {
+    const way = KEY_WAYS[event.key];
+    if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    go(...way);
+  };
+  return (
+    <div className="jog">
+      <div className="jog-pad" role="group" aria-label={words.title} onKeyDown={onKeyDown}>
+        {WAYS.map(([name, x, y]) => (
+          <button
+            key={name}
+            type="button"
+            className="button jog-button"
+            aria-label={name === "home" ? words.home : words.way(words.ways[name], step)}
+            disabled={isOff}
+            onClick={() => go(x, y)}
+          >
+            {name === "home" ? <Icon name="home" /> : <Arrow x={x} y={y} />}
+          </button>
+        ))}
+      </div>
+      <Segments<StepMm>
+        label={words.step}
+        value={step}
+        options={STEPS_MM.map((mm) => ({ value: mm, label: `${formatNumber(Number(mm))} mm` }))}
+        onChange={setStep}
+      />
+      <p className="note">{words.hint}</p>
+    </div>
+  );
+};
+
+/** Runs what it is given in turn, and drops what comes while enough is waiting. */
+const useOneAfterTheOther = () => {
+  const state = useRef<{ count: number; last: Promise<unknown> }>({ count: 0, last: Promise.resolve() });
+  return (task: () => Promise<unknown>): void => {
+    const now = state.current;
+    if (now.count > MAX_WAITING) return;
+    now.count++;
+    now.last = now.last.then(task).finally(() => now.count--);
+  };
+};
+
+const Arrow = ({ x, y }: { x: number; y: number }) => (
+  <svg className="icon" viewBox="0 0 20 20" aria-hidden="true">
+    <path d="M4 10h12M11 5l5 5-5 5" transform={`rotate(${(Math.atan2(y, x) * 180) / Math.PI} 10 10)`} />
+  </svg>
+);

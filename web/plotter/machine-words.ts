@@ -1,0 +1,28 @@
+/** What a plotter is doing, in words: of its connection, and of the job that has it. */
+import type { Job, Plotter } from "../../src/schema/index.js";
+import { plotterText } from "./text.js";
+
+const words = plotterText;
+
+/** What the lamp beside the words shows; the style sheet has its colours. */
+type Lamp = Plotter["connection"] | "held" | "waiting";
+
+/** "Waits for the pen …", "Held", "Plotting", or how it is connected. */
+export const plotterWords = ({ connection }: Plotter, job: Job | null): string => {
+  if (connection === "fault" || connection === "absent") return words.connection[connection];
+  if (job?.state === "paused" && job.wait) return waitWords(job.wait);
+  if (job?.state === "paused") return words.held;
+  if (job?.state === "interrupted") return words.interrupted;
+  if (job?.state === "plotting") return words.connection.busy;
+  return connection === "busy" ? words.moving : words.connection[connection];
+};
+
+export const waitWords = ({ penName, layerName }: NonNullable<Job["wait"]>): string =>
+  penName === null ? words.waitsForLayer(layerName) : words.waitsForPen(penName);
+
+export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
+  if (connection === "fault" || connection === "absent") return connection;
+  if (job?.state === "interrupted") return "held";
+  if (job?.state !== "paused") return job?.state === "plotting" ? "busy" : connection;
+  return job.wait === null ? "held" : "waiting";
+};

@@ -1,0 +1,150 @@
+import { MACHINES } from "../../src/index.js";
+import type { Plotter } from "../../src/schema/index.js";
+import { activeJob, currentPlotter, isReady, mayOperate, type DialogName } from "../state/store.js";
+import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { plotterText } from "./text.js";
+import { Select } from "../ui/choice.js";
+import { formatFixed } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { lampOf, plotterWords } from "./machine-words.js";
+import { SettingsGroup } from "../ui/settings-group.js";
+
+const words = plotterText;
+const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
+
+export const MachinePanel = () => {
+  const backend = useBackend();
+  const plotter = usePageState(currentPlotter);
+  const isMine = usePageState(mayOperate);
+  return (
+    <section className="card" aria-label={words.title}>
+      <h2 className="card-title">{words.title}</h2>
+      {plotter && <PlotterFacts plotter={plotter} />}
+      {isMine && <ModelSelect />}
+      {isMine && <HandControls />}
+      {isMine && <MoreMoves />}
+      <p className="link-row">
+        {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
+        {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
+        {isMine && <DialogLink name="console">{words.console}</DialogLink>}
+        {plotter && (
+          <a className="link" href={backend.logHref(plotter.id)} download>
+            {words.log}
+          </a>
+        )}
+      </p>
+      <p className="note">{words.homeHint}</p>
+    </section>
+  );
+};
+
+const DialogLink = ({ name, children }: { name: DialogName; children: string }) => {
+  const store = usePageStore();
+  return (
+    <button type="button" className="link" onClick={() => store.setState({ openDialog: name })}>
+      {children}
+    </button>
+  );
+};
+
+const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
+  const job = usePageState(activeJob);
+  const isHeard = usePageState((state) => state.link === "connected");
+  const { xMm, yMm, boardName } = plotter;
+  const place =
+    xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
+  const facts = [
+    [words.position, place],
+    [words.pen, plotter.penUp === null ? words.unknown : plotter.penUp ? words.up : words.down],
+    [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
+    [words.firmware, plotter.firmware ?? words.unknown],
+  ] as const;
+  return (
+    <>
+      <p className="plotter-name" data-lamp={isHeard ? lampOf(plotter, job) : "fault"}>
+        <span className="lamp" aria-hidden="true" />
+        <strong>{plotter.name}</strong>
+        {boardName !== null && boardName !== plotter.name && <span className="note">({boardName})</span>}
+        <span className="plotter-doing">{isHeard ? plotterWords(plotter, job) : words.notHeard}</span>
+      </p>
+      <PlotterMessage plotter={plotter} />
+      <dl className="facts">
+        {facts.map(([label, value]) => (
+          <div key={label}>
+            <dt>{label}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+    </>
+  );
+};
+
+const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: Plotter }) => {
+  if (message && (connection === "fault" || connection === "absent")) {
+    return (
+      <p className="note health" role="alert">
+        {message}
+      </p>
+    );
+  }
+  if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
+  return message ? <p className="note">{message}</p> : null;
+};
+
+/** The machines that plotwright knows, and those that were made here. */
+const ModelSelect = () => {
+  const settings = usePageState((state) => state.settings);
+  const made = usePageState((state) => state.machines);
+  const { chooseMachine } = useActions();
+  const { machine, customMachine } = settings;
+  const known = [...MACHINES, ...made.filter(({ builtIn }) => !builtIn)];
+  const all = known.some(({ id }) => id === machine) || !customMachine ? known : [...known, customMachine];
+  return (
+    <Select
+      label={words.model}
+      value={machine}
+      options={all.map(({ id, name }) => ({ value: id, label: name }))}
+      onChange={(id) => void chooseMachine(all.find((one) => one.id === id) ?? null)}
+    />
+  );
+};
+
+const HandControls = () => {
+  const pen = usePageState((state) => state.settings.pen);
+  const { movePen, motorsOff, home } = useActions();
+  const isOff = usePageState((state) => !isReady(state));
+  return (
+    <div className="button-grid">
+      <button type="button" className="button" disabled={isOff} onClick={() => void movePen(true, pen.upPct)}>
+        {words.penUp}
+      </button>
+      <button
+        type="button"
+        className="button"
+        disabled={isOff}
+        onClick={() => void movePen(false, pen.downPct)}
+      >
+        {words.penDown}
+      </button>
+      <button type="button" className="button" disabled={isOff} onClick={() => void motorsOff()}>
+        {words.motorsOff}
+      </button>
+      <button type="button" className="button" disabled={isOff} onClick={() => void home()}>
+        {words.home}
+      </button>
+    </div>
+  );
+};
+
+/** Everything else that is done by hand; folded, so that the queue stays in sight. */
+const MoreMoves = () => {
+  const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
+  return (
+    <div className="group-in-card">
+      <SettingsGroup id="moves" title={words.moves}>
+        {isOpen && <HandMoves />}
+      </SettingsGroup>
+    </div>
+  );
+};

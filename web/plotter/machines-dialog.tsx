@@ -1,0 +1,163 @@
+import { useState } from "react";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { Sheet } from "../ui/sheet.js";
+import { machinesText } from "./machines-text.js";
+import { saveFile } from "../ui/save-file.js";
+import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";
+import { ProfileForm } from "./profile-form.js";
+import { useHand } from "./use-hand.js";
+import "./machines.css";
+
+const words = machinesText;
+
+/** Machines that plotwright knows, and one's own: made from a copy, edited, saved as files and read from them. */
+export const MachinesDialog = () => {
+  const [edited, setEdited] = useState<MachineProfile | null>(null);
+  return (
+    <Sheet title={words.title}>
+      {edited ? (
+        <Editor key={edited.id} first={edited} onDone={() => setEdited(null)} />
+      ) : (
+        <MachineList onEdit={setEdited} />
+      )}
+    </Sheet>
+  );
+};
+
+const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
+  const chosen = usePageState((state) => state.settings.machine);
+  const made = usePageState((state) => state.machines).filter(({ builtIn }) => !builtIn);
+  const { chooseMachine } = useActions();
+  const hand = useHand();
+  const taken = [...MACHINES, ...made].map(({ id }) => id);
+  return (
+    <>
+      <ul className="machine-list">
+        {[...MACHINES, ...made].map((machine) => (
+          <li key={machine.id} data-chosen={machine.id === chosen || undefined}>
+            <button
+              type="button"
+              className="machine-name"
+              aria-pressed={machine.id === chosen}
+              onClick={() => void chooseMachine(machine)}
+            >
+              <strong>{machine.name}</strong>
+              <span className="note">{words.size(machine.widthMm, machine.heightMm)}</span>
+            </button>
+            <RowButtons
+              machine={machine}
+              isOwn={made.some(({ id }) => id === machine.id)}
+              onEdit={() => onEdit(machine)}
+              onCopy={() => onEdit(copyOf(machine, words.copyName(machine.name), taken))}
+              onRemove={() => void hand.removeMachine(machine)}
+            />
+          </li>
+        ))}
+      </ul>
+      <ImportButton onRead={(profile) => onEdit({ ...profile, id: idOf(profile, taken) })} />
+    </>
+  );
+};
+
+/** A file's own id where it is free, or is that of a machine of one's own, which it is to replace. */
+const idOf = ({ id, name }: MachineProfile, taken: readonly string[]): string =>
+  MACHINES.some((machine) => machine.id === id) ? freeId(name, taken) : id;
+
+interface RowButtonsProps {
+  readonly machine: MachineProfile;
+  readonly isOwn: boolean;
+  onEdit(): void;
+  onCopy(): void;
+  onRemove(): void;
+}
+
+const RowButtons = ({ machine, isOwn, onEdit, onCopy, onRemove }: RowButtonsProps) => (
+  <span className="row-links">
+    {isOwn && (
+      <button type="button" className="link" aria-label={words.editNamed(machine.name)} onClick={onEdit}>
+        {words.edit}
+      </button>
+    )}
+    <button type="button" className="link" aria-label={words.copyNamed(machine.name)} onClick={onCopy}>
+      {words.copy}
+    </button>
+    <button
+      type="button"
+      className="link"
+      aria-label={words.saveNamed(machine.name)}
+      onClick={() => saveFile(`${machine.id}.json`, fileOf(machine), "application/json")}
+    >
+      {words.save}
+    </button>
+    {isOwn && (
+      <button type="button" className="link" aria-label={words.removeNamed(machine.name)} onClick={onRemove}>
+        {words.remove}
+      </button>
+    )}
+  </span>
+);
+
+const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => {
+  const { notify } = useActions();
+  const read = async (file: File | undefined): Promise<void> => {
+    if (!file) return;
+    try {
+      onRead(parseMachineFile(await file.text()));
+    } catch (error) {
+      notify("error", words.badFile(file.name, error instanceof Error ? error.message : String(error)));
+    }
+  };
+  return (
+    <label className="choose">
+      <input
+        className="visually-hidden"
+        type="file"
+        accept=".json,application/json"
+        aria-label={words.import}
+        onChange={(event) => void read(event.target.files?.[0])}
+      />
+      <span className="button" aria-hidden="true">
+        {words.import}
+      </span>
+    </label>
+  );
+};
+
+const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) => {
+  const [profile, setProfile] = useState(first);
+  const { chooseMachine } = useActions();
+  const hand = useHand();
+  const problems = problemsOf(profile);
+  const save = async (): Promise<void> => {
+    const saved = await hand.saveMachine(profile);
+    if (!saved) return;
+    await chooseMachine(saved);
+    onDone();
+  };
+  return (
+    <>
+      <ProfileForm profile={profile} onChange={setProfile} />
+      {problems.length > 0 && (
+        <ul className="note note-error" role="alert">
+          {problems.map((problem) => (
+            <li key={problem}>{problem}</li>
+          ))}
+        </ul>
+      )}
+      <div className="button-row">
+        <button
+          type="button"
+          className="button button-primary"
+          disabled={problems.length > 0}
+          onClick={() => void save()}
+        >
+          {words.saveMachine}
+        </button>
+        <button type="button" className="button" onClick={onDone}>
+          {words.back}
+        </button>
+      </div>
+    </>
+  );
+};

@@ -1,0 +1,57 @@
+import { useState } from "react";
+import { useActions, usePageState } from "../state/use-store.js";
+import { presetsText } from "./text.js";
+import { Icon } from "../ui/icon.js";
+import { TextField } from "../ui/text-field.js";
+
+const words = presetsText;
+
+/** Named pens: speeds and heights that belong together. */
+export const PresetList = () => {
+  const presets = usePageState((state) => state.presets);
+  const { takePreset, removePreset } = useActions();
+  return (
+    <>
+      <p className="note">{words.hint}</p>
+      <ul className="preset-list">
+        {presets.map((preset) => (
+          <li key={preset.name}>
+            <button type="button" className="button" onClick={() => takePreset(preset)}>
+              {preset.name}
+            </button>
+            <button
+              type="button"
+              className="button button-icon"
+              aria-label={words.remove(preset.name)}
+              title={words.remove(preset.name)}
+              onClick={() => removePreset(preset.name)}
+            >
+              <Icon name="close" />
+            </button>
+          </li>
+        ))}
+      </ul>
+      <SavePreset />
+    </>
+  );
+};
+
+const SavePreset = () => {
+  const { savePreset } = useActions();
+  const [name, setName] = useState("");
+  return (
+    <form
+      className="field-with-button"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() !== "") savePreset(name);
+        setName("");
+      }}
+    >
+      <TextField label={words.name} isLabelInside maxLength={60} value={name} onChange={setName} />
+      <button type="submit" className="button" disabled={name.trim() === ""}>
+        {words.save}
+      </button>
+    </form>
+  );
+};

@@ -1,0 +1,221 @@
+import type { MachineProfile } from "../../src/index.js";
+import type { EbbController } from "../../src/internal.js";
+import { profileText } from "./machines-text.js";
+import { Segments, Select, Switch } from "../ui/choice.js";
+import { NumberField } from "../ui/number-field.js";
+import { TextField } from "../ui/text-field.js";
+import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
+
+const words = profileText;
+
+interface ProfileFormProps {
+  readonly profile: MachineProfile;
+  onChange(profile: MachineProfile): void;
+}
+
+interface EbbFieldsProps {
+  readonly profile: EbbMachine;
+  onChange(profile: EbbMachine): void;
+}
+
+/** Every field of a machine's profile, within the limits of its schema. */
+export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
+  const change = (part: Partial<MachineProfile>): void => onChange({ ...profile, ...part });
+  return (
+    <div className="profile-form">
+      <TextField label={words.name} value={profile.name} onChange={(name) => change({ name })} />
+      <ReachFields profile={profile} onChange={onChange} />
+      <MotorFields profile={profile} onChange={onChange} />
+      {isEbbMachine(profile) && (
+        <>
+          <ServoFields profile={profile} onChange={onChange} />
+          <HomingFields profile={profile} onChange={onChange} />
+        </>
+      )}
+    </div>
+  );
+};
+
+/** How far the carriage can go from home. */
+export const ReachFields = ({ profile, onChange }: ProfileFormProps) => (
+  <fieldset className="subgroup">
+    <legend>{words.reach}</legend>
+    <div className="field-pair">
+      <NumberField
+        label={words.width}
+        value={profile.widthMm}
+        unit="mm"
+        min={1}
+        max={5_000}
+        step={1}
+        onChange={(widthMm) => onChange({ ...profile, widthMm })}
+      />
+      <NumberField
+        label={words.height}
+        value={profile.heightMm}
+        unit="mm"
+        min={1}
+        max={5_000}
+        step={1}
+        onChange={(heightMm) => onChange({ ...profile, heightMm })}
+      />
+    </div>
+  </fieldset>
+);
+
+const MICROSTEP_MODES = [1, 2, 3, 4, 5] as const;
+
+const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
+  const change = (part: Partial<MachineProfile>): void => onChange({ ...profile, ...part });
+  return (
+    <fieldset className="subgroup">
+      <legend>{words.motors}</legend>
+      <Segments
+        label={words.wiring}
+        value={profile.motors}
+        options={[
+          { value: "mixed", label: words.mixed },
+          { value: "direct", label: words.direct },
+        ]}
+        onChange={(motors) => change({ motors })}
+      />
+      <NumberField
+        label={words.stepsPerMm}
+        value={profile.stepsPerMm}
+        unit="1/mm"
+        min={0.1}
+        max={10_000}
+        step={0.1}
+        digits={4}
+        onChange={(stepsPerMm) => change({ stepsPerMm })}
+      />
+      {isEbbMachine(profile) && <MicrostepField profile={profile} onChange={onChange} />}
+      <Switch label={words.flipX} isOn={profile.flipX ?? false} onChange={(flipX) => change({ flipX })} />
+      <Switch label={words.flipY} isOn={profile.flipY ?? false} onChange={(flipY) => change({ flipY })} />
+      <Switch
+        label={words.swapAxes}
+        isOn={profile.swapAxes ?? false}
+        onChange={(swapAxes) => change({ swapAxes })}
+      />
+    </fieldset>
+  );
+};
+
+const MicrostepField = ({ profile, onChange }: EbbFieldsProps) => (
+  <Select
+    label={words.microsteps}
+    value={String(profile.controller.microstepMode)}
+    options={MICROSTEP_MODES.map((mode) => ({ value: String(mode), label: `1/${2 ** (5 - mode)}` }))}
+    onChange={(mode) =>
+      onChange(
+        withController(profile, { microstepMode: MICROSTEP_MODES.find((one) => String(one) === mode) ?? 1 }),
+      )
+    }
+  />
+);
+
+const ServoFields = ({ profile, onChange }: EbbFieldsProps) => {
+  const change = (part: Partial<EbbController>): void => onChange(withController(profile, part));
+  return (
+    <fieldset className="subgroup">
+      <legend>{words.servo}</legend>
+      <ServoPin profile={profile} onChange={onChange} />
+      <div className="field-pair">
+        <NumberField
+          label={words.lowest}
+          value={profile.controller.servoPosAt0Pct}
+          unit=""
+          min={1}
+          max={65_535}
+          step={100}
+          onChange={(pos) => change({ servoPosAt0Pct: Math.round(pos) })}
+        />
+        <NumberField
+          label={words.highest}
+          value={profile.controller.servoPosAt100Pct}
+          unit=""
+          min={1}
+          max={65_535}
+          step={100}
+          onChange={(pos) => change({ servoPosAt100Pct: Math.round(pos) })}
+        />
+      </div>
+      <p className="note">{words.servoHint}</p>
+    </fieldset>
+  );
+};
+
+export const ServoPin = ({ profile, onChange }: EbbFieldsProps) => (
+  <Segments
+    label={words.servoPin}
+    value={String(profile.controller.servoPin) as "4" | "5"}
+    options={[
+      { value: "4", label: words.standardServo },
+      { value: "5", label: words.brushlessServo },
+    ]}
+    onChange={(pin) => onChange(withController(profile, { servoPin: pin === "4" ? 4 : 5 }))}
+  />
+);
+
+type SwitchInput = NonNullable<EbbController["homing"]>["x"];
+const PORTS: readonly SwitchInput["port"][] = ["A", "B", "C", "D", "E"];
+const FIRST_SWITCHES: NonNullable<EbbController["homing"]> = {
+  x: { port: "B", pin: 0, pressed: 0 },
+  y: { port: "B", pin: 2, pressed: 0 },
+};
+
+const HomingFields = ({ profile, onChange }: EbbFieldsProps) => {
+  const { homing } = profile.controller;
+  return (
+    <fieldset className="subgroup">
+      <legend>{words.homing}</legend>
+      <Switch
+        label={words.hasSwitches}
+        isOn={Boolean(homing)}
+        onChange={(isOn) => onChange(withController(profile, { homing: isOn ? FIRST_SWITCHES : null }))}
+      />
+      {homing &&
+        (["x", "y"] as const).map((axis) => (
+          <SwitchFields
+            key={axis}
+            label={words.switchAt(axis)}
+            input={homing[axis]}
+            onChange={(input) => onChange(withController(profile, { homing: { ...homing, [axis]: input } }))}
+          />
+        ))}
+    </fieldset>
+  );
+};
+
+interface SwitchFieldsProps {
+  readonly label: string;
+  readonly input: SwitchInput;
+  onChange(input: SwitchInput): void;
+}
+
+const SwitchFields = ({ label, input, onChange }: SwitchFieldsProps) => (
+  <div className="switch-fields" role="group" aria-label={label}>
+    <span>{label}</span>
+    <Select
+      label={words.port}
+      value={input.port}
+      options={PORTS.map((port) => ({ value: port, label: port }))}
+      onChange={(port) => onChange({ ...input, port })}
+    />
+    <Select
+      label={words.pin}
+      value={String(input.pin)}
+      options={Array.from({ length: 8 }, (_, pin) => ({ value: String(pin), label: String(pin) }))}
+      onChange={(pin) => onChange({ ...input, pin: Number(pin) })}
+    />
+    <Select
+      label={words.pressed}
+      value={String(input.pressed) as "0" | "1"}
+      options={[
+        { value: "0", label: "0" },
+        { value: "1", label: "1" },
+      ]}
+      onChange={(pressed) => onChange({ ...input, pressed: pressed === "1" ? 1 : 0 })}
+    />
+  </div>
+);

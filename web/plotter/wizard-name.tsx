@@ -1,0 +1,65 @@
+import { useState } from "react";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { wizardText } from "./wizard-text.js";
+import { saveFile } from "../ui/save-file.js";
+import { TextField } from "../ui/text-field.js";
+import { fileOf, freeId, problemsOf } from "./profile.js";
+import { ReachFields } from "./profile-form.js";
+import { useHand } from "./use-hand.js";
+import type { StepProps } from "./wizard-step.js";
+
+const words = wizardText;
+
+/** How far it reaches and what it is called; then it is kept, and chosen. */
+export const NameStep = ({ profile, onNext }: StepProps) => {
+  const made = usePageState((state) => state.machines);
+  const { chooseMachine } = useActions();
+  const hand = useHand();
+  const [draft, setDraft] = useState(profile);
+  const named: MachineProfile = {
+    ...draft,
+    id: freeId(
+      draft.name,
+      [...MACHINES, ...made].map(({ id }) => id),
+    ),
+  };
+  const problems = problemsOf(named);
+  const save = async (): Promise<void> => {
+    const saved = await hand.saveMachine(named);
+    if (!saved) return;
+    await chooseMachine(saved);
+    onNext(saved);
+  };
+  return (
+    <form
+      className="wizard-step"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void save();
+      }}
+    >
+      <TextField label={words.name} value={draft.name} onChange={(name) => setDraft({ ...draft, name })} />
+      <ReachFields profile={draft} onChange={setDraft} />
+      <p className="note">{words.reachHint}</p>
+      {problems.length > 0 && (
+        <p className="note note-error" role="alert">
+          {problems.join("; ")}
+        </p>
+      )}
+      <div className="button-row">
+        <button type="submit" className="button button-primary" disabled={problems.length > 0}>
+          {words.save}
+        </button>
+        <button
+          type="button"
+          className="button"
+          disabled={problems.length > 0}
+          onClick={() => saveFile(`${named.id}.json`, fileOf(named), "application/json")}
+        >
+          {words.saveFile}
+        </button>
+      </div>
+    </form>
+  );
+};

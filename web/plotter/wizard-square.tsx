@@ -1,0 +1,77 @@
+import { useState } from "react";
+import type { MachineProfile } from "../../src/index.js";
+import { stepsPerMmMeasured } from "../../src/internal.js";
+import { wizardText } from "./wizard-text.js";
+import { formatNumber } from "../ui/format.js";
+import { NumberField } from "../ui/number-field.js";
+import { TakeOrSkip } from "./take-or-skip.js";
+import { useHand } from "./use-hand.js";
+import type { StepProps } from "./wizard-step.js";
+
+const words = wizardText;
+const SQUARE_MM = 100;
+
+/** A square is drawn and measured with a ruler: what it lacks says how many steps one millimetre has. */
+export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
+  const hand = useHand();
+  const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
+  const [xMm, setX] = useState(sizeMm);
+  const [yMm, setY] = useState(sizeMm);
+  const measured = measuredOr(profile, sizeMm, xMm, yMm);
+  return (
+    <>
+      <p>{words.squareHint(sizeMm)}</p>
+      <button
+        type="button"
+        className="button button-primary"
+        onClick={() => void hand.square(sizeMm, settingsWith(profile))}
+      >
+        {words.drawSquare}
+      </button>
+      <div className="field-pair">
+        <NumberField
+          label={words.measuredX}
+          value={xMm}
+          unit="mm"
+          min={1}
+          max={5_000}
+          step={0.5}
+          onChange={setX}
+        />
+        <NumberField
+          label={words.measuredY}
+          value={yMm}
+          unit="mm"
+          min={1}
+          max={5_000}
+          step={0.5}
+          onChange={setY}
+        />
+      </div>
+      {typeof measured === "string" ? (
+        <p className="note note-error" role="alert">
+          {measured}
+        </p>
+      ) : (
+        <p className="note">{words.stepsPerMm(formatNumber(measured, 3))}</p>
+      )}
+      <TakeOrSkip
+        label={words.take}
+        isOff={typeof measured === "string"}
+        onTake={() => {
+          if (typeof measured === "number") onNext({ ...profile, stepsPerMm: Number(measured.toFixed(4)) });
+        }}
+        onSkip={() => onNext(profile)}
+      />
+    </>
+  );
+};
+
+/** Steps for one mm, or what is wrong with the measurement. */
+const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: number): number | string => {
+  try {
+    return stepsPerMmMeasured(profile, sizeMm, xMm, yMm);
+  } catch (error) {
+    return error instanceof Error ? error.message : String(error);
+  }
+};

@@ -1,0 +1,61 @@
+import { useState } from "react";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { Sheet } from "../ui/sheet.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { wizardText } from "./wizard-text.js";
+import { copyOf } from "./profile.js";
+import { DirectionStep } from "./wizard-direction.js";
+import { NameStep } from "./wizard-name.js";
+import { PlotterStep } from "./wizard-plotter.js";
+import { ServoStep } from "./wizard-servo.js";
+import { SquareStep } from "./wizard-square.js";
+import "./machines.css";
+
+const words = wizardText;
+
+const STEPS = [PlotterStep, DirectionStep, SquareStep, ServoStep, NameStep] as const;
+
+/** From an unknown plotter to a profile of its own, by looking at what it does. */
+export const Wizard = () => {
+  const store = usePageStore();
+  const made = usePageState((state) => state.machines);
+  const taken = [...MACHINES, ...made].map(({ id }) => id);
+  const [index, setIndex] = useState(0);
+  const [profile, setProfile] = useState<MachineProfile>(() =>
+    copyOf(startOf(store.getState().settings), words.firstName, taken),
+  );
+  const Step = STEPS[index] ?? PlotterStep;
+  const settingsWith = (machine: MachineProfile): PlotSettings => ({
+    ...store.getState().settings,
+    machine: machine.id,
+    customMachine: { ...copyOf(machine, machine.name, []), id: machine.id },
+  });
+  const onNext = (next: MachineProfile): void => {
+    setProfile(next);
+    if (index === STEPS.length - 1) store.setState({ openDialog: null });
+    else setIndex(index + 1);
+  };
+  return (
+    <Sheet title={words.title}>
+      <ol className="wizard-steps" aria-label={words.steps}>
+        {words.stepNames.map((name, at) => (
+          <li key={name} aria-current={at === index ? "step" : undefined} data-done={at < index || undefined}>
+            {name}
+          </li>
+        ))}
+      </ol>
+      <div className="wizard-step">
+        <Step key={index} profile={profile} settingsWith={settingsWith} onNext={onNext} />
+      </div>
+      {index > 0 && (
+        <button type="button" className="link" onClick={() => setIndex(index - 1)}>
+          {words.back}
+        </button>
+      )}
+    </Sheet>
+  );
+};
+
+const startOf = ({ machine, customMachine }: PlotSettings): MachineProfile =>
+  (customMachine?.id === machine ? customMachine : MACHINES.find(({ id }) => id === machine)) ?? MACHINES[0];

@@ -1,0 +1,48 @@
+/** Words of the preview and the time line. */
+export const previewText = {
+  reading: (name: string) => `Reading ${name}…`,
+  nothingToDraw: "Nothing to draw",
+  nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",
+  cannotRead: (name: string) => `${name} can’t be drawn`,
+  title: "Preview",
+  canvas: "Preview",
+  zoomIn: "Zoom in",
+  zoomOut: "Zoom out",
+  fitPaper: "Whole paper",
+  travel: "Pen-up moves",
+  place: "Place the drawing by hand",
+  colorBy: "Colour by",
+  colorBySpeed: "Speed",
+  colorByOrder: "Order",
+  colorByLayer: "Layer",
+  colorByPen: "Pens",
+  colorByInk: "Ink",
+  legend: "Speed legend",
+  legendTitle: "Speed with the pen down",
+  legendUnit: "mm/s",
+  orderTitle: (total: string) => `Order, first to last over ${total}`,
+  slow: "slow",
+  fast: "fast",
+  first: "first",
+  last: "last",
+  hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",
+};
+
+export const hoverText = {
+  speed: "Speed",
+  accel: "Acceleration",
+  time: "At",
+  stroke: "Stroke",
+  strokeOf: (number: string, count: string) => `${number} of ${count}`,
+};
+
+export const timeLineText = {
+  title: "Time line",
+  play: "Play the plot",
+  pause: "Stop playing",
+  scrub: "Moment of the plot",
+  rate: "Playing speed",
+  graph: "Speed and acceleration over time",
+  speed: "Speed, mm/s",
+  accel: "Acceleration, mm/s²",
+};

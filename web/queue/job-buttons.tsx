@@ -1,0 +1,95 @@
+import { useState } from "react";
+import type { Job } from "../../src/schema/index.js";
+import { mayOperate } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { jobText, queueText } from "./text.js";
+import { Icon } from "../ui/icon.js";
+import "./jobs.css";
+
+const words = jobText;
+
+/**
+ * Pause, resume, cancel, stop: what can be done with a running job in its state. Cancel asks once more, since hours
+ * of ink may be on the paper. Watchers may stop a plot, and nothing else.
+ */
+export const JobButtons = ({ job }: { job: Job }) => {
+  const [isAsking, setAsking] = useState(false);
+  const isMine = usePageState(mayOperate);
+  if (isAsking) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
+  return (
+    <div className="button-row job-buttons">
+      {(isMine || job.state === "plotting") && <MainButton job={job} />}
+      <button type="button" className="button" onClick={() => setAsking(true)}>
+        {job.wait === null ? queueText.cancel : words.stop}
+      </button>
+      {job.state === "plotting" && <StopButton job={job} />}
+    </div>
+  );
+};
+
+const MAIN_ACTION = {
+  plotting: ["pause", words.pause],
+  paused: ["resume", words.resume],
+  interrupted: ["recover", words.recover],
+  queued: null,
+  done: null,
+  failed: null,
+  cancelled: null,
+} as const;
+
+const MainButton = ({ job }: { job: Job }) => {
+  const { actOnJob } = useActions();
+  const busy = usePageState((state) => state.busyAction);
+  const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
+  const isAnswer = job.wait !== null && job.state === "paused";
+  return (
+    <button
+      type="button"
+      className={job.state === "plotting" ? "button" : "button button-primary"}
+      disabled={busy === `${action} ${job.id}`}
+      onClick={() => void actOnJob(job.id, action)}
+    >
+      <Icon name={action === "pause" ? "pause" : "play"} />
+      {isAnswer ? words.continue : label}
+    </button>
+  );
+};
+
+const StopButton = ({ job }: { job: Job }) => {
+  const { actOnJob } = useActions();
+  const takesMs = usePageState(
+    ({ plotters }) => plotters.find(({ id }) => id === job.plotterId)?.emergencyStopMs ?? null,
+  );
+  return (
+    <button
+      type="button"
+      className="button button-danger"
+      title={words.stopNowHint(takesMs)}
+      onClick={() => void actOnJob(job.id, "emergency-stop")}
+    >
+      {words.stopNow}
+    </button>
+  );
+};
+
+const AskToCancel = ({ job, onKeep }: { job: Job; onKeep(): void }) => {
+  const { actOnJob } = useActions();
+  return (
+    <div className="ask" role="alertdialog" aria-label={queueText.cancel}>
+      <p>{words.confirmCancel(job.name)}</p>
+      <div className="button-row">
+        <button
+          type="button"
+          className="button button-danger"
+          onClick={() => void actOnJob(job.id, "cancel")}
+        >
+          {words.cancelPlot}
+        </button>
+        {/* In focus, so that a key pressed twice costs no plot. */}
+        <button type="button" className="button" autoFocus onClick={onKeep}>
+          {words.keepPlotting}
+        </button>
+      </div>
+    </div>
+  );
+};

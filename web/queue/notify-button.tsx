@@ -1,0 +1,23 @@
+import { useState } from "react";
+import { useActions } from "../state/use-store.js";
+import { notifyText } from "./text.js";
+
+const words = notifyText;
+
+/** Asks the browser for notifications; absent where there are none to be had. */
+export const NotifyButton = () => {
+  const { notify } = useActions();
+  const [permission, setPermission] = useState(() => window.Notification?.permission ?? "denied");
+  if (!window.Notification || !window.isSecureContext) return null;
+  if (permission === "granted") return <p className="note">{words.asked}</p>;
+  const ask = async (): Promise<void> => {
+    const answer = await Notification.requestPermission();
+    setPermission(answer);
+    if (answer === "denied") notify("error", words.denied);
+  };
+  return (
+    <button type="button" className="link notify-link" onClick={() => void ask()}>
+      {words.ask}
+    </button>
+  );
+};

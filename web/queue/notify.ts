@@ -1,0 +1,31 @@
+/** What a user is told of when a plot ends or waits: here, and by the system's own notifications if they asked for it. */
+import type { Job } from "../../src/schema/index.js";
+import { notifyText } from "./text.js";
+import { waitWords } from "../plotter/machine-words.js";
+import type { PageStore } from "../state/store.js";
+
+const words = notifyText;
+
+/** What to say of a job that has changed; null when nobody needs to come. */
+export const noticeOfChange = (before: Job | null, now: Job): string | null => {
+  if (before === null) return null;
+  if (now.state === "paused" && now.wait !== null && before.wait === null) {
+    return words.waits(now.name, waitWords(now.wait));
+  }
+  if (before.state === now.state) return null;
+  if (now.state === "done") return words.done(now.name);
+  if (now.state === "failed") return words.failed(now.name);
+  if (now.state === "interrupted") return words.interrupted(now.name);
+  return null;
+};
+
+/** Watches the jobs and hands out sentences; returns a function that stops. */
+export const watchJobs = (store: PageStore, say: (sentence: string, job: Job) => void): (() => void) =>
+  store.subscribe((state, before) => {
+    if (state.jobs === before.jobs || before.jobs.length === 0) return;
+    const known = new Map(before.jobs.map((job) => [job.id, job]));
+    for (const job of state.jobs) {
+      const sentence = noticeOfChange(known.get(job.id) ?? null, job);
+      if (sentence !== null) say(sentence, job);
+    }
+  });

@@ -1,0 +1,27 @@
+import type { Job, PlotWait } from "../../src/schema/index.js";
+import { penWaitText } from "./text.js";
+import { JobButtons } from "./job-buttons.js";
+import "./jobs.css";
+
+const words = penWaitText;
+
+/** A job that waits for another pen: which one, in its colour, and the two answers. */
+export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (
+  <div className="pen-wait" role="group" aria-label={words.title}>
+    <PenSwatch color={wait.color} />
+    <div className="pen-wait-words">
+      <strong>{wait.penName === null ? words.putForLayer(wait.layerName) : words.put(wait.penName)}</strong>
+      {wait.penName !== null && <span>{words.layer(wait.layerName)}</span>}
+      <span className="note">{words.hint}</span>
+    </div>
+    <JobButtons job={job} />
+  </div>
+);
+
+/** A pen seen from the side, in the colour of its ink. */
+const PenSwatch = ({ color }: { color: string | null }) => (
+  <svg className="pen-swatch" viewBox="0 0 24 48" aria-hidden="true">
+    <path d="M6 2h12v26l-4 8h-4l-4-8z" fill={color ?? "transparent"} />
+    <path d="M10.500 36h3L12 46z" />
+  </svg>
+);

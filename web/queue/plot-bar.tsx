@@ -1,0 +1,160 @@
+import { useState } from "react";
+import { activeJob, currentPlotter, mayOperate, otherOperator } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { stateText } from "../state/text.js";
+import { plotText } from "./text.js";
+import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { NumberField } from "../ui/number-field.js";
+
+const words = plotText;
+const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
+const MAX_COPIES = 100;
+
+/** What the plot will take, and the two buttons that matter; on a phone, the running plot's buttons instead. */
+export const PlotBar = () => {
+  const planned = usePageState((state) => state.planned);
+  const isPlanning = usePageState((state) => state.isPlanning);
+  const hasJob = usePageState((state) => activeJob(state) !== null);
+  const drawingKey = usePageState((state) => state.drawing?.key);
+  return (
+    <section className="card plot-bar" aria-label={words.plot} data-active={hasJob || undefined}>
+      <div className="plot-time">
+        <span className="plot-time-value" data-stale={isPlanning || undefined}>
+          {planned ? formatDuration(planned.stats.durationS) : "–"}
+        </span>
+        <span className="plot-time-label" role="status">
+          {isPlanning ? words.planning : words.time}
+        </span>
+      </div>
+      <Figures />
+      {/* Another drawing begins with one copy again. */}
+      <Buttons key={drawingKey} />
+      <RunningJob />
+    </section>
+  );
+};
+
+const Figures = () => {
+  const planned = usePageState((state) => state.planned);
+  if (!planned) return null;
+  const { stats, strokeCount } = planned;
+  const figures = [
+    [words.distance, formatLength(stats.drawMm)],
+    [words.travel, formatLength(stats.travelMm)],
+    [words.strokes, formatCount(strokeCount)],
+    [words.lifts, formatCount(stats.penLiftCount)],
+  ] as const;
+  return (
+    <dl className="figures">
+      {figures.map(([label, value]) => (
+        <div key={label}>
+          <dt>{label}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+};
+
+const Buttons = () => {
+  const [copies, setCopies] = useState(1);
+  const canQueue = usePageState(
+    (state) => state.drawing !== null && (state.planned?.strokeCount ?? 0) > 0 && state.fault === null,
+  );
+  const isLinked = usePageState((state) => state.link === "connected" && state.plotters.length > 0);
+  const isMine = usePageState((state) => mayOperate(state) && otherOperator(state) === null);
+  const isActive = usePageState((state) => activeJob(state) !== null);
+  const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
+  const busy = usePageState((state) => state.busyAction);
+  const { plotDrawing, queueDrawing } = useActions();
+  const isSending = busy === "add" || busy === "plot" || busy === "save";
+  const isOff = !canQueue || !isLinked || !isMine || isSending;
+  return (
+    <div className="plot-buttons">
+      <button
+        type="button"
+        className="button button-primary"
+        disabled={isOff || isActive || isAbsent}
+        aria-busy={isSending}
+        onClick={() => void plotDrawing()}
+      >
+        {words.plot}
+      </button>
+      <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing(copies)}>
+        {copies === 1 ? words.addToQueue : words.addCopies(copies)}
+      </button>
+      <SaveToJob isOff={isOff} />
+      <div className="copies">
+        <NumberField
+          label={words.copies}
+          value={copies}
+          unit="×"
+          min={1}
+          max={MAX_COPIES}
+          step={1}
+          digits={0}
+          disabled={isOff}
+          onChange={(count) => setCopies(Math.round(count))}
+        />
+      </div>
+      <Words isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
+    </div>
+  );
+};
+
+interface WordsProps {
+  readonly isSending: boolean;
+  readonly isBusy: boolean;
+  readonly isAbsent: boolean;
+}
+
+/** Why "Plot" can't be pressed, or what becomes of the press. */
+const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
+  const link = usePageState((state) => state.link);
+  const hasDrawing = usePageState((state) => state.drawing !== null);
+  if (link === "lost") return <p className="note note-error">{stateText.needsServer}</p>;
+  if (isSending) {
+    return (
+      <p className="note note-working" role="status">
+        {words.sending}
+      </p>
+    );
+  }
+  if (!hasDrawing) return <p className="note">{words.needsDrawing}</p>;
+  if (isBusy) return <p className="note">{words.queueBusy}</p>;
+  return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
+};
+
+/** For a queued job that lies on the paper and whose settings were changed here. */
+const SaveToJob = ({ isOff }: { isOff: boolean }) => {
+  const job = usePageState(({ drawing, jobs }) =>
+    drawing?.jobId === null ? (jobs.find(({ id }) => id === drawing.sourceId) ?? null) : null,
+  );
+  const { saveToJob } = useActions();
+  if (job?.state !== "queued") return null;
+  return (
+    <button
+      type="button"
+      className="button save-to-job"
+      disabled={isOff}
+      onClick={() => void saveToJob(job.id)}
+    >
+      {words.saveToJob(job.name)}
+    </button>
+  );
+};
+
+/** Stands in for all that while a job has the plotter, where the screen is too small for both. */
+const RunningJob = () => {
+  const job = usePageState(activeJob);
+  if (!job) return null;
+  return (
+    <div className="plot-bar-job">
+      <p>
+        <strong>{job.name}</strong> {formatPercent(job.progress)}
+      </p>
+      <JobButtons job={job} />
+    </div>
+  );
+};

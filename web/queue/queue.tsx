@@ -1,0 +1,101 @@
+import { useRef } from "react";
+import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { queueTime } from "./queue-time.js";
+import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
+import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
+import { queueText } from "./text.js";
+import { Segments } from "../ui/choice.js";
+import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
+import { useNow } from "../ui/use-now.js";
+import { NotifyButton } from "./notify-button.js";
+
+const words = queueText;
+const ActiveJob = lazyPart(async () => (await import("./active-job.js")).ActiveJob);
+const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).WaitingJob);
+const HistoryList = lazyPart(async () => (await import("./history-list.js")).HistoryList);
+
+export const QueuePanel = () => {
+  const all = usePlotterJobs();
+  const jobs = all.filter((job) => !ENDED_STATES.includes(job.state));
+  const list = useRef<HTMLUListElement>(null);
+  const waiting = jobs.filter((job) => job.state === "queued");
+  return (
+    <section className="card" aria-label={words.title}>
+      <h2 className="card-title">
+        {words.title}
+        {jobs.length > 0 && <Totals jobs={jobs} />}
+      </h2>
+      {jobs.length === 0 && <Empty ended={all} />}
+      <ul className="job-list" ref={list}>
+        {jobs.map((job) => (
+          <li key={job.id} data-row={job.state === "queued" ? job.id : undefined}>
+            {ACTIVE_STATES.includes(job.state) ? (
+              <ActiveJob job={job} />
+            ) : (
+              <WaitingJob job={job} queue={waiting} list={list} />
+            )}
+          </li>
+        ))}
+      </ul>
+      <BetweenJobs />
+      <NotifyButton />
+    </section>
+  );
+};
+
+/** With nothing to do: what was done last, since the history may be out of sight. */
+const Empty = ({ ended }: { ended: readonly Job[] }) => {
+  const last = ended.reduce<Job | null>(
+    (latest, job) => ((job.endedAt ?? "") > (latest?.endedAt ?? "") ? job : latest),
+    null,
+  );
+  const when = last?.endedAt && formatWhen(last.endedAt);
+  return (
+    <p className="note">
+      {words.empty} {last && when && words.last(last.name, words.states[last.state], when)}
+    </p>
+  );
+};
+
+/** How much there is to do, and when it will be done while that is known. */
+const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
+  const nowMs = useNow();
+  const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
+  const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
+  const { totalS, isRunning } = queueTime(jobs, runsOn);
+  const total = words.total(jobs.length, formatDuration(totalS));
+  return (
+    <span className="note">{isRunning ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}</span>
+  );
+};
+
+/** Whether the queue stops for somebody to change the paper. */
+const BetweenJobs = () => {
+  const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
+  const queue = usePageState((state) => state.queues[plotterId]);
+  const isMine = usePageState(mayOperate);
+  const { setQueue } = useActions();
+  if (!queue || !isMine) return null;
+  return (
+    <Segments
+      label={words.between}
+      value={queue.runOn ? "run" : "wait"}
+      options={[
+        { value: "wait", label: words.wait },
+        { value: "run", label: words.runOn },
+      ]}
+      onChange={(value) => void setQueue({ runOn: value === "run" })}
+    />
+  );
+};
+
+export const HistoryPanel = () => {
+  const jobs = usePlotterJobs().filter((job) => ENDED_STATES.includes(job.state));
+  return (
+    <section className="card" aria-label={words.history}>
+      <h2 className="card-title">{words.history}</h2>
+      {jobs.length === 0 ? <p className="note">{words.historyEmpty}</p> : <HistoryList jobs={jobs} />}
+    </section>
+  );
+};

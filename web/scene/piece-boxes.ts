@@ -1,0 +1,69 @@
+/**
+ * Which pieces can be seen: boxes around every few hundred of them, in order, so that a view of a part of the paper
+ * costs what is on it. What lies outside leaves no mark on the picture, drawn or not.
+ */
+import { PIECE_FLOATS, type Pieces } from "./pieces.js";
+import type { Frame } from "./renderer.js";
+
+const PIECES_A_BOX = 512;
+/** More pieces make larger boxes: each may cost a call to the card. */
+const MAX_BOXES = 2_048;
+
+export interface PieceBoxes {
+  readonly piecesABox: number;
+  /** mm x0 y0 x1 y1 of box after box. */
+  readonly mm: Float32Array;
+}
+
+/** From the first to before the second of these indices. */
+export type PieceRange = readonly [from: number, to: number];
+
+/** Linear in the pieces. */
+export const boxPieces = ({ count, bytes }: Pieces): PieceBoxes => {
+  const floats = new Float32Array(bytes);
+  const piecesABox = Math.max(PIECES_A_BOX, Math.ceil(count / MAX_BOXES));
+  const mm = new Float32Array(4 * Math.ceil(count / piecesABox));
+  for (let at = 0, from = 0; from < count; at += 4, from += piecesABox) {
+    let x0 = Infinity;
+    let y0 = Infinity;
+    let x1 = -Infinity;
+    let y1 = -Infinity;
+    const end = Math.min(count, from + piecesABox) * PIECE_FLOATS;
+    for (let f = from * PIECE_FLOATS; f < end; f += PIECE_FLOATS) {
+      x0 = Math.min(x0, floats[f], floats[f + 2]);
+      x1 = Math.max(x1, floats[f], floats[f + 2]);
+      y0 = Math.min(y0, floats[f + 1], floats[f + 3]);
+      y1 = Math.max(y1, floats[f + 1], floats[f + 3]);
+    }
+    mm[at] = x0;
+    mm[at + 1] = y0;
+    mm[at + 2] = x1;
+    mm[at + 3] = y1;
+  }
+  return { piecesABox, mm };
+};
+
+/** Of the pieces `from` … `to` − 1: those whose box, wider by `reachPx`, comes into the frame. Rising, none empty. */
+export const rangesInSight = (
+  { piecesABox, mm }: PieceBoxes,
+  [from, to]: PieceRange,
+  { view, width, height }: Pick<Frame, "view" | "width" | "height">,
+  reachPx: number,
+): PieceRange[] => {
+  const x0 = (-reachPx - view.offsetX) / view.scale;
+  const y0 = (-reachPx - view.offsetY) / view.scale;
+  const x1 = (width + reachPx - view.offsetX) / view.scale;
+  const y1 = (height + reachPx - view.offsetY) / view.scale;
+  const ranges: [number, number][] = [];
+  if (from >= to) return ranges;
+  for (let at = Math.floor(from / piecesABox); at * piecesABox < to; at++) {
+    const k = at * 4;
+    if (mm[k] > x1 || mm[k + 2] < x0 || mm[k + 1] > y1 || mm[k + 3] < y0) continue;
+    const begin = Math.max(from, at * piecesABox);
+    const end = Math.min(to, (at + 1) * piecesABox);
+    const last = ranges.at(-1);
+    if (last?.[1] === begin) last[1] = end;
+    else ranges.push([begin, end]);
+  }
+  return ranges;
+};

@@ -1,0 +1,201 @@
+/**
+ * Trajectory -> the line pieces that the preview draws, with true speed along ramps and corner curves.
+ *
+ * A block is cut into pieces so that a straight piece stays within CHORD_MM of the curve, and its speed
+ * changes by at most SPEED_STEP of the top speed (the ramp between is interpolated by the screen).
+ * Pieces stand in order of time, so "what is drawn so far" is a count of pieces.
+ */
+import type { Trajectory } from "../../src/index.js";
+import type { StrokeLayer } from "../../src/internal.js";
+import { buildPickGrid, type PickGrid } from "./pick.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
+
+const CHORD_MM = 0.008;
+const SPEED_STEP = 0.05;
+/** Ramps shorter than this need no steps: nobody sees them. */
+const MIN_PIECE_MM = 0.25;
+const MAX_PIECES = 256;
+
+export interface Scene {
+  readonly draw: Pieces;
+  readonly travel: Pieces;
+  /** Highest speed with the pen down, and with it up. */
+  readonly topDrawMmPerS: number;
+  readonly topTravelMmPerS: number;
+  readonly totalS: number;
+  /** For finding the piece under the pointer among `draw`. */
+  readonly grid: PickGrid;
+}
+
+/** By how much each layer's strokes are moved for its pen; null where all pens sit straight. */
+export const shiftsOf = (layers: readonly StrokeLayer[]): Shifts | null =>
+  layers.some(({ shiftMm }) => shiftMm) ? layers.map(({ shiftMm }) => shiftMm ?? STRAIGHT) : null;
+
+type Shifts = readonly { readonly x: number; readonly y: number }[];
+const STRAIGHT = { x: 0, y: 0 };
+
+/**
+ * `strokeLayer` is StrokeSet.layer of the strokes that were planned. Linear in blocks. What is drawn is shown where
+ * it lands on paper, what the carriage travels where the carriage goes.
+ */
+export const buildScene = (
+  trajectory: Trajectory,
+  strokeLayer: Uint16Array,
+  shifts: Shifts | null = null,
+): Scene => {
+  const tops = topSpeeds(trajectory);
+  const counts = { draw: 0, travel: 0 };
+  const { runs } = trajectory;
+  for (let r = 0; r < runs.count; r++) {
+    const isDraw = runs.stroke[r] >= 0;
+    const top = isDraw ? tops.draw : tops.travel;
+    let pieces = isDraw && isDot(trajectory, r) ? 1 : 0;
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
+      pieces += pieceCount(trajectory, b, top);
+    }
+    counts[isDraw ? "draw" : "travel"] += pieces;
+  }
+  const draw = new PieceWriter(counts.draw, tops.draw);
+  const travel = new PieceWriter(counts.travel, tops.travel);
+  for (let r = 0; r < runs.count; r++) {
+    const stroke = runs.stroke[r];
+    const writer = stroke >= 0 ? draw : travel;
+    const layer = stroke >= 0 ? strokeLayer[stroke] : 0;
+    writer.shift = (stroke >= 0 && shifts?.[layer]) || STRAIGHT;
+    if (stroke >= 0 && isDot(trajectory, r)) writer.addDot(trajectory, r, layer);
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
+      writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
+    }
+  }
+  const drawn = { count: counts.draw, bytes: draw.bytes };
+  return {
+    draw: drawn,
+    travel: { count: counts.travel, bytes: travel.bytes },
+    topDrawMmPerS: tops.draw,
+    topTravelMmPerS: tops.travel,
+    totalS: trajectory.totalS,
+    grid: buildPickGrid(drawn),
+  };
+};
+
+/** A dot is a draw run without blocks: the pen goes down and up on the spot. */
+const isDot = ({ runs }: Trajectory, r: number): boolean => runs.firstBlock[r] === runs.firstBlock[r + 1];
+
+/** How many pieces lie wholly or partly before `tS`. */
+export const piecesBefore = (pieces: Pieces, tS: number): number => {
+  const floats = new Float32Array(pieces.bytes);
+  let low = 0;
+  let high = pieces.count;
+  while (low < high) {
+    const mid = (low + high) >> 1;
+    if (floats[mid * PIECE_FLOATS + 4] < tS) low = mid + 1;
+    else high = mid;
+  }
+  return low;
+};
+
+const topSpeeds = (trajectory: Trajectory): { draw: number; travel: number } => {
+  const { runs, vx, vy } = trajectory;
+  const tops = [1e-9, 1e-9];
+  for (let r = 0; r < runs.count; r++) {
+    const kind = runs.stroke[r] >= 0 ? 0 : 1;
+    let top2 = tops[kind] ** 2;
+    for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
+      top2 = Math.max(top2, vx[b] * vx[b] + vy[b] * vy[b]);
+    }
+    tops[kind] = Math.sqrt(top2);
+  }
+  return { draw: tops[0], travel: tops[1] };
+};
+
+/** Pieces that block `b` needs; 0 for one that does not move. */
+const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): number => {
+  const t = trajectory.durationS[b];
+  if (!(t > 0)) return 0;
+  const vx = trajectory.vx[b];
+  const vy = trajectory.vy[b];
+  const jx = trajectory.jx?.[b] ?? 0;
+  const jy = trajectory.jy?.[b] ?? 0;
+  const ax = trajectory.ax[b];
+  const ay = trajectory.ay[b];
+  const dvx = (ax + jx * t * 0.5) * t;
+  const dvy = (ay + jy * t * 0.5) * t;
+  const dx = (vx + dvx * 0.5) * t;
+  const dy = (vy + dvy * 0.5) * t;
+  const length = Math.hypot(dx, dy);
+  if (length === 0 && dvx === 0 && dvy === 0) return 0;
+  // Sagitta of the motion across its chord: |d × a| t² / 8 per unit chord (jerk counted with its mean).
+  const across = length > 0 ? Math.abs(dx * dvy - dy * dvx) / length : 0;
+  const forCurve = Math.sqrt((across * t) / 8 / CHORD_MM);
+  const change = Math.abs(Math.hypot(vx + dvx, vy + dvy) - Math.hypot(vx, vy));
+  const forSpeed = Math.min(change / (SPEED_STEP * topMmPerS), length / MIN_PIECE_MM);
+  return Math.min(MAX_PIECES, Math.max(1, Math.ceil(Math.max(forCurve, forSpeed) - 1e-9)));
+};
+
+class PieceWriter {
+  readonly bytes: ArrayBuffer;
+  readonly topMmPerS: number;
+  /** Taken off the carriage's place, mm. */
+  shift: Shifts[number] = STRAIGHT;
+  readonly #floats: Float32Array;
+  readonly #shorts: Uint16Array;
+  #at = 0;
+
+  constructor(count: number, topMmPerS: number) {
+    this.bytes = new ArrayBuffer(count * PIECE_BYTES);
+    this.topMmPerS = topMmPerS;
+    this.#floats = new Float32Array(this.bytes);
+    this.#shorts = new Uint16Array(this.bytes);
+  }
+
+  addDot(trajectory: Trajectory, run: number, layer: number): void {
+    const next = trajectory.runs.firstBlock[run];
+    const isLast = next >= trajectory.blockCount;
+    const x = (isLast ? trajectory.endX : trajectory.x[next]) - this.shift.x;
+    const y = (isLast ? trajectory.endY : trajectory.y[next]) - this.shift.y;
+    const startS = trajectory.runs.startS[run];
+    this.#floats.set([x, y, x, y, startS, startS], this.#at * PIECE_FLOATS);
+    this.#shorts[this.#at * PIECE_SHORTS + LAYER_SHORT] = layer;
+    this.#at++;
+  }
+
+  addBlock(trajectory: Trajectory, b: number, pieces: number, layer: number): void {
+    const x = trajectory.x[b] - this.shift.x;
+    const y = trajectory.y[b] - this.shift.y;
+    const vx = trajectory.vx[b];
+    const vy = trajectory.vy[b];
+    const ax = trajectory.ax[b];
+    const ay = trajectory.ay[b];
+    const jx = trajectory.jx?.[b] ?? 0;
+    const jy = trajectory.jy?.[b] ?? 0;
+    const duration = trajectory.durationS[b];
+    const startS = trajectory.startS[b];
+    const toShort = 65_535 / this.topMmPerS;
+    let px = x;
+    let py = y;
+    let pt = 0;
+    let ps = Math.hypot(vx, vy);
+    for (let k = 1; k <= pieces; k++) {
+      const t = (duration * k) / pieces;
+      const qx = x + t * (vx + t * (ax / 2 + (t * jx) / 6));
+      const qy = y + t * (vy + t * (ay / 2 + (t * jy) / 6));
+      const qs = Math.hypot(vx + t * (ax + (t * jx) / 2), vy + t * (ay + (t * jy) / 2));
+      const f = this.#at * PIECE_FLOATS;
+      this.#floats[f] = px;
+      this.#floats[f + 1] = py;
+      this.#floats[f + 2] = qx;
+      this.#floats[f + 3] = qy;
+      this.#floats[f + 4] = startS + pt;
+      this.#floats[f + 5] = startS + t;
+      const s = this.#at * PIECE_SHORTS;
+      this.#shorts[s + SPEED_SHORT] = Math.min(65_535, ps * toShort);
+      this.#shorts[s + SPEED_SHORT + 1] = Math.min(65_535, qs * toShort);
+      this.#shorts[s + LAYER_SHORT] = layer;
+      this.#at++;
+      px = qx;
+      py = qy;
+      pt = t;
+      ps = qs;
+    }
+  }
+}

@@ -1,0 +1,284 @@
+/**
+ * Strokes without a graphics card, by the processor: what the shader does for a fragment, done for each pixel near a
+ * piece. Where WebGL2 is only imitated, this is some fifty times as quick, and leaves the browser's own drawing alone.
+ *
+ *   d      distance of the pixel's middle from the piece, device px
+ *   reach  half the line's width, device px
+ *   alpha  reach + 1/2 − d, between 0 and 1: how much of the pixel the line covers
+ *
+ * Pixels are premultiplied RGBA, and pieces come in order of time, so a picture is the same in however many parts.
+ */
+import { RAMP_SIZE, rampBytes } from "./color-map.js";
+import {
+  bytesFromHex,
+  GHOST_COLOR,
+  INK_COLOR,
+  lineWidthPx,
+  pictureSize,
+  TRAVEL_ALPHA,
+  TRAVEL_COLOR,
+  TRAVEL_PX,
+  type Detail,
+  type Frame,
+  type Picture,
+  type SceneRenderer,
+  type StrokesCanvas,
+} from "./renderer.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT } from "./pieces.js";
+import {
+  drawSome,
+  piecesOf,
+  sheetsOf,
+  tasksOf,
+  type Boxed,
+  type Sheet,
+  type Style,
+  type Task,
+} from "./tasks.js";
+
+type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+
+export const createSoftRenderer = (canvas: StrokesCanvas): SceneRenderer | null => {
+  // The two kinds of canvas have the same method with lists of kinds of contexts that differ.
+  const context: Context | null = (canvas as HTMLCanvasElement).getContext("2d", {
+    willReadFrequently: true,
+  });
+  return context && new SoftRenderer(context);
+};
+
+/** How the pieces of one style look. */
+interface Look {
+  /** Where along the ramp a piece's colour is found; null: each layer has one. */
+  readonly by: "speed" | "time" | null;
+  /** RGB by layer; of all of them where there is only one. */
+  readonly colors: readonly (readonly [number, number, number])[];
+  readonly alpha: number;
+  /** Device px by layer; of all of them where there is only one. */
+  readonly reaches: readonly number[];
+}
+
+class SoftRenderer implements SceneRenderer {
+  readonly #context: Context;
+  readonly #ramp = rampBytes();
+  #image = new ImageData(1, 1);
+  #sheets: Record<Detail, Sheet<Boxed>> | null = null;
+  #totalS = 1;
+  #frame: Frame | null = null;
+  #tasks: Task<Boxed>[] = [];
+
+  constructor(context: Context) {
+    this.#context = context;
+  }
+
+  get isFinished(): boolean {
+    return this.#tasks.length === 0;
+  }
+
+  setScene(scene: Picture | null): void {
+    this.#tasks = [];
+    this.#totalS = Math.max(1e-6, scene?.totalS ?? 1);
+    this.#sheets = scene && sheetsOf(scene, (boxed) => boxed);
+  }
+
+  begin(frame: Frame, detail: Detail): number {
+    const [width, height] = pictureSize(frame);
+    if (this.#image.width === width && this.#image.height === height) this.#image.data.fill(0);
+    else this.#image = new ImageData(width, height);
+    this.#frame = frame;
+    this.#tasks = this.#sheets ? tasksOf(frame, this.#sheets[detail]) : [];
+    return piecesOf(this.#tasks);
+  }
+
+  advance(pieceCount: number): number {
+    const frame = this.#frame;
+    if (!frame) return 0;
+    return drawSome(this.#tasks, pieceCount, (task, to) => {
+      this.#drawRange(frame, task, to);
+      return true;
+    });
+  }
+
+  isIdle(): boolean {
+    return true;
+  }
+
+  present(): void {
+    const { canvas } = this.#context;
+    const { width, height, data } = this.#image;
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    unmultiply(data);
+    this.#context.putImageData(this.#image, 0, 0);
+  }
+
+  close(): void {
+    this.setScene(null);
+  }
+
+  #drawRange(frame: Frame, { of: { pieces }, style, from }: Task<Boxed>, to: number): void {
+    const floats = new Float32Array(pieces.bytes);
+    const shorts = new Uint16Array(pieces.bytes);
+    const look = lookOf(frame, style);
+    const brush = new Brush(this.#image);
+    const scale = frame.view.scale * frame.ratio;
+    const offsetX = frame.view.offsetX * frame.ratio;
+    const offsetY = frame.view.offsetY * frame.ratio;
+    for (let i = from; i < to; i++) {
+      const f = i * PIECE_FLOATS;
+      const s = i * PIECE_SHORTS;
+      const layer = shorts[s + LAYER_SHORT];
+      brush.reach = look.reaches[layer] ?? look.reaches[0];
+      brush.alpha = look.alpha;
+      if (look.by === "speed") {
+        brush.setRamp(this.#ramp, shorts[s + SPEED_SHORT] / 65_535, shorts[s + SPEED_SHORT + 1] / 65_535);
+      } else if (look.by === "time") {
+        brush.setRamp(this.#ramp, floats[f + 4] / this.#totalS, floats[f + 5] / this.#totalS);
+      } else {
+        brush.setPlain(look.colors[layer] ?? look.colors[0]);
+      }
+      brush.draw(
+        floats[f] * scale + offsetX,
+        floats[f + 1] * scale + offsetY,
+        floats[f + 2] * scale + offsetX,
+        floats[f + 3] * scale + offsetY,
+      );
+    }
+  }
+}
+
+const lookOf = (frame: Frame, style: Style): Look => {
+  const reachOf = (widthPx: number): number => (widthPx * frame.ratio) / 2;
+  if (style === "travel") {
+    const colors = [bytesFromHex(TRAVEL_COLOR)];
+    return { by: null, colors, alpha: TRAVEL_ALPHA, reaches: [reachOf(TRAVEL_PX)] };
+  }
+  const widthsMm = frame.layerWidthsMm?.length ? frame.layerWidthsMm : [frame.lineMm];
+  const reaches = widthsMm.map((mm) => reachOf(lineWidthPx(frame, mm)));
+  if (style === "ghost") return { by: null, colors: [bytesFromHex(GHOST_COLOR)], alpha: 1, reaches };
+  const layers = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];
+  switch (frame.colorBy) {
+    case "speed":
+      return { by: "speed", colors: [], alpha: 1, reaches };
+    case "order":
+      return { by: "time", colors: [], alpha: 1, reaches };
+    case "layer":
+    case "pen":
+      return { by: null, colors: layers.map(bytesFromHex), alpha: 1, reaches };
+    case "ink":
+      return { by: null, colors: [bytesFromHex(INK_COLOR)], alpha: 1, reaches };
+  }
+};
+
+/** Draws one piece after another; an object, so that a million of them need no arguments packed and unpacked. */
+class Brush {
+  reach = 1;
+  alpha = 1;
+  readonly #data: Uint8ClampedArray;
+  readonly #width: number;
+  readonly #height: number;
+  #ramp: Uint8Array | null = null;
+  #share0 = 0;
+  #share1 = 0;
+  #r = 0;
+  #g = 0;
+  #b = 0;
+
+  constructor({ data, width, height }: ImageData) {
+    this.#data = data;
+    this.#width = width;
+    this.#height = height;
+  }
+
+  setPlain([r, g, b]: readonly [number, number, number]): void {
+    this.#ramp = null;
+    this.#r = r;
+    this.#g = g;
+    this.#b = b;
+  }
+
+  /** From one place of the ramp to another along the piece; between places that look alike it is one colour. */
+  setRamp(ramp: Uint8Array, share0: number, share1: number): void {
+    if (Math.abs(share1 - share0) * RAMP_SIZE > 1) {
+      this.#ramp = ramp;
+      this.#share0 = share0;
+      this.#share1 = share1;
+    } else {
+      this.#ramp = null;
+      this.#pick(ramp, (share0 + share1) / 2);
+    }
+  }
+
+  /** From (ax, ay) to (bx, by), device px. */
+  draw(ax: number, ay: number, bx: number, by: number): void {
+    const reach = this.reach;
+    const far = reach + 0.5;
+    const top = Math.max(0, Math.ceil(Math.min(ay, by) - far - 0.5));
+    const bottom = Math.min(this.#height - 1, Math.floor(Math.max(ay, by) + far - 0.5));
+    const left = Math.max(0, Math.ceil(Math.min(ax, bx) - far - 0.5));
+    const right = Math.min(this.#width - 1, Math.floor(Math.max(ax, bx) + far - 0.5));
+    if (top > bottom || left > right) return;
+    const length = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay));
+    const ux = length > 1e-4 ? (bx - ax) / length : 1;
+    const uy = length > 1e-4 ? (by - ay) / length : 0;
+    const far2 = far * far;
+    const near = reach - 0.5;
+    const near2 = near > 0 ? near * near : -1;
+    // In a row the line takes up no more than this to each side of its middle.
+    const half = Math.abs(uy) > 0.05 ? far / Math.abs(uy) : Infinity;
+    for (let y = top; y <= bottom; y++) {
+      const dy = y + 0.5 - ay;
+      let from = left;
+      let to = right;
+      if (half < to - from) {
+        const middle = ax + (dy * ux) / uy - 0.5;
+        from = Math.max(from, Math.ceil(middle - half));
+        to = Math.min(to, Math.floor(middle + half));
+      }
+      for (let x = from; x <= to; x++) {
+        const dx = x + 0.5 - ax;
+        const along = dx * ux + dy * uy;
+        const beyond = along < 0 ? along : along > length ? along - length : 0;
+        const side = dy * ux - dx * uy;
+        const d2 = beyond * beyond + side * side;
+        if (d2 >= far2) continue;
+        if (this.#ramp) this.#pickAlong(this.#ramp, length > 1e-4 ? along / length : 0.5);
+        this.#blend((y * this.#width + x) * 4, d2 <= near2 ? 1 : Math.min(1, far - Math.sqrt(d2)));
+      }
+    }
+  }
+
+  #pickAlong(ramp: Uint8Array, share: number): void {
+    this.#pick(ramp, this.#share0 + (this.#share1 - this.#share0) * share);
+  }
+
+  #pick(ramp: Uint8Array, share: number): void {
+    const at = 4 * Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1));
+    this.#r = ramp[at]!;
+    this.#g = ramp[at + 1]!;
+    this.#b = ramp[at + 2]!;
+  }
+
+  #blend(at: number, cover: number): void {
+    const data = this.#data;
+    const a = cover * this.alpha;
+    const rest = 1 - a;
+    data[at] = this.#r * a + data[at] * rest;
+    data[at + 1] = this.#g * a + data[at + 1] * rest;
+    data[at + 2] = this.#b * a + data[at + 2] * rest;
+    data[at + 3] = 255 * a + data[at + 3] * rest;
+  }
+}
+
+/** Premultiplied to plain, which is what a canvas takes. */
+const unmultiply = (data: Uint8ClampedArray): void => {
+  for (let at = 0; at < data.length; at += 4) {
+    const a = data[at + 3];
+    if (a === 0 || a === 255) continue;
+    const f = 255 / a;
+    data[at] = data[at] * f;
+    data[at + 1] = data[at + 1] * f;
+    data[at + 2] = data[at + 2] * f;
+  }
+};

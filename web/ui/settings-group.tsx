@@ -1,0 +1,26 @@
+import type { ReactNode } from "react";
+import { useActions, usePageState } from "../state/use-store.js";
+import { Group } from "./group.js";
+
+interface SettingsGroupProps {
+  readonly id: string;
+  readonly title: string;
+  readonly summary?: string;
+  readonly children: ReactNode;
+}
+
+/** A folding group whose state is remembered. */
+export const SettingsGroup = ({ id, ...props }: SettingsGroupProps) => {
+  const openGroups = usePageState((state) => state.view.openGroups);
+  const { changeView } = useActions();
+  return (
+    <Group
+      {...props}
+      id={id}
+      isOpen={openGroups.includes(id)}
+      onToggle={(isOpen) =>
+        changeView({ openGroups: isOpen ? [...openGroups, id] : openGroups.filter((other) => other !== id) })
+      }
+    />
+  );
+};
