@@ -70,20 +70,15 @@ export function comeToRest(
   const state = stateAt(trajectory, tS);
   const speed = Math.hypot(state.vx, state.vy);
   const pieces = emptyPieces();
-  if (speed <= REST_SPEED) return finish(trajectory, pieces, state, tS, -1, pen);
+  // A drop that the plan has for later than the stop is not given any more.
+  const liftedBy = isPenUpBefore(trajectory, tS) ? null : pen;
+  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, liftedBy);
   // A pen that comes down on the way to a stroke must not touch the paper before it: go on to the stroke's start.
   const isLowering = !state.penUp && state.stroke < 0;
   const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
   const planS = slowDown(trajectory, tS, speed * speed, accel, pieces);
   const end = stateAt(trajectory, planS);
-  return finish(
-    trajectory,
-    pieces,
-    { ...end, penUp: state.penUp },
-    planS,
-    state.penUp ? -1 : state.stroke,
-    pen,
-  );
+  return finish(pieces, { ...end, penUp: state.penUp }, planS, state.penUp ? -1 : state.stroke, liftedBy);
 }
 
 /** Fills `pieces` and returns the plan time at which the carriage stops. `speed2`: v₀². */
@@ -204,8 +199,8 @@ function timeAfter(trajectory: Trajectory, k: number, t: number, end: number, mm
   return high;
 }
 
+/** @param pen lifts at the end; null: it is up */
 function finish(
-  original: Trajectory,
   pieces: Pieces,
   end: MotionState,
   planS: number,
@@ -217,8 +212,7 @@ function finish(
   for (let k = 1; k < count; k++) startS[k] = startS[k - 1] + pieces.durationS[k - 1];
   const motionS = count > 0 ? startS[count - 1] + pieces.durationS[count - 1] : 0;
   const runCount = count > 0 ? 1 : 0;
-  const lifts = pen !== null && !isPenUpBefore(original, planS);
-  const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
+  const waitS = pen ? liftTiming(pen, pen.upPct).waitS : 0;
   const heightPct = pen?.upPct ?? 0;
   const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, moveS: waitS, heightPct };
   const trajectory: Trajectory = {
@@ -240,7 +234,7 @@ function finish(
       stroke: runCount ? Int32Array.of(stroke) : new Int32Array(0),
       startS: new Float64Array(runCount),
     },
-    penMoves: penMoveColumns(lifts ? [lift] : []),
+    penMoves: penMoveColumns(pen ? [lift] : []),
     totalS: motionS + waitS,
     endX: end.x,
     endY: end.y,

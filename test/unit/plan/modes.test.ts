@@ -180,7 +180,7 @@ describe("settings beyond speed and acceleration", () => {
   it("give a layer its own limits and its own pen", () => {
     const strokes = strokeSetOf([square, square.map(([x, y]): Point => [x + 40, y])], [0, 1]);
     const motion = { ...base, layers: { l1: { speedMmPerS: 5 } } };
-    const pen: PenSettings = { ...DEFAULT_PEN, layers: { l1: { downPct: 10, dropMs: 900 } } };
+    const pen: PenSettings = { ...DEFAULT_PEN, overlap: "off", layers: { l1: { downPct: 10, dropMs: 900 } } };
     const t = plan(strokes, motion, pen);
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);

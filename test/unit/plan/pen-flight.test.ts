@@ -7,7 +7,9 @@ import {
   type PenSettings,
   type Trajectory,
 } from "../../../src/index.js";
+import { comeToRest } from "../../../src/plan/come-to-rest.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
+import { placeAt } from "../../../src/plan/place-on-plan.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
 
 const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
@@ -59,6 +61,27 @@ describe("a pen in flight", () => {
     expect(moves[hover].heightPct).toBe(30 + 0.65 * 30);
     expect(moves[hover + 1].up).toBe(false);
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
+  });
+
+  it("goes on to the stroke's start and lifts there, when it is stopped while it comes down", () => {
+    for (const pen of [SAFE, FAST]) {
+      const t = planned(pen);
+      const limits = { drawAccel: 500, travelAccel: 1_000 };
+      for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
+        const block = t.runs.firstBlock[drop.beforeRun];
+        const endS = t.runs.startS[drop.beforeRun] - drop.waitS;
+        for (const share of [0.05, 0.5, 0.95]) {
+          const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, pen);
+          expect(rest.trajectory.endX).toBeCloseTo(t.x[block], 6);
+          expect(rest.trajectory.endY).toBeCloseTo(t.y[block], 6);
+          const [lift] = penMovesOf(rest.trajectory);
+          expect([lift.up, lift.heightPct, lift.waitS]).toEqual([true, 60, 0.25]);
+          expect(placeAt(t, rest.planS)).toEqual({ stroke: t.runs.stroke[drop.beforeRun], alongMm: 0 });
+        }
+        // Before the drop it stops where it can, and the pen is up.
+        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory)).toEqual([]);
+      }
+    }
   });
 
   it("keeps the times of a pen that rises and sinks at a rate of its own", () => {
