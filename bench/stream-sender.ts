@@ -9,6 +9,7 @@ import {
   streamCommands,
   type StrokeSet,
 } from "../src/index.js";
+import { motionOfQuality } from "../src/internal.js";
 import { nodeClock } from "../server/serial/node-clock.js";
 import { openSerial } from "../server/serial/serial-transport.js";
 
@@ -16,6 +17,8 @@ export interface SenderTask {
   readonly pacing: "window" | "acks";
   /** False: a command for every piece of the polyline, as they come out of the plan. */
   readonly fitted: boolean;
+  /** Quality fast, on springs of 15 and 25 Hz. */
+  readonly shaped?: boolean;
 }
 
 export interface SenderReport {
@@ -54,10 +57,13 @@ const task = JSON.parse(taskText!) as SenderTask;
 const session = new BoardSession(await openSerial(port!), { clock: nodeClock });
 const { firmware } = await session.identify();
 await session.send("EM,1,1");
-const motion = task.fitted ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
-const trajectory = plan(denseCurve(), motion, DEFAULT_PEN);
+const springs = { xHz: 15, yHz: 25, damping: 0.05 };
+const machine = { ...machineById("axidraw-v3"), springs };
+const plain = task.fitted ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
+const motion = task.shaped ? { ...plain, ...motionOfQuality("fast", springs) } : plain;
+const trajectory = plan(denseCurve(), motion, DEFAULT_PEN, task.shaped ? { machine } : {});
 const commands = compile(trajectory, {
-  machine: machineById("axidraw-v3"),
+  machine,
   firmware,
   pen: DEFAULT_PEN,
   start: { steps1: 0, steps2: 0, acc1: 0, acc2: 0 },

@@ -21,6 +21,7 @@ const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
   { what: "short commands, window of 0.3 s", task: { pacing: "window", fitted: false } },
   { what: "short commands, by acknowledgement", task: { pacing: "acks", fitted: false } },
   { what: "fitted commands, window of 0.3 s", task: { pacing: "window", fitted: true } },
+  { what: "shaped, quality fast, window of 0.3 s", task: { pacing: "window", fitted: true, shaped: true } },
 ];
 
 export default async function streamBench(report: Report): Promise<void> {

@@ -3,13 +3,15 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import {
   DEFAULT_PEN,
+  machineById,
   plan,
   stateAt,
+  type MachineProfile,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
-import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../src/internal.js";
+import { DEFAULT_FIT, MOTION_MODES, swingPen, type MotionMode, type Shaper } from "../src/internal.js";
 import { cornersOf, type Point } from "../test/support/reference-planners/polyline.js";
 import { junctionDeviation } from "../test/support/reference-planners/systems.js";
 
@@ -37,6 +39,7 @@ mkdirSync(FOLDER, { recursive: true });
 save("corner-deviations", [cornerChart()]);
 save("three-modes", [overTime("speed"), overTime("acceleration")]);
 save("circle-resampling", [resamplingChart()]);
+save("swinging-pen", [swingChart("none", "not shaped"), swingChart("zv", "shaped by zv")]);
 save("fitted-pieces", [fitChart(null, "as planned"), fitChart(DEFAULT_FIT, "fitted")]);
 
 function cornerChart(): Chart {
@@ -56,6 +59,32 @@ function cornerChart(): Chart {
     yLabel: "mm",
     square: true,
     series: [drawing, ...series],
+  };
+}
+
+/** Two corners as the carriage takes them, and as a pen on springs draws them. */
+function swingChart(shaper: Shaper, label: string): Chart {
+  const springs = { xHz: 15, yHz: 25, damping: 0.05 };
+  const corners: Point[] = [
+    [10, 10],
+    [10, 14],
+    [18, 14],
+    [18, 10],
+  ];
+  const draw = { ...DRAW, speedMmPerS: 80, accelMmPerS2: 1_750, cornerMm: 0.022 };
+  const t = planned(corners, "blend", { draw, shaper }, { ...machineById("axidraw-v3"), springs });
+  const pen: Point[] = [];
+  swingPen(t, springs, 0.0005, ({ x, y, stroke }) => stroke >= 0 && pen.push([x, y]));
+  return {
+    title: `A = 1750 mm/s², springs of 15 and 25 Hz, ${label}`,
+    xLabel: "mm",
+    yLabel: "mm",
+    square: true,
+    series: [
+      { label: "drawing", color: "#999", points: corners },
+      { label: "carriage", color: COLORS[2], points: along(t, ({ x, y }) => [x, y]) },
+      { label: "pen", color: COLORS[1], points: pen },
+    ],
   };
 }
 
@@ -128,6 +157,7 @@ function planned(
   points: readonly Point[],
   mode: MotionMode,
   other: Partial<MotionSettings> = {},
+  machine?: MachineProfile,
 ): Trajectory {
   const strokes: StrokeSet = {
     xy: Float64Array.from(points.flat()),
@@ -137,7 +167,7 @@ function planned(
   };
   const [startX, startY] = points[0];
   const motion: MotionSettings = { mode, draw: DRAW, travel: DRAW, ...other };
-  return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false });
+  return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false, machine });
 }
 
 /** The first run at many instants. */

@@ -24,6 +24,8 @@ export {
 export {
   DEFAULT_FIT,
   MOTION_MODES,
+  SHAPERS,
+  type Shaper,
   type FitSettings,
   type LayerMotion,
   type MotionLimits,
@@ -44,7 +46,16 @@ export {
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
 export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
-export { SETTING_FLAGS, flagInWords, valuesInWords, type SettingFlag } from "./settings/tables.js";
+export {
+  QUALITY_PATH,
+  SETTING_FLAGS,
+  SPRINGS_PATH,
+  flagInWords,
+  valuesInWords,
+  type SettingFlag,
+} from "./settings/tables.js";
+export { QUALITIES, type Quality } from "./settings/quality.js";
+export { SPRINGS_TABLE } from "./settings/springs.js";
 export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
@@ -67,11 +78,16 @@ export { PlaceTimes } from "./plan/place-times.js";
 export type { TrajectoryStats } from "./plan/stats.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
+export { leavesLineMm } from "./plan/shapers.js";
+export { motionOfQuality, qualityOf } from "./plan/quality.js";
+export { penError, type PenError } from "./plan/pen-error.js";
+export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { comeToRest } from "./plan/come-to-rest.js";
 export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
 export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
 
 // machines
+export type { Springs } from "./machines/profile.js";
 export type { EbbController, GrblController } from "./machines/controllers.js";
 export { findMachine, machineOf } from "./machines/profiles.js";
 export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
@@ -95,6 +111,16 @@ export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine 
 export { powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
+
+// ringing sheet
+export {
+  frequencyOfRipples,
+  ringingChecks,
+  RINGING_MOTION,
+  RINGING_SPEEDS,
+  ringingSheet,
+  type RingingCheck,
+} from "./job/ringing-sheet.js";
 
 // export
 export { codedLayerNames, svgOptionsOf } from "./export/coded-names.js";

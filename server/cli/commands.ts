@@ -123,6 +123,16 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await hand()).declareInfo,
   },
   {
+    name: "ringing",
+    about: "write the sheet that shows how the machine swings, and read it",
+    examples: [
+      "plotwright ringing ringing.svg",
+      "plotwright ringing --ripples 5 --at 30.1",
+      "plotwright ringing check.svg --check --spring-x 15 --spring-y 25",
+    ],
+    load: async () => (await import("./ringing-command.js")).declareRinging,
+  },
+  {
     name: "devices",
     about: "list the boards that are plugged in",
     examples: ["plotwright devices --json"],

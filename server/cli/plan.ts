@@ -9,7 +9,9 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import {
+  penError,
   prepareJob,
+  type PenError,
   type PreparedJob,
   machineOf,
   pointCount,
@@ -25,6 +27,7 @@ import { writeOut } from "./files.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
+  readonly penError?: boolean;
   readonly ebb?: string;
   readonly firmware: string;
   readonly preview?: string;
@@ -53,6 +56,8 @@ export interface PlanReport {
   readonly planMs: number;
   readonly compileMs: number;
   readonly warnings: readonly string[];
+  /** With `--pen-error`. */
+  readonly penError?: PenError;
 }
 
 interface Planned {
@@ -144,8 +149,20 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
     planMs: rounded(planMs),
     compileMs: rounded(compileMs),
     warnings: [...job.warnings, ...commands.warnings],
+    ...(options.penError ? { penError: penErrorOf(job, trajectory, machine) } : {}),
   };
   return { report, settings, job, trajectory, lines };
+}
+
+function penErrorOf({ prepared }: PreparedJob, trajectory: Trajectory, machine: MachineProfile): PenError {
+  if (!machine.springs) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `--pen-error: ${machine.name} was not measured; give --spring-x and --spring-y.`,
+    );
+  }
+  const { maxMm, p99Mm, rmsMm } = penError(prepared.strokes, trajectory, machine.springs);
+  return { maxMm: rounded(maxMm), p99Mm: rounded(p99Mm), rmsMm: rounded(rmsMm) };
 }
 
 function words(report: PlanReport): string {
@@ -155,10 +172,14 @@ function words(report: PlanReport): string {
     ),
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
     `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
+    ...(report.penError ? [penErrorInWords(report.penError)] : []),
     ...report.warnings.map((warning) => `note: ${warning}`),
   ];
   return `${lines.join("\n")}\n`;
 }
+
+const penErrorInWords = ({ maxMm, p99Mm, rmsMm }: PenError): string =>
+  `pen beside the drawing by up to ${maxMm} mm, 99 % of the time less than ${p99Mm} mm, rms ${rmsMm} mm`;
 
 export function minutes(seconds: number): string {
   const whole = Math.round(seconds);

@@ -4,7 +4,17 @@
  */
 import { Option, type Command } from "commander";
 import { PlotwrightError, type MachineProfile } from "../../src/index.js";
-import { findMachine } from "../../src/internal.js";
+import {
+  findMachine,
+  isAllowed,
+  motionOfQuality,
+  QUALITY_PATH,
+  rangeInWords,
+  SPRINGS_PATH,
+  SPRINGS_TABLE,
+  type Quality,
+  type Springs,
+} from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   firstFault,
@@ -43,13 +53,15 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   if (typeof config === "string") merge(settings, readConfig(config), config, "");
   const size = values["paper"];
   if (isOwnSize(size)) setPath(settings, ["prepare", "landscape"], size.widthMm > size.heightMm);
-  for (const option of SETTING_OPTIONS) {
-    const key = keyOf(option);
-    const value = values[key];
+  const { machineFile, machine } = values;
+  if (machine !== undefined) settings["machine"] = machine;
+  if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
+  setSprings(settings, values);
+  setQuality(settings, values);
+  for (const option of SETTING_OPTIONS.filter(isStored)) {
+    const value = values[keyOf(option)];
     if (value !== undefined) setPath(settings, option.path.split("."), value);
   }
-  const machineFile = values["machineFile"];
-  if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
   const result = plotSettingsSchema.safeParse(settings);
   if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data, values);
   const { path, words } = firstFault(result.error);
@@ -70,6 +82,50 @@ export function handSettingsFromOptions(values: OptionValues): PlotSettings {
     ? null
     : storedMachine(dataDirOf(values), typeof device === "string" ? device : "auto");
   return stored === null ? settings : withOwnMachine({ ...settings, machine: stored }, values);
+}
+
+/** Part of a job's settings, and not handled before. */
+const isStored = ({ path }: SettingOption): boolean =>
+  path !== "machine" && path !== QUALITY_PATH && !path.startsWith(`${SPRINGS_PATH}.`);
+
+/** The machine as far as it is known by now; null: its id is unknown, which is said later. */
+function machineIn(settings: Record<string, unknown>, values: OptionValues): MachineProfile | null {
+  const parsed = plotSettingsSchema.safeParse(settings);
+  if (!parsed.success) return null;
+  return findMachine(findMachine(parsed.data) ? parsed.data : withOwnMachine(parsed.data, values));
+}
+
+/** Flags for how the machine swings replace what its profile says. */
+function setSprings(settings: Record<string, unknown>, values: OptionValues): void {
+  const { springX, springY, damping } = values;
+  if (springX === undefined && springY === undefined && damping === undefined) return;
+  const machine = machineIn(settings, values);
+  if (machine === null) return;
+  const known = machine.springs ?? null;
+  const xHz = springX ?? known?.xHz;
+  const yHz = springY ?? known?.yHz;
+  if (xHz === undefined || yHz === undefined) {
+    const missing = xHz === undefined ? "--spring-x" : "--spring-y";
+    throw new PlotwrightError(
+      "bad-setting",
+      `${missing}: it is needed too, because ${machine.name} was not measured.`,
+    );
+  }
+  const springs = { xHz, yHz, damping: damping ?? known?.damping ?? SPRINGS_TABLE.damping.default };
+  for (const [key, row] of Object.entries(SPRINGS_TABLE)) {
+    if (!isAllowed(row, springs[key as keyof typeof springs] as number)) {
+      throw new PlotwrightError("bad-setting", `${row.flag}: it must be ${rangeInWords(row)}.`);
+    }
+  }
+  setMachine(settings, { ...machine, springs: springs as Springs });
+}
+
+function setQuality(settings: Record<string, unknown>, values: OptionValues): void {
+  const { quality } = values;
+  const machine = quality === undefined ? null : machineIn(settings, values);
+  if (machine === null) return;
+  const motion = settings["motion"] as object;
+  settings["motion"] = { ...motion, ...motionOfQuality(quality as Quality, machine.springs ?? null) };
 }
 
 const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();

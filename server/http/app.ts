@@ -60,7 +60,7 @@ export interface AppParts {
 
 export function createApp(parts: AppParts): Express {
   const { access, queue, log } = parts;
-  const browsers = new Browsers(access);
+  const browsers = new Browsers(access, parts.operatorLock.operator);
   const isRunning = (jobId: string): boolean => queue.isRunning(jobId);
   const app = express();
   app.disable("x-powered-by");

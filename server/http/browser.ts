@@ -12,6 +12,8 @@ import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
 
+/** So many browsers are told apart by name; of older ones the name is forgotten. */
+const MAX_NAMES = 1_000;
 const BROWSER_COOKIE = "plotwright_browser";
 const COOKIE_DAYS = 400;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
@@ -20,21 +22,44 @@ export class Browsers {
   readonly #access: Access;
   /** Requests of browsers that get their cookie with this answer. */
   readonly #fresh = new WeakMap<Request, string>();
+  /** By browser id. */
+  readonly #names = new Map<string, string>();
 
-  constructor(access: Access) {
+  /** `known`: a browser that got its name before the server was restarted. */
+  constructor(access: Access, known: Operator | null = null) {
     this.#access = access;
+    if (known !== null) this.#names.set(known.id, known.name);
   }
 
   /** Null for scripts. */
   of(request: Request): Operator | null {
     if (bearerOf(request) !== null) return null;
-    const name = browserName(request);
+    const id = this.#idOf(request);
+    return id === null ? null : { id, name: this.#nameOf(id, request) };
+  }
+
+  #idOf(request: Request): string | null {
     const session = cookieOf(request, SESSION_COOKIE);
     const entry = session === null ? null : this.#access.entryOf(session);
-    if (entry !== null) return { id: entry.id, name };
+    if (entry !== null) return entry.id;
     const secret = cookieOf(request, BROWSER_COOKIE) ?? this.#fresh.get(request) ?? null;
-    if (secret === null) return null;
-    return { id: createHash("sha256").update(secret).digest("hex").slice(0, 16), name };
+    return secret === null ? null : createHash("sha256").update(secret).digest("hex").slice(0, 16);
+  }
+
+  /** Two browsers of one kind have different names: "Chrome on Linux", "Chrome 2 on Linux". */
+  #nameOf(id: string, request: Request): string {
+    const [what, where] = browserWords(request);
+    const named = (number: number): string => `${what}${number === 1 ? "" : ` ${number}`} on ${where}`;
+    const known = this.#names.get(id);
+    if (known?.endsWith(where) === true) return known;
+    const taken = new Set(this.#names.values());
+    let number = 1;
+    while (taken.has(named(number))) number++;
+    this.#names.delete(id);
+    this.#names.set(id, named(number));
+    const [oldest] = this.#names.keys();
+    if (this.#names.size > MAX_NAMES && oldest !== undefined) this.#names.delete(oldest);
+    return named(number);
   }
 
   /** Sets the cookie of every new browser with the answer to its first request. */
@@ -91,12 +116,12 @@ const SYSTEMS: readonly (readonly [RegExp, string])[] = [
   [/Linux/, "Linux"],
 ];
 
-/** "Firefox on Android (192.168.1.20)": enough for people to recognize the device. */
-function browserName(request: Request): string {
+/** "Firefox" and "Android (192.168.1.20)": enough for people to recognize the device. */
+function browserWords(request: Request): readonly [what: string, where: string] {
   const agent = request.headers["user-agent"] ?? "";
   const find = (table: typeof BROWSERS, other: string): string =>
     table.find(([pattern]) => pattern.test(agent))?.[1] ?? other;
   const address = (request.socket.remoteAddress ?? "").replace(/^::ffff:/, "");
   const where = /^(127\.|::1$)/.test(address) ? "this computer" : address;
-  return `${find(BROWSERS, "A browser")} on ${find(SYSTEMS, "some system")} (${where})`;
+  return [find(BROWSERS, "A browser"), `${find(SYSTEMS, "some system")} (${where})`];
 }

@@ -59,7 +59,7 @@ export const JOB_ROUTES: readonly ApiRoute[] = [
   action("resume", "Resumes a paused job"),
   action("cancel", "Cancels a job: the pen lifts and goes home"),
   action("requeue", "Queues an ended job again"),
-  action("recover", "Continues an interrupted job, paused at first"),
+  action("recover", "Continues an interrupted or cancelled job, paused at first"),
   action("emergency-stop", "Stops at once, without slowing down"),
   action("change", "Changes pen heights and speeds while plotting", jobChangeSchema),
   action("place", "Moves the place from which a paused job resumes", movePlaceSchema),

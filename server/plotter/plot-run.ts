@@ -13,6 +13,7 @@
 import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
 import {
   movedPlace,
+  leavesLineMm,
   placeBehindSent,
   pointOfPlace,
   stoppedPlace,
@@ -185,14 +186,16 @@ export class MachinePlot implements LivePlotRun {
     const { left, speed } = this.#machine;
     const at = this.#machine.place(machineOf(this.#settings.current));
     if (!left || !at) return from;
-    const { draw, travel } = this.#settings.current.motion;
+    const { motion } = this.#settings.current;
+    const { draw, travel } = motion;
     const drawMmPerS = speed * draw.speedMmPerS;
     const mostMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
     const pen = { ...at, up: left.penUp };
     const { sent } = this.#start;
+    const leavesMm = leavesLineMm(motion, machineOf(this.#settings.current).springs ?? null);
     return (
-      (sent && placeBehindSent(this.#strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS)) ??
-      stoppedPlace(this.#strokes, from, pen, LEFT_S * mostMmPerS, this.#stops.strokes)
+      (sent && placeBehindSent(this.#strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS, leavesMm)) ??
+      stoppedPlace(this.#strokes, from, pen, LEFT_S * mostMmPerS, this.#stops.strokes, leavesMm)
     );
   }
 

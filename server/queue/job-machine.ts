@@ -7,6 +7,7 @@
  *                      paused ──cancel──> cancelled      (cancel works in every state that is not an end)
  *
  *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves until it is resumed
+ *                                 cancelled ──recover──> paused: if part of it is drawn, from where it was cancelled
  *
  * This file knows nothing of disks, boards or sockets; the queue applies, stores and announces the result.
  */
@@ -21,7 +22,8 @@ export type JobEvent =
   | { readonly type: "fail"; readonly message: string }
   | { readonly type: "interrupt"; readonly message: string; readonly place: JobPlace | null }
   | { readonly type: "recover" }
-  | { readonly type: "cancel" }
+  /** `place`: how far it is drawn; null if nothing is. */
+  | { readonly type: "cancel"; readonly place: JobPlace | null }
   | { readonly type: "requeue" };
 
 /** The states in which each event is allowed, and the state it leads to. */
@@ -34,7 +36,7 @@ export const TRANSITIONS: Readonly<
   finish: { from: ["plotting"], to: "done" },
   fail: { from: ["plotting", "paused"], to: "failed" },
   interrupt: { from: ["plotting", "paused"], to: "interrupted" },
-  recover: { from: ["interrupted"], to: "paused" },
+  recover: { from: ["interrupted", "cancelled"], to: "paused" },
   cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled" },
   requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued" },
 };
@@ -44,14 +46,16 @@ export const TRANSITIONS: Readonly<
  */
 export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
   const { from, to } = TRANSITIONS[event.type];
-  if (!from.includes(job.state)) throw cannot(job, event.type);
+  const isUndrawn = event.type === "recover" && job.state === "cancelled" && job.place === null;
+  if (!from.includes(job.state) || isUndrawn) throw cannot(job, event.type);
   const next: Job = { ...job, state: to, message: null };
   switch (event.type) {
     case "start":
       return { ...next, startedAt: nowIso };
     case "hold":
-    case "recover":
       return next;
+    case "recover":
+      return { ...next, remainingS: job.remainingS ?? remainingS(job), endedAt: null };
     case "release":
       return { ...next, wait: null };
     case "interrupt":
@@ -61,7 +65,13 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
     case "fail":
       return { ...next, message: event.message, wait: null, remainingS: null, endedAt: nowIso };
     case "cancel":
-      return { ...next, wait: null, remainingS: null, endedAt: nowIso };
+      return {
+        ...next,
+        place: job.startedAt === null ? null : event.place,
+        wait: null,
+        remainingS: null,
+        endedAt: nowIso,
+      };
     case "requeue":
       return {
         ...next,
@@ -77,6 +87,10 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
       };
   }
 }
+
+/** The planned time of what is left; null if the job was never planned. */
+const remainingS = ({ stats, progress }: Job): number | null =>
+  stats === null ? null : stats.durationS * (1 - progress);
 
 const VERBS: Readonly<Record<JobEvent["type"], string>> = {
   start: "started",

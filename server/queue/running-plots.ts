@@ -89,7 +89,7 @@ export class RunningPlots {
     return started;
   }
 
-  /** Starts an interrupted job at its place, held: nothing moves until it is resumed. */
+  /** Starts an interrupted or cancelled job at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#jobs.get(id);
@@ -140,7 +140,7 @@ export class RunningPlots {
 
   cancel(id: string): Job {
     const running = this.#running.get(this.#jobs.get(id).plotterId);
-    if (running?.jobId !== id) return this.#jobs.apply(id, { type: "cancel" });
+    if (running?.jobId !== id) return this.#cancelled(id);
     running.runner.cancel();
     return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
   }
@@ -252,7 +252,7 @@ export class RunningPlots {
     } else if (end.kind === "failed") {
       this.#jobs.apply(id, { type: "fail", message: end.error.message });
     } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, SERVER_STOPPED);
-    else if (end.kind === "cancelled") this.#jobs.apply(id, { type: "cancel" });
+    else if (end.kind === "cancelled") this.#cancelled(id);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
       if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
@@ -277,6 +277,13 @@ export class RunningPlots {
       { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place },
       progress.success ? progress.data : {},
     );
+  }
+
+  /** The place stays with the job, so that it can continue from where it was cancelled. */
+  #cancelled(id: string): Job {
+    const entry = this.#journal(id);
+    const { place } = this.#jobs.get(id);
+    return this.#jobs.apply(id, { type: "cancel", place: entry ? jobPlace(entry.place) : place });
   }
 
   #journal(id: string): z.infer<typeof journalSchema> | null {

@@ -18,6 +18,15 @@ export interface MachineProfile<C extends Controller = Controller> {
   readonly flipY?: boolean | undefined;
   /** x and y are exchanged, because of how the motors are plugged in or how the machine is placed. */
   readonly swapAxes?: boolean | undefined;
+  /** How the machine swings. Null or left out: not measured. */
+  readonly springs?: Springs | null | undefined;
   /** What drives the motors and the pen. */
   readonly controller: C;
+}
+
+/** A gantry is a spring on each axis of the drawing: natural frequencies, Hz, and the damping ratio of both. */
+export interface Springs {
+  readonly xHz: number;
+  readonly yHz: number;
+  readonly damping: number;
 }

@@ -76,9 +76,9 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
-  /** Appends block i, which lies beyond the current end. */
-  moveToEnd(i: number): void {
-    const { durationS, x, y, vx, vy, ax, ay, alongMm } = this;
+  /** Appends block i of other columns, without its jerk; or of these, if it lies beyond the current end. */
+  pushFrom(from: BlockColumns, i: number): void {
+    const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;
     this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);
   }
 

@@ -3,12 +3,14 @@
  * other.
  */
 import { PlotwrightError } from "../errors.js";
+import type { MachineProfile } from "../machines/profile.js";
 import {
   DRAW_TABLE,
   EASE_TABLE,
   FIT_TABLE,
   MOTION_MODES,
   MOTOR_ACCEL,
+  SHAPERS,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -21,15 +23,21 @@ import {
   PEN_TABLE,
   type PenSettings,
 } from "../settings/pen.js";
+import { SPRINGS_TABLE } from "../settings/springs.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../settings/setting.js";
 import { drawLimitsOf } from "./limits.js";
 import { penOfLayer } from "./pen-times.js";
 
 /** @throws PlotwrightError "bad-setting", naming the setting, its value and what is allowed */
-export function checkSettings(motion: MotionSettings, pen: PenSettings): void {
+export function checkSettings(
+  motion: MotionSettings,
+  pen: PenSettings,
+  machine: MachineProfile | undefined,
+): void {
   if (!MOTION_MODES.includes(motion.mode)) {
     throw bad(`motion mode is "${String(motion.mode)}": choose one of ${MOTION_MODES.join(", ")}`);
   }
+  checkShaper(motion, machine);
   checkNumbers("draw", DRAW_TABLE, motion.draw);
   checkNumbers("travel", TRAVEL_TABLE, motion.travel);
   for (const layer of Object.keys(motion.layers ?? {})) {
@@ -42,6 +50,25 @@ export function checkSettings(motion: MotionSettings, pen: PenSettings): void {
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
     checkNumber(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
+  }
+}
+
+function checkShaper({ shaper = "none", mode }: MotionSettings, machine: MachineProfile | undefined): void {
+  if (!SHAPERS.includes(shaper)) {
+    throw bad(`shaper is "${String(shaper)}": choose one of ${SHAPERS.join(", ")}`);
+  }
+  if (shaper === "none") return;
+  if (!machine?.springs) {
+    throw bad(
+      `shaper ${shaper} needs to know how the machine swings, and ${machine?.name ?? "no machine"} was not measured: ` +
+        "plot the ringing sheet, or choose shaper none",
+    );
+  }
+  checkNumbers(`machine "${machine.name}"`, SPRINGS_TABLE, machine.springs);
+  if (mode === "scurve") {
+    throw bad(
+      `shaper ${shaper} and mode scurve are two filters for one motion: choose mode blend, or shaper none`,
+    );
   }
 }
 

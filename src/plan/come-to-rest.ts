@@ -14,10 +14,21 @@
  * Every piece spans a few ms or half a degree of the plan, with v² linear in s. That is exact on straight
  * blocks; on curved ones the error is a fraction of a micrometre.
  */
+import { BlockColumns } from "./block-columns.js";
+import type { Kernel } from "./filter.js";
 import { isPenUpBefore, penMoveColumns } from "./pen-moves.js";
 import { liftTiming } from "./pen-times.js";
 import type { PenSettings } from "../settings/pen.js";
-import { blockLength, blockState, stateAt, type MotionState, type Trajectory } from "./trajectory.js";
+import { fillAlong } from "./shaped-along.js";
+import { shapeRest } from "./shaped-rest.js";
+import {
+  blockLength,
+  blockState,
+  stateAt,
+  type MotionState,
+  type PlannedMotion,
+  type Trajectory,
+} from "./trajectory.js";
 
 export interface RestPlan {
   /** One run that ends at rest (none if the carriage is already at rest), then a lift if the pen is down. */
@@ -44,17 +55,6 @@ const REST_SPEED = 1e-6;
 /** Below this curvature the path counts as straight, 1/mm. */
 const STRAIGHT = 1e-9;
 
-interface Pieces {
-  readonly durationS: number[];
-  readonly x: number[];
-  readonly y: number[];
-  readonly vx: number[];
-  readonly vy: number[];
-  readonly ax: number[];
-  readonly ay: number[];
-  readonly alongMm: number[];
-}
-
 /**
  * Plans a stop that begins at `tS`, whether or not the carriage is moving then.
  *
@@ -68,21 +68,58 @@ export function comeToRest(
   pen: PenSettings | null,
 ): RestPlan {
   const state = stateAt(trajectory, tS);
-  const speed = Math.hypot(state.vx, state.vy);
-  const pieces = emptyPieces();
-  // A drop that the plan has for later than the stop is not given any more.
-  const liftedBy = isPenUpBefore(trajectory, tS) ? null : pen;
-  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, liftedBy);
   // A pen that comes down on the way to a stroke must not touch the paper before it: go on to the stroke's start.
   const isLowering = !state.penUp && state.stroke < 0;
   const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
+  // A drop that the plan has for later than the stop is not given any more.
+  const liftedBy = isPenUpBefore(trajectory, tS) ? null : pen;
+  if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, liftedBy);
+  const pieces = new BlockColumns(0, false);
+  const speed = Math.hypot(state.vx, state.vy);
+  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, liftedBy);
   const planS = slowDown(trajectory, tS, speed * speed, accel, pieces);
-  const end = stateAt(trajectory, planS);
-  return finish(pieces, { ...end, penUp: state.penUp }, planS, state.penUp ? -1 : state.stroke, liftedBy);
+  const stroke = state.penUp ? -1 : state.stroke;
+  return finish(pieces, stateAt(trajectory, planS), planS, stroke, liftedBy);
+}
+
+/**
+ * The planned motion brakes, and the shaper makes the carriage's motion of it.
+ *
+ * @param pen lifts at the end; null: it is up
+ */
+function shapedRest(
+  trajectory: Trajectory,
+  { trajectory: planned, kernel }: PlannedMotion,
+  tS: number,
+  accel: number,
+  pen: PenSettings | null,
+): RestPlan {
+  const run = trajectory.blockCount > 0 ? runOf(trajectory, blockAt(trajectory, tS)) : 0;
+  const runEndS = endOfRun(trajectory, run);
+  const state = stateAt(trajectory, tS);
+  const pieces = new BlockColumns(0, false);
+  if (tS >= runEndS) return finish(pieces, state, tS, -1, pen);
+  const plannedEndS = endOfRun(planned, run);
+  const { vx, vy } = stateAt(planned, tS);
+  const speed2 = vx * vx + vy * vy;
+  let stopS = Math.min(tS, plannedEndS);
+  if (speed2 > REST_SPEED * REST_SPEED) stopS = slowDown(planned, tS, speed2, accel, pieces);
+  const end = stateAt(planned, stopS);
+  const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
+  // At the very start of a run nothing moves yet.
+  if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, pen);
+  const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;
+  return finish(rest.shaped, end, planS, state.stroke, pen, { rest: rest.planned, kernel });
 }
 
 /** Fills `pieces` and returns the plan time at which the carriage stops. `speed2`: v₀². */
-function slowDown(trajectory: Trajectory, tS: number, speed2: number, accel: number, pieces: Pieces): number {
+function slowDown(
+  trajectory: Trajectory,
+  tS: number,
+  speed2: number,
+  accel: number,
+  pieces: BlockColumns,
+): number {
   const { runs, durationS, startS } = trajectory;
   let k = blockAt(trajectory, tS);
   const end = runs.firstBlock[runOf(trajectory, k) + 1];
@@ -166,7 +203,7 @@ function addPiece(
   lengthMm: number,
   from2: number,
   to2: number,
-  pieces: Pieces,
+  pieces: BlockColumns,
 ): void {
   const v0 = Math.sqrt(from2);
   const v1 = Math.sqrt(to2);
@@ -175,15 +212,10 @@ function addPiece(
   const duration = (2 * lengthMm) / (v0 + v1);
   const vx = plan0 > 0 ? (from.vx / plan0) * v0 : 0;
   const vy = plan0 > 0 ? (from.vy / plan0) * v0 : 0;
-  pieces.durationS.push(duration);
-  pieces.x.push(from.x);
-  pieces.y.push(from.y);
-  pieces.vx.push(vx);
-  pieces.vy.push(vy);
   // Computed from the end point, so that errors do not accumulate.
-  pieces.ax.push((2 * (to.x - from.x - vx * duration)) / (duration * duration));
-  pieces.ay.push((2 * (to.y - from.y - vy * duration)) / (duration * duration));
-  pieces.alongMm.push(from.alongMm);
+  const ax = (2 * (to.x - from.x - vx * duration)) / (duration * duration);
+  const ay = (2 * (to.y - from.y - vy * duration)) / (duration * duration);
+  pieces.push(duration, from.x, from.y, vx, vy, ax, ay, from.alongMm);
 }
 
 /** The time in block `k` when the pen has moved `mm` further than at `t`. */
@@ -201,45 +233,46 @@ function timeAfter(trajectory: Trajectory, k: number, t: number, end: number, mm
 
 /** @param pen lifts at the end; null: it is up */
 function finish(
-  pieces: Pieces,
-  end: MotionState,
+  pieces: BlockColumns,
+  end: { readonly x: number; readonly y: number },
   planS: number,
   stroke: number,
   pen: PenSettings | null,
+  planned?: { readonly rest: BlockColumns; readonly kernel: Kernel },
 ): RestPlan {
-  const count = pieces.durationS.length;
-  const startS = new Float64Array(count);
-  for (let k = 1; k < count; k++) startS[k] = startS[k - 1] + pieces.durationS[k - 1];
-  const motionS = count > 0 ? startS[count - 1] + pieces.durationS[count - 1] : 0;
-  const runCount = count > 0 ? 1 : 0;
   const waitS = pen ? liftTiming(pen, pen.upPct).waitS : 0;
+  const runs = pieces.count > 0 ? 1 : 0;
   const heightPct = pen?.upPct ?? 0;
-  const lift = { beforeRun: runCount, up: true, startS: motionS, waitS, moveS: waitS, heightPct };
-  const trajectory: Trajectory = {
-    blockCount: count,
-    durationS: Float64Array.from(pieces.durationS),
-    x: Float64Array.from(pieces.x),
-    y: Float64Array.from(pieces.y),
-    vx: Float64Array.from(pieces.vx),
-    vy: Float64Array.from(pieces.vy),
-    ax: Float64Array.from(pieces.ax),
-    ay: Float64Array.from(pieces.ay),
+  const lift = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
+  const oneRun = (blocks: BlockColumns): Trajectory => ({
+    blockCount: blocks.count,
+    durationS: blocks.durationS,
+    x: blocks.x,
+    y: blocks.y,
+    vx: blocks.vx,
+    vy: blocks.vy,
+    ax: blocks.ax,
+    ay: blocks.ay,
     jx: null,
     jy: null,
-    startS,
-    alongMm: Float64Array.from(pieces.alongMm),
+    startS: blocks.startS,
+    alongMm: blocks.alongMm,
     runs: {
-      count: runCount,
-      firstBlock: runCount ? Uint32Array.of(0, count) : Uint32Array.of(0),
-      stroke: runCount ? Int32Array.of(stroke) : new Int32Array(0),
-      startS: new Float64Array(runCount),
+      count: runs,
+      firstBlock: runs ? Uint32Array.of(0, blocks.count) : Uint32Array.of(0),
+      stroke: runs ? Int32Array.of(stroke) : new Int32Array(0),
+      startS: new Float64Array(runs),
     },
     penMoves: penMoveColumns(pen ? [lift] : []),
-    totalS: motionS + waitS,
+    totalS: pieces.clockS + waitS,
     endX: end.x,
     endY: end.y,
-  };
-  return { trajectory, planS };
+  });
+  const trajectory = oneRun(pieces);
+  if (planned === undefined || runs === 0) return { trajectory, planS };
+  const before = oneRun(planned.rest);
+  fillAlong(trajectory, before, planned.kernel.meanDelayS);
+  return { trajectory: { ...trajectory, planned: { trajectory: before, kernel: planned.kernel } }, planS };
 }
 
 /** The block that is running at `tS`. */
@@ -266,16 +299,11 @@ function runOf(trajectory: Trajectory, block: number): number {
   return low;
 }
 
-const emptyPieces = (): Pieces => ({
-  durationS: [],
-  x: [],
-  y: [],
-  vx: [],
-  vy: [],
-  ax: [],
-  ay: [],
-  alongMm: [],
-});
+/** When a run's last block ends, s. */
+function endOfRun({ runs, startS, durationS, totalS }: Trajectory, run: number): number {
+  const last = runs.firstBlock[run + 1] - 1;
+  return last >= runs.firstBlock[run] ? startS[last] + durationS[last] : totalS;
+}
 
 const newState = (): MotionState => ({
   x: 0,

@@ -4,10 +4,10 @@
  *   impulses   u(t) = Σ Aᵢ q(t − tᵢ)              Σ Aᵢ = 1
  *   box        u(t) = 1/w ∫ q over [t − w, t]     = (Q(t) − Q(t − w)) / w        Q: the integral of q
  *
- * Both are a sum of taps: copies of the motion (or of its integral), each delayed and weighted. If the input
- * has constant acceleration per block, u has constant jerk between any two instants at which a tap passes the
- * end of a block. So the output consists of blocks again, exactly. It is longer than the input by the delay
- * of the last tap.
+ * Both are a sum of taps: copies of the motion (or of its integral), each delayed and weighted. x and y may
+ * have different weights. If the input has constant acceleration per block, u has constant acceleration
+ * (impulses) or constant jerk (box) between any two instants at which a tap passes the end of a block. So the
+ * output consists of blocks again, exactly. It is longer than the input by the delay of the last tap.
  *
  * With weights Aᵢ ≥ 0, as in a box, the output obeys every convex limit of the input: |v| ≤ V, |a| ≤ A. For a
  * box, the output's velocity is a difference of positions, its acceleration (v(t) − v(t − w))/w, and its jerk
@@ -20,7 +20,15 @@
 import type { BlockColumns } from "./block-columns.js";
 import type { RunEnd } from "./run-path.js";
 
-export interface Tap {
+/** A copy of the motion: its delay, and its weight in either axis. */
+interface Tap {
+  readonly delayS: number;
+  readonly x: number;
+  readonly y: number;
+}
+
+/** A copy of the motion of one axis. */
+export interface Impulse {
   readonly delayS: number;
   readonly weight: number;
 }
@@ -30,7 +38,7 @@ export interface Kernel {
   readonly taps: readonly Tap[];
   /** What the taps copy: the motion itself, or its integral over time. */
   readonly of: "motion" | "integral";
-  /** Mean delay of the output, s. */
+  /** Mean delay of the output, s; the same in both axes. */
   readonly meanDelayS: number;
   /** Delay of the last tap, s: how much longer the output is than the input. */
   readonly lengthS: number;
@@ -39,15 +47,39 @@ export interface Kernel {
 export function boxKernel(widthS: number): Kernel {
   const weight = 1 / widthS;
   const taps = [
-    { delayS: 0, weight },
-    { delayS: widthS, weight: -weight },
+    { delayS: 0, x: weight, y: weight },
+    { delayS: widthS, x: -weight, y: -weight },
   ];
   return { taps, of: "integral", meanDelayS: widthS / 2, lengthS: widthS };
 }
 
-export function impulseKernel(taps: readonly Tap[]): Kernel {
-  const meanDelayS = taps.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
-  return { taps, of: "motion", meanDelayS, lengthS: Math.max(...taps.map(({ delayS }) => delayS)) };
+/**
+ * Impulses for each axis. The axis with the shorter mean delay is delayed further, so that both have the same
+ * mean delay: otherwise straight lines would bend.
+ */
+export function impulseKernel(x: readonly Impulse[], y: readonly Impulse[]): Kernel {
+  const [meanX, meanY] = [meanDelayOf(x), meanDelayOf(y)];
+  const meanDelayS = Math.max(meanX, meanY);
+  const taps: Tap[] = [
+    ...x.map(({ delayS, weight }) => ({ delayS: delayS + meanDelayS - meanX, x: weight, y: 0 })),
+    ...y.map(({ delayS, weight }) => ({ delayS: delayS + meanDelayS - meanY, x: 0, y: weight })),
+  ];
+  const all = joined(taps);
+  return { taps: all, of: "motion", meanDelayS, lengthS: all[all.length - 1].delayS };
+}
+
+const meanDelayOf = (impulses: readonly Impulse[]): number =>
+  impulses.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
+
+/** Sorted by delay; taps of the same delay become one. */
+function joined(taps: readonly Tap[]): Tap[] {
+  const out: Tap[] = [];
+  for (const tap of [...taps].sort((a, b) => a.delayS - b.delayS)) {
+    const last = out[out.length - 1];
+    if (last === undefined || tap.delayS - last.delayS > SAME_S) out.push(tap);
+    else out[out.length - 1] = { delayS: last.delayS, x: last.x + tap.x, y: last.y + tap.y };
+  }
+  return out;
 }
 
 /** Block ends closer in time than this are treated as one, s. */
@@ -63,15 +95,17 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
   addRests(from, end);
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
   const { alongMm } = from;
-  const { rate, change } = alongRates(from, count);
+  const isIntegral = kernel.of === "integral";
+  // Of impulses the place along the drawing is set later (shaped-along.ts).
+  const { rate, change } = isIntegral ? alongRates(from, count) : NO_RATES;
   // Position of each tap in the input: its block, the seconds since the start of that block, and the seconds
   // left in it.
   const n = taps.length;
-  const weights = Float64Array.from(taps, ({ weight }) => weight);
-  const block = Int32Array.from(taps, ({ delayS }) => (delayS > 0 ? count + 1 : 0));
-  const since = new Float64Array(n);
-  const left = Float64Array.from(taps, ({ delayS }) => (delayS > 0 ? delayS : durationS[0]));
-  const isIntegral = kernel.of === "integral";
+  const weightsX = taps.map(({ x }) => x);
+  const weightsY = taps.map(({ y }) => y);
+  const block = taps.map(({ delayS }) => (delayS > 0 ? count + 1 : 0));
+  const since = taps.map(() => 0);
+  const left = taps.map(({ delayS }) => (delayS > 0 ? delayS : durationS[0]));
   let x = px[0];
   let y = py[0];
   let along = from.alongMm[0];
@@ -92,34 +126,36 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, kernel: Kernel, o
     let alongV = 0;
     let alongA = 0;
     let alongJ = 0;
+    if (!isIntegral) x = y = 0;
     for (let i = 0; i < n; i++) {
       const k = block[i];
       const t = since[i];
-      const weight = weights[i];
+      const weightX = weightsX[i];
+      const weightY = weightsY[i];
       const ax1 = pax[k];
       const ay1 = pay[k];
       const vx1 = pvx[k] + t * ax1;
       const vy1 = pvy[k] + t * ay1;
-      const alongV1 = rate[k] + t * change[k];
       if (isIntegral) {
+        const alongV1 = rate[k] + t * change[k];
         // The weights sum to zero, so positions are taken relative to the output's position: this keeps
         // precision far from the origin.
-        vx += weight * (px[k] - x + (t * (pvx[k] + vx1)) / 2);
-        vy += weight * (py[k] - y + (t * (pvy[k] + vy1)) / 2);
-        ax += weight * vx1;
-        ay += weight * vy1;
-        jx += weight * ax1;
-        jy += weight * ay1;
-        alongV += weight * (alongMm[k] - along + (t * (rate[k] + alongV1)) / 2);
-        alongA += weight * alongV1;
-        alongJ += weight * change[k];
+        vx += weightX * (px[k] - x + (t * (pvx[k] + vx1)) / 2);
+        vy += weightY * (py[k] - y + (t * (pvy[k] + vy1)) / 2);
+        ax += weightX * vx1;
+        ay += weightY * vy1;
+        jx += weightX * ax1;
+        jy += weightY * ay1;
+        alongV += weightX * (alongMm[k] - along + (t * (rate[k] + alongV1)) / 2);
+        alongA += weightX * alongV1;
+        alongJ += weightX * change[k];
       } else {
-        vx += weight * vx1;
-        vy += weight * vy1;
-        ax += weight * ax1;
-        ay += weight * ay1;
-        alongV += weight * alongV1;
-        alongA += weight * change[k];
+        x += weightX * (px[k] + (t * (pvx[k] + vx1)) / 2);
+        y += weightY * (py[k] + (t * (pvy[k] + vy1)) / 2);
+        vx += weightX * vx1;
+        vy += weightY * vy1;
+        ax += weightX * ax1;
+        ay += weightY * ay1;
       }
     }
     if (isOneBlock) {
@@ -158,6 +194,8 @@ function addRests(from: BlockColumns, end: RunEnd): void {
   from.push(Infinity, end.x, end.y, 0, 0, 0, 0, end.alongMm);
   from.push(Infinity, x0, y0, 0, 0, 0, 0, along0);
 }
+
+const NO_RATES = { rate: new Float64Array(0), change: new Float64Array(0) };
 
 /** Speed along the drawing's own line at the start of each block, mm/s, and its rate of change, mm/s². */
 function alongRates(

@@ -27,7 +27,7 @@ const STEP_RATE_SHARE = 0.98;
 /**
  * On a mixed machine (H-bot, CoreXY) each motor moves |x ± y|: up to √2 times the carriage's acceleration.
  * The motor's acceleration limit therefore holds in every direction if A ≤ limit/√2. Its speed limit is
- * applied per direction in `capSegments`.
+ * applied per direction in `capSegments`. A shaped motion keeps A in each axis, so the motor may get 2 A.
  */
 export function runLimits(
   limits: MotionLimits,
@@ -36,10 +36,11 @@ export function runLimits(
 ): RunLimits {
   const { motorAccelStepsPerS2, ease } = motion;
   const mixed = machine?.motors === "mixed";
+  const perMotor = !mixed ? 1 : (motion.shaper ?? "none") === "none" ? Math.SQRT2 : 2;
   const motorAccel = machine && motorAccelStepsPerS2 ? motorAccelStepsPerS2 / machine.stepsPerMm : Infinity;
   return {
     speed: limits.speedMmPerS,
-    accel: Math.min(limits.accelMmPerS2, mixed ? motorAccel / Math.SQRT2 : motorAccel),
+    accel: Math.min(limits.accelMmPerS2, motorAccel / perMotor),
     jerk: limits.jerkMmPerS3,
     corner: limits.cornerMm,
     motorSpeed: machine ? (STEP_RATE_SHARE * TICKS_PER_S) / machine.stepsPerMm : Infinity,
@@ -47,6 +48,15 @@ export function runLimits(
     easeSpeed: ease ? ease.speedMmPerS : Infinity,
   };
 }
+
+/**
+ * The limits for planning a line that is then shaped. Its shaped motion keeps V in each axis, so on a mixed machine a
+ * motor may get 2 V. A straight keeps its direction, and with it the limit of `capSegments`.
+ */
+export const shapedLimits = (path: RunPath, limits: RunLimits): RunLimits =>
+  limits.mixed && path.segmentCount > 1
+    ? { ...limits, speed: Math.min(limits.speed, limits.motorSpeed / 2) }
+    : limits;
 
 /** The limits of one layer's strokes. */
 export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLimits {

@@ -31,6 +31,9 @@ const STRETCH = 0.012;
 /** Longest pair, s: the position along the drawing is only interpolated inside a block. */
 const LONGEST_S = 0.6;
 
+/** A deviation that lasts for less than this is too quick to make a gantry of 10 to 40 Hz swing, s. */
+const SHORT_S = 0.024;
+
 /** Factor from one trial length to the next. */
 const GROWTH = 1.25;
 
@@ -40,10 +43,14 @@ const FIRST_GROUP = 8;
 export interface MergeRules {
   /** ε, mm. */
   readonly toleranceMm: number;
+  /** ε of pairs shorter than SHORT_S, mm. */
+  readonly shortToleranceMm: number;
   /** s. */
   readonly floorS: number;
-  /** False if velocity jumps at vertices (`junction`): a pair must then match the plan at equal times. */
+  /** False if a pair must match the plan at equal times: velocity jumps at vertices, or the motion is shaped. */
   readonly isSmooth: boolean;
+  /** Each axis obeys the limits, instead of both together; and no pair may take longer than its blocks. */
+  readonly isShaped: boolean;
 }
 
 /**
@@ -75,7 +82,7 @@ export function mergeBlocks(
   while (i < last) {
     const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
     if (pair === null) {
-      blocks.moveToEnd(i);
+      blocks.pushFrom(blocks, i);
       size = Math.max(MIN_GROUP, size >> 1);
       i += 1;
     } else {
@@ -128,7 +135,8 @@ function pairOver(
   if (!isWorth(blocks, i, m, rules.floorS)) return null;
   const plannedS = blocks.startS[m] - blocks.startS[i];
   const pair =
-    pairIn(plannedS, blocks, i, m, limits) ?? pairIn(plannedS * (1 + STRETCH), blocks, i, m, limits);
+    pairIn(plannedS, blocks, i, m, limits, rules) ??
+    (rules.isShaped ? null : pairIn(plannedS * (1 + STRETCH), blocks, i, m, limits, rules));
   return pair !== null && isNear(blocks, i, pair, limits, rules) ? pair : null;
 }
 
@@ -136,7 +144,14 @@ function pairOver(
  * The pair that takes `wholeS` seconds. Null if V, A or a motor limit is broken, or if a half reverses
  * direction (the position along the drawing is interpolated by speed).
  */
-function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limits: RunLimits): Pair | null {
+function pairIn(
+  wholeS: number,
+  blocks: BlockColumns,
+  i: number,
+  m: number,
+  limits: RunLimits,
+  { isShaped }: MergeRules,
+): Pair | null {
   const { x, y, vx, vy } = blocks;
   const vx0 = vx[i];
   const vy0 = vy[i];
@@ -146,6 +161,7 @@ function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limi
   const wy = (2 * (y[m] - y[i])) / wholeS - (vy0 + vy1) / 2;
   const halfS = wholeS / 2;
   const maxChange = limits.accel * SLACK * halfS;
+  const isShorter = isShaped ? areShorter : isVectorShorter;
   const isWithin =
     isShorter(wx - vx0, wy - vy0, maxChange) &&
     isShorter(vx1 - wx, vy1 - wy, maxChange) &&
@@ -156,8 +172,11 @@ function pairIn(wholeS: number, blocks: BlockColumns, i: number, m: number, limi
   return isWithin ? { end: m, halfS, wx, wy } : null;
 }
 
-const isShorter = (x: number, y: number, maxLength: number): boolean =>
+const isVectorShorter = (x: number, y: number, maxLength: number): boolean =>
   x * x + y * y <= maxLength * maxLength;
+
+const areShorter = (x: number, y: number, maxLength: number): boolean =>
+  Math.abs(x) <= maxLength && Math.abs(y) <= maxLength;
 
 /**
  * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.
@@ -182,7 +201,7 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
   const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
   const { end: m, halfS, wx, wy } = pair;
   const { accel } = limits;
-  const tolerance = rules.toleranceMm;
+  const tolerance = 2 * pair.halfS < SHORT_S ? rules.shortToleranceMm : rules.toleranceMm;
   const x0 = x[i];
   const y0 = y[i];
   const vx0 = vx[i];

@@ -11,6 +11,9 @@
  * The servo needs the lift and drop times for the whole way between the down and up heights, and moves evenly. It moves
  * in frames: it starts up to one frame after the command. The carriage counts as arrived within `NEAR_MM` of the stroke.
  *
+ * A shaped travel is a weighted mean of copies of the planned one, the last of which ends with it. So it is never farther
+ * from the stroke than the planned one is at the same time before its end, and needs no rule of its own.
+ *
  * "safe" trusts the tip to be clear at the hop height only; "fast" at the contact height itself.
  */
 import type { PenSettings } from "../settings/pen.js";

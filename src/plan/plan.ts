@@ -12,12 +12,15 @@ import { pointCount, settingsIdOf, strokeCount, type StrokeSet } from "../drawin
 import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
+import type { Kernel } from "./filter.js";
 import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
 import { dropTiming, liftTiming, penOfLayer } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter, type WritesRuns } from "./run-writer.js";
+import { fillAlong } from "./shaped-along.js";
+import { shaperKernel } from "./shapers.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
@@ -68,7 +71,7 @@ export function plan(
   pen: PenSettings = DEFAULT_PEN,
   options: PlanOptions = {},
 ): Trajectory {
-  checkSettings(motion, pen);
+  checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
@@ -95,7 +98,7 @@ export function planTravel(
   pen: PenSettings,
   machine?: MachineProfile,
 ): Trajectory {
-  checkSettings(motion, pen);
+  checkSettings(motion, pen, machine);
   const builder = new PlanBuilder(NO_STROKES, motion, pen, machine, from[0], from[1]);
   builder.travel(to[0], to[1]);
   return builder.finish();
@@ -110,6 +113,11 @@ const NO_STROKES: StrokeSet = {
 
 class PlanBuilder {
   private readonly blocks: BlockColumns;
+  /** Null: nothing is shaped. */
+  private readonly shaper: Kernel | null;
+  /** The motion before the shaper, if there is one. */
+  private readonly planned: BlockColumns;
+  private readonly plannedFirst: Uint32Array;
   private readonly path = new RunPath();
   private readonly hop = new RunPath();
   private readonly writer: WritesRuns;
@@ -162,8 +170,13 @@ class PlanBuilder {
     this.runStartS = new Float64Array(2 * count + 1);
     this.penMoves = new PenMoveWriter(4 * count + 2);
     // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
-    this.blocks = new BlockColumns(pointCount(strokes) + 1, motion.mode === "scurve");
-    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null);
+    // A controller that plans by itself is not shaped.
+    this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
+    const segments = pointCount(strokes) + 1;
+    this.blocks = new BlockColumns(segments, motion.mode === "scurve");
+    this.planned = new BlockColumns(segments, false);
+    this.plannedFirst = new Uint32Array(this.shaper ? 2 * count + 2 : 0);
+    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null, this.shaper);
   }
 
   /**
@@ -190,7 +203,7 @@ class PlanBuilder {
     this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
-    this.writer.write(path, this.drawLimits[layer], this.blocks);
+    this.writer.write(path, this.drawLimits[layer], this.blocks, this.planned);
     this.x = path.x[path.segmentCount]!;
     this.y = path.y[path.segmentCount]!;
   }
@@ -199,7 +212,7 @@ class PlanBuilder {
     if (Math.hypot(x - this.x, y - this.y) < SHORTEST_MM) return;
     this.beginRun(-1);
     this.hop.setLine(this.x, this.y, x, y);
-    this.writer.write(this.hop, this.travelLimits, this.blocks);
+    this.writer.write(this.hop, this.travelLimits, this.blocks, this.planned);
     this.x = x;
     this.y = y;
   }
@@ -253,14 +266,24 @@ class PlanBuilder {
   private beginRun(stroke: number): void {
     const run = this.runCount++;
     this.firstBlock[run] = this.blocks.count;
+    this.plannedFirst[run] = this.planned.count;
     this.runStroke[run] = stroke;
     this.runStartS[run] = this.blocks.clockS;
   }
 
   finish(): Trajectory {
-    const { blocks, penMoves, runCount } = this;
+    const { shaper, planned } = this;
+    const trajectory = this.trajectoryOf(this.blocks, this.firstBlock);
+    if (shaper === null) return trajectory;
+    const before = this.trajectoryOf(planned, this.plannedFirst);
+    fillAlong(trajectory, before, shaper.meanDelayS);
+    return { ...trajectory, planned: { trajectory: before, kernel: shaper } };
+  }
+
+  private trajectoryOf(blocks: BlockColumns, firstBlock: Uint32Array): Trajectory {
+    const { penMoves, runCount } = this;
     blocks.trim();
-    this.firstBlock[runCount] = blocks.count;
+    firstBlock[runCount] = blocks.count;
     return {
       blockCount: blocks.count,
       durationS: blocks.durationS,
@@ -276,12 +299,12 @@ class PlanBuilder {
       alongMm: blocks.alongMm,
       runs: {
         count: runCount,
-        firstBlock: this.firstBlock.slice(0, runCount + 1),
+        firstBlock: firstBlock.slice(0, runCount + 1),
         stroke: this.runStroke.slice(0, runCount),
         startS: this.runStartS.slice(0, runCount),
       },
       penMoves: penMoves.finish(),
-      totalS: blocks.clockS,
+      totalS: this.blocks.clockS,
       endX: this.x,
       endY: this.y,
     };

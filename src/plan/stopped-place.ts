@@ -18,6 +18,8 @@ const NEAR_MM = 0.08;
 
 /** So near to a stroke's start the pen may have begun to come down, mm (see `pen-flight.ts`), and rounding. */
 const LANDING_MM = 0.15;
+/** How far the carriage may stand beside the drawing: `leavesMm` by shaping (shapers.ts), and by all else. */
+const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
 export interface PenPlace {
   readonly x: number;
@@ -35,7 +37,9 @@ export function stoppedPlace(
   pen: PenPlace,
   aheadMm: number,
   stops: readonly number[] = [],
+  leavesMm = 0,
 ): Place {
+  const nearMm = nearMmOf(leavesMm);
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
   // At home without a stroke drawn since: it may as well not have set out yet.
@@ -44,7 +48,7 @@ export function stoppedPlace(
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
     if (!pen.up) {
-      const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y);
+      const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y, nearMm);
       if (alongMm !== null) return { stroke, alongMm };
     }
     const lengthMm = strokeLengthMm(strokes, stroke);
@@ -53,15 +57,15 @@ export function stoppedPlace(
     const isLast = stroke + 1 === count;
     if (pen.up && hasSetOut && (isLast || stops.includes(stroke + 1))) {
       const { awayMm } = nearest(xy[end], xy[end + 1], 0, 0, pen.x, pen.y);
-      if (awayMm <= NEAR_MM)
+      if (awayMm <= nearMm)
         return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
     const landsAtMm = Math.hypot(xy[next] - pen.x, xy[next + 1] - pen.y);
-    const isOnNext = !pen.up && alongOf(strokes, stroke + 1, 0, pen.x, pen.y) !== null;
+    const isOnNext = !pen.up && alongOf(strokes, stroke + 1, 0, pen.x, pen.y, nearMm) !== null;
     if (!pen.up && !isOnNext && landsAtMm <= LANDING_MM) return { stroke: stroke + 1, alongMm: 0 };
     const travel = [xy[end], xy[end + 1], xy[next], xy[next + 1]] as const;
-    if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= NEAR_MM)
+    if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= nearMm)
       return { stroke: stroke + 1, alongMm: 0 };
     leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
   }
@@ -78,10 +82,11 @@ export function placeBehindSent(
   sent: Place,
   pen: PenPlace,
   aheadMm: number,
+  leavesMm = 0,
 ): Place | null {
   if (pen.up) return null;
-  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - NEAR_MM) };
-  const found = stoppedPlace(strokes, fromHere, pen, aheadMm);
+  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - nearMmOf(leavesMm)) };
+  const found = stoppedPlace(strokes, fromHere, pen, aheadMm, [], leavesMm);
   return found === fromHere ? null : found;
 }
 
@@ -92,10 +97,11 @@ function alongOf(
   fromMm: number,
   x: number,
   y: number,
+  nearMm: number,
 ): number | null {
   let startMm = 0;
   let passMm: number | null = null;
-  let gapMm = NEAR_MM;
+  let gapMm = nearMm;
   const last = offsets[stroke + 1] - 1;
   // A dot is a piece of no length.
   for (let i = offsets[stroke]; i < Math.max(last, offsets[stroke] + 1); i++) {
@@ -103,7 +109,7 @@ function alongOf(
     const piece = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]] as const;
     const lengthMm = Math.hypot(piece[2] - piece[0], piece[3] - piece[1]);
     const { share, awayMm } = nearest(...piece, x, y);
-    const isAfter = startMm + share * lengthMm >= fromMm - NEAR_MM;
+    const isAfter = startMm + share * lengthMm >= fromMm - nearMm;
     if (isAfter && awayMm <= gapMm) {
       passMm = startMm + share * lengthMm;
       gapMm = awayMm;

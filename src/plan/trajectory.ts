@@ -1,3 +1,5 @@
+import type { Kernel } from "./filter.js";
+
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.
  *
@@ -40,6 +42,16 @@ export interface Trajectory {
   /** End position, mm. */
   readonly endX: number;
   readonly endY: number;
+  /**
+   * The motion before shaping, if it is shaped: the same runs, whose blocks begin at the same time or a little earlier.
+   * The pen is where this motion was one mean delay ago, as far as its swinging is kept out.
+   */
+  readonly planned?: PlannedMotion | null | undefined;
+}
+
+export interface PlannedMotion {
+  readonly trajectory: Trajectory;
+  readonly kernel: Kernel;
 }
 
 /** The runs of a trajectory, as columns. */
@@ -132,7 +144,30 @@ export function stateAt(
   }
   const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
   out.stroke = runs.stroke[run]!;
-  return blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
+  blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
+  if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
+  return out;
+}
+
+/** Where on the drawing the pen is at `tS`, during a run: where the planned motion was one mean delay ago. */
+function plannedAlong({ trajectory, kernel }: PlannedMotion, run: number, tS: number): number {
+  const plannedS = tS - kernel.meanDelayS;
+  const { firstBlock } = trajectory.runs;
+  const [first, end] = [firstBlock[run], firstBlock[run + 1]];
+  const k = Math.max(first, first + lastNotAfter(plannedS, end - first, (i) => trajectory.startS[first + i]));
+  return blockAlong(trajectory, k, Math.min(trajectory.durationS[k], plannedS - trajectory.startS[k]));
+}
+
+/**
+ * The point of the line that the pen is on, where `stateAt` gives the carriage's: a shaped motion leaves the line to
+ * keep the pen on it.
+ */
+export function drawnAt(trajectory: Trajectory, tS: number): MotionState {
+  const state = stateAt(trajectory, tS);
+  if (!trajectory.planned || state.stroke < 0) return state;
+  const { planned } = trajectory;
+  const { x, y, vx, vy } = stateAt(planned.trajectory, tS - planned.kernel.meanDelayS);
+  return { ...state, x, y, vx, vy };
 }
 
 /** Position, velocity and acceleration `t` seconds into block `k`; 0 ≤ t ≤ its duration. */
@@ -149,12 +184,12 @@ export function blockState(trajectory: Trajectory, k: number, t: number, out: Mo
   out.vy = vy + t * (ay + (t * jy) / 2);
   out.ax = ax + t * jx;
   out.ay = ay + t * jy;
-  out.alongMm = alongAt(trajectory, k, t);
+  out.alongMm = blockAlong(trajectory, k, t);
   return out;
 }
 
 /** mm along the source polyline, interpolated by the length of the block covered so far. */
-function alongAt(trajectory: Trajectory, k: number, t: number): number {
+export function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k];
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;

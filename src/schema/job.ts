@@ -7,6 +7,7 @@ import { plotSettingsSchema } from "./settings.js";
  *     ^                │  ^  └──> failed           board or server lost during the plot:
  *     │        pause   v  │ resume                 plotting, paused ──> interrupted ──recover──> paused
  *     └─(requeue)─── paused ──cancel──> cancelled                          at the place it had reached
+ *                       ^──recover (if part of it is drawn)──┘
  */
 export const JOB_STATES = [
   "queued",
@@ -69,7 +70,7 @@ export const jobSchema = z.object({
   remainingS: z.number().nullable(),
   /** What is happening or what went wrong, for the user; null if there is nothing to report. */
   message: z.string().nullable(),
-  /** Where it resumes when held or interrupted; null if it starts at the beginning, or is plotting. */
+  /** Where it resumes when held, interrupted or cancelled; null if it starts at the beginning, or is plotting. */
   place: jobPlaceSchema.nullable().default(null),
   /** Percent of the set speeds, changed while plotting. */
   speedPct: z.number().default(100),

@@ -3,6 +3,7 @@ import { z } from "zod";
 import { nameSchema } from "./name.js";
 import { CONTROLLER_TABLES, INPUT_PORTS, type Controller } from "../machines/controllers.js";
 import type { MachineProfile } from "../machines/profile.js";
+import { SPRINGS_TABLE } from "../settings/springs.js";
 import { shapeOf } from "./setting.js";
 
 const switchInputSchema = z.object({
@@ -47,6 +48,7 @@ const profileShape = {
   flipX: z.boolean().optional(),
   flipY: z.boolean().optional(),
   swapAxes: z.boolean().optional(),
+  springs: z.object(shapeOf(SPRINGS_TABLE)).nullable().optional(),
   controller: controllerSchema,
 };
 

@@ -7,6 +7,7 @@ import {
   FIT_TABLE,
   MOTION_TABLE,
   MOTOR_ACCEL,
+  SHAPERS,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -85,6 +86,7 @@ export const prepareSettingsSchema = z.object({
 
 export const motionSettingsSchema = z.object({
   ...shapeWithDefaults(MOTION_TABLE),
+  shaper: z.enum(SHAPERS).optional(),
   draw: z.object(shapeWithDefaults(DRAW_TABLE)),
   travel: z.object(shapeWithDefaults(TRAVEL_TABLE)),
   fit: z.object(shapeWithDefaults(FIT_TABLE)).nullable().optional(),

@@ -4,6 +4,10 @@ import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } fro
 export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
 export type MotionMode = (typeof MOTION_MODES)[number];
 
+/** How the swinging of the machine is kept out of the line (src/plan/shapers.ts). */
+export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
+export type Shaper = (typeof SHAPERS)[number];
+
 const speed = {
   kind: "number",
   label: "Speed",
@@ -114,6 +118,14 @@ export const MOTION_TABLE = {
     default: "blend",
     choices: MOTION_MODES,
   },
+  shaper: {
+    kind: "choice",
+    label: "Against swinging",
+    about: "how the machine's swinging is kept out of the line; needs its measured frequencies",
+    flag: "--shaper",
+    default: "none",
+    choices: SHAPERS,
+  },
 } as const satisfies SettingsTable;
 
 export const FIT_TABLE = {
@@ -178,7 +190,11 @@ export const MOTOR_ACCEL = {
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
 
 /** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
-export interface MotionSettings extends ValuesOf<typeof MOTION_TABLE> {
+export interface MotionSettings {
+  /** How corners are taken. */
+  readonly mode: MotionMode;
+  /** How the machine's swinging is kept out of the line; default none. Another one needs the machine's springs. */
+  readonly shaper?: Shaper | undefined;
   /** Limits with the pen down. */
   readonly draw: MotionLimits;
   /** Limits with the pen up. */

@@ -2,6 +2,8 @@
 import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
 import { OVERLAP_TABLE, PEN_TABLE } from "./pen.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
+import { QUALITY_TABLE } from "./quality.js";
+import { SPRINGS_TABLE } from "./springs.js";
 import { STREAM_TABLE } from "./stream.js";
 import { rangeInWords, type Setting, type SettingsTable } from "./setting.js";
 
@@ -15,18 +17,35 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   "": STREAM_TABLE,
 };
 
+/** What is not in a job's settings: the machine's springs, and the choice that sets several settings. */
+export const SPRINGS_PATH = "springs";
+export const QUALITY_PATH = "quality";
+const OTHER_TABLES: Readonly<Record<string, { table: SettingsTable; otherwise: string }>> = {
+  [SPRINGS_PATH]: { table: SPRINGS_TABLE, otherwise: "as measured" },
+  "": { table: QUALITY_TABLE, otherwise: "each setting by itself" },
+};
+
 export interface SettingFlag {
   /** Path in the settings: "prepare.marginMm". */
   readonly path: string;
   readonly flag: string;
   readonly row: Setting;
+  /** What applies without the flag; left out: the row's default. */
+  readonly otherwise?: string;
 }
 
-export const SETTING_FLAGS: readonly SettingFlag[] = Object.entries(SETTINGS_TABLES).flatMap(([at, table]) =>
-  Object.entries(table).flatMap(([key, row]) =>
+function flagsIn(at: string, table: SettingsTable): SettingFlag[] {
+  return Object.entries(table).flatMap(([key, row]) =>
     row.flag === undefined ? [] : [{ path: at === "" ? key : `${at}.${key}`, flag: row.flag, row }],
+  );
+}
+
+export const SETTING_FLAGS: readonly SettingFlag[] = [
+  ...Object.entries(SETTINGS_TABLES).flatMap(([at, table]) => flagsIn(at, table)),
+  ...Object.entries(OTHER_TABLES).flatMap(([at, { table, otherwise }]) =>
+    flagsIn(at, table).map((flag) => ({ ...flag, otherwise })),
   ),
-);
+];
 
 /** "--margin <mm>", "--order <none|fast|best>", "--fit". */
 export function flagInWords({ flag, row }: SettingFlag): string {
@@ -36,10 +55,10 @@ export function flagInWords({ flag, row }: SettingFlag): string {
 }
 
 /** "0 to 1000 mm, default 15"; for a choice or a switch only the default. */
-export function valuesInWords({ row }: SettingFlag): string {
+export function valuesInWords({ row, otherwise }: SettingFlag): string {
   if (row.kind === "switch") return `default ${row.default ? "on" : "off"}`;
-  if (row.kind === "choice") return `default ${row.default}`;
-  return `${rangeInWords(row)}, default ${row.default}`;
+  if (row.kind === "choice") return `default ${otherwise ?? row.default}`;
+  return `${rangeInWords(row)}, default ${otherwise ?? row.default}`;
 }
 
 const UNIT_WORDS: Readonly<Record<string, string>> = { "": "count", "°": "degrees", "%": "percent" };

@@ -45,6 +45,7 @@ function additionsOf(command: string): string[] {
   const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
   switch (command) {
     case "plan":
+    case "ringing":
     case "devices":
     case "service":
       return [];
@@ -98,8 +99,18 @@ const VALUES: Readonly<Record<string, string>> = {
   "--pty": "plotter",
   "--margins": "5,1cm,5,1in",
   "--place": "20,20,50,50",
+  "--spring-x": "15",
+  "--spring-y": "25",
+  "--damping": "0.1",
   "--pen-up": "70",
   "--send-ahead-ms": "200",
+};
+/** Options that only make sense with others: how a machine swings is two frequencies. */
+const WITH: Readonly<Record<string, readonly string[]>> = {
+  "--spring-x": ["--spring-y", "25"],
+  "--spring-y": ["--spring-x", "15"],
+  "--damping": ["--spring-x", "15", "--spring-y", "25"],
+  "--quality": ["--spring-x", "15", "--spring-y", "25"],
 };
 const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   plan: ["drawing.svg"],
@@ -144,6 +155,7 @@ describe("each option in docs/cli.md", () => {
       "wide.svg",
       flag,
       ...(option.required ? [value] : []),
+      ...(WITH[flag] ?? []),
     );
     expect([err, code]).toEqual([expect.any(String), 0]);
   });

@@ -6,8 +6,10 @@ import { launchBrowser } from "../support/browser.js";
 import {
   chooseSample,
   dropFile,
+  openView,
   plotBar,
   queuePanel,
+  statusCard,
   waitForPlan,
   waitForSamples,
 } from "../support/page-actions.js";
@@ -127,7 +129,11 @@ describe("axe finds nothing serious, light and dark", () => {
     await queuePanel(page)
       .getByRole("button", { name: /^Start / })
       .click();
+    await statusCard(page).getByRole("progressbar").waitFor();
     await queuePanel(page).getByRole("progressbar").waitFor();
+    await statusCard(page).getByText("done", { exact: false }).first().waitFor();
+    expect(await seriousFindings(page)).toEqual([]);
+    await openView(page, "Prepare");
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await dropFile(page, "torn.svg", "<svg><path");
     await page.getByText(/torn/).first().waitFor();

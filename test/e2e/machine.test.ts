@@ -9,9 +9,11 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
+  openView,
   openTab,
   plotBar,
   queuePanel,
+  statusCard,
   waitForPlan,
 } from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
@@ -111,9 +113,9 @@ describe("moving by hand", () => {
     await page.getByText("commands typed in between would spoil it").waitFor();
     expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
     await page.keyboard.press("Escape");
-    await button("Cancel", queuePanel(page)).click();
+    await button("Cancel", statusCard(page)).click();
     await button("Cancel the plot", page.getByRole("alertdialog")).click();
-    await historyPanel(page).getByText("Cancelled").waitFor();
+    await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
   });
 });
 
@@ -186,6 +188,7 @@ describe("setting a plotter up", () => {
     const sent = page.waitForRequest(
       (request) => request.method() === "POST" && request.url().endsWith("/jobs"),
     );
+    await openView(page, "Prepare");
     await waitForPlan(page);
     await button("Add to queue", plotBar(page)).click();
     const body = (await sent).postDataJSON() as { settings: { customMachine: MachineProfile | null } };

@@ -7,8 +7,10 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
+  openView,
   plotBar,
   queuePanel,
+  statusCard,
   waitForPlan,
 } from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
@@ -33,7 +35,7 @@ beforeAll(async () => {
   const [operatePath, watchPath] = await vi.waitFor(linksSaid, { timeout: 60_000 });
   anna = await pairedPage(operatePath);
   ben = await pairedPage(operatePath);
-  watcher = await pairedPage(watchPath);
+  watcher = await pairedPage(watchPath, false);
 });
 
 afterAll(async () => {
@@ -42,12 +44,14 @@ afterAll(async () => {
   data.remove();
 });
 
-async function pairedPage(path: string): Promise<Page> {
+/** A watcher has nothing to lay out. */
+async function pairedPage(path: string, laysOut = true): Promise<Page> {
   const context: BrowserContext = await browser.newContext({ viewport: VIEWPORT });
   const page = await context.newPage();
   await page.goto(`${server.url}${path}`);
   await page.waitForURL(`${server.url}/`);
-  await chooseSample(page);
+  if (laysOut) await chooseSample(page);
+  else await statusCard(page).getByText("Nothing is being plotted").waitFor();
   return page;
 }
 
@@ -110,13 +114,17 @@ describe("two browsers and a watcher", () => {
     }
   });
 
-  it("the watcher sees who operates, may stop the plot, and can change nothing", async () => {
+  it("the watcher sees the plot and who operates, may stop it, and has nothing to change", async () => {
     await watcher.getByText("this device watches").waitFor();
-    expect(await plotButton(watcher).isDisabled()).toBe(true);
+    expect(await plotButton(watcher).count()).toBe(0);
+    expect(await watcher.getByLabel("Choose a drawing").isVisible()).toBe(false);
+    expect(await watcher.getByRole("button", { name: "Prepare" }).count()).toBe(0);
+    expect(await statusCard(watcher).innerText()).toMatch(/lines.*left.*%/s);
+    await queuePanel(watcher).locator(".thumb img").first().waitFor();
     for (const name of [/^Start /, /^Remove /, "Resume", "Pen up", "Home"]) {
       expect(await watcher.getByRole("button", { name }).count()).toBe(0);
     }
-    await queuePanel(watcher).getByRole("button", { name: "Stop at once" }).waitFor();
+    await statusCard(watcher).getByRole("button", { name: "Emergency stop" }).waitFor();
     const statuses = await watcher.evaluate(async () => {
       const { jobs } = (await (await fetch("/api/v1/state")).json()) as { jobs: { id: string }[] };
       const ask = async (method: string, path: string, body?: unknown): Promise<number> =>
@@ -139,9 +147,20 @@ describe("two browsers and a watcher", () => {
   });
 
   it("one operates until the other takes over", async () => {
-    await ben.getByText("is operating.").waitFor();
+    for (const page of [anna, ben]) await openView(page, "Prepare");
+    await ben.getByText(/^\S+ on .* is operating\.$/).waitFor();
     expect(await plotButton(ben).isDisabled()).toBe(true);
-    await ben.getByRole("button", { name: "Take over" }).click();
+    // A button that only the operator may press asks, instead of failing.
+    const question = ben.getByRole("dialog", { name: "Another browser operates" });
+    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
+    await question.getByRole("button", { name: "Leave it" }).click();
+    expect(await ben.getByRole("alert").count()).toBe(0);
+    await ben.getByText("is operating.").waitFor();
+    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
+    await question.getByRole("button", { name: "Take over" }).click();
+    await queuePanel(ben).getByRole("radio", { name: "Run on" }).and(ben.locator(":checked")).waitFor();
+    await anna.getByText(/^\S+ \d on .* is operating\.$/).waitFor();
+    await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
     expect(await plotButton(anna).isDisabled()).toBe(true);
     await plotButton(ben).and(ben.locator(":enabled")).waitFor();
@@ -150,6 +169,10 @@ describe("two browsers and a watcher", () => {
   it("one that was offline comes back to what has become of the plot", async () => {
     await anna.context().setOffline(true);
     await anna.getByText("server can’t be reached").first().waitFor();
+    await queuePanel(anna)
+      .getByText(/last seen \d+/)
+      .waitFor();
+    expect(await queuePanel(anna).getByRole("button", { name: "Pause" }).isDisabled()).toBe(true);
     await queuePanel(ben).getByRole("button", { name: "Pause" }).click();
     await queuePanel(ben).getByRole("button", { name: "Resume" }).waitFor();
     expect(await queuePanel(anna).getByText("Paused").count()).toBe(0);
@@ -164,7 +187,15 @@ describe("two browsers and a watcher", () => {
   it("anybody may stop it", async () => {
     await queuePanel(anna).getByRole("button", { name: "Cancel" }).click();
     await queuePanel(anna).getByRole("alertdialog").getByRole("button", { name: "Cancel" }).click();
-    for (const page of pages()) await historyPanel(page).getByText("Cancelled").waitFor();
+    for (const page of pages()) await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
+  });
+
+  it("a device that is not paired is told how to be", async () => {
+    const page = await browser.newPage({ viewport: VIEWPORT });
+    await page.goto(server.url);
+    await page.getByRole("heading", { name: "Pair this device" }).waitFor();
+    expect(await page.getByText("can’t be reached").count()).toBe(0);
+    await page.close();
   });
 
   it("the page opens without the server, and says so", async () => {

@@ -14,7 +14,8 @@ const event: fc.Arbitrary<JobEvent> = fc.constantFrom<JobEvent>(
   { type: "fail", message: "The board went away." },
   { type: "interrupt", message: "The server stopped.", place: { strokeIndex: 2, alongMm: 3 } },
   { type: "recover" },
-  { type: "cancel" },
+  { type: "cancel", place: null },
+  { type: "cancel", place: { strokeIndex: 1, alongMm: 4 } },
   { type: "requeue" },
 );
 

@@ -207,6 +207,31 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
+  it("takes a cancelled job up from where it was cancelled, held", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const first = await plotter.nextRun();
+    await settled();
+    first.record({ place: { stroke: 7, alongMm: 1.25 } });
+    queue.cancel(id);
+    first.end({ kind: "cancelled" });
+    await settled();
+    const cancelled = queue.get(id);
+    expect(cancelled).toMatchObject({ state: "cancelled", place: { strokeIndex: 7, alongMm: 1.25 } });
+    expect(cancelled.endedAt).not.toBeNull();
+    expect(queue.recover(id)).toMatchObject({ state: "paused", endedAt: null });
+    const run = await plotter.nextRun();
+    await settled();
+    expect(run.asked).toEqual(["pause"]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
+  });
+
+  it("has nothing to take up of a cancelled job that was never begun", async () => {
+    const { id } = await add("fern");
+    queue.cancel(id);
+    expect(() => queue.recover(id)).toThrow("it can't be continued now");
+  });
+
   it("goes on when it is resumed before the plotter has taken it up", async () => {
     const { id } = await add("fern");
     await queue.start(id);

@@ -50,6 +50,16 @@ const operator = async (): Promise<Operator | null> =>
   snapshotSchema.parse(await (await fetch(`${app.url}/api/v1/state`)).json()).operator;
 
 describe("the operator lock", () => {
+  it("tells two browsers of one kind apart by name", async () => {
+    const [first, second] = [await openBrowser(DESKTOP), await openBrowser(DESKTOP)];
+    const nameOf = async (browser: Browser): Promise<string | null> =>
+      meSchema.parse(await (await browser.call("GET", "/me")).json()).name;
+    expect(await nameOf(first)).toBe("Firefox on Linux (this computer)");
+    expect(await nameOf(second)).toBe("Firefox 2 on Linux (this computer)");
+    expect(await nameOf(first)).toBe("Firefox on Linux (this computer)");
+    expect(await nameOf(second)).toBe("Firefox 2 on Linux (this computer)");
+  });
+
   it("goes to the browser that acts first; another one changes nothing until it takes over", async () => {
     const [desktop, phone] = [await openBrowser(DESKTOP), await openBrowser(PHONE)];
     const streams = [

@@ -23,7 +23,13 @@ export async function dropFile(
 
 export const plotBar = (page: Page): Locator => page.getByRole("region", { name: "Plot", exact: true });
 export const queuePanel = (page: Page): Locator => page.getByRole("region", { name: "Queue" });
+/** In Watch: how far the plot is, and its buttons. */
+export const statusCard = (page: Page): Locator => page.getByRole("region", { name: "Plot under way" });
 export const historyPanel = (page: Page): Locator => page.getByRole("region", { name: "History" });
+
+/** Watch opens by itself when a plot starts. */
+export const openView = (page: Page, name: "Prepare" | "Watch"): Promise<void> =>
+  page.getByRole("group", { name: "View" }).getByRole("button", { name, exact: true }).click();
 
 /** On a phone's width the columns are tabs; on a desk everything stands side by side and there is nothing to do. */
 export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"): Promise<void> {
@@ -40,7 +46,7 @@ export const nextFrames = (page: Page): Promise<void> =>
 /** Waits until the preview shows all of what was set and planned last. */
 export async function waitForPicture(page: Page): Promise<void> {
   await nextFrames(page);
-  await page.locator(".stage canvas[aria-busy=false]").waitFor();
+  await page.locator(".stage canvas[aria-busy=false]:visible").waitFor();
   await nextFrames(page);
 }
 

@@ -11,6 +11,7 @@ import {
   openTab,
   plotBar,
   queuePanel,
+  statusCard,
   waitForPlan,
   waitForSamples,
 } from "./page-actions.js";
@@ -94,9 +95,9 @@ async function start(page: Page, name: string, text: string): Promise<void> {
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 
-/** Of a job: in the queue, and on a phone in the bar under the thumb. */
+/** Of a job: on the status card where it is watched, else in the queue, on a phone in the bar under the thumb. */
 const button = (page: Page, name: string | RegExp) =>
-  queuePanel(page).or(plotBar(page)).getByRole("button", { name });
+  statusCard(page).or(queuePanel(page)).or(plotBar(page)).getByRole("button", { name });
 
 export const PAGE_STATES: readonly PageState[] = [
   {
@@ -129,9 +130,11 @@ export const PAGE_STATES: readonly PageState[] = [
   {
     name: "06-queued",
     reach: async ({ page }) => {
-      await lay(page, "hello", sampleText("hello-paper"));
-      for (let copy = 0; copy < 2; copy++) {
-        await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      for (const name of ["hello", "note"]) {
+        await lay(page, name, sampleText("hello-paper"));
+        for (let copy = 0; copy < 2; copy++) {
+          await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+        }
       }
       await openTab(page, "Queue");
       await button(page, /^Start /)

@@ -20,7 +20,7 @@ import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
 import { TimeLine } from "../preview/time-line.js";
-import { activeJob } from "../state/store.js";
+import { shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
 import { tabsText } from "./text.js";
@@ -28,6 +28,9 @@ import { DropZone } from "../ui/drop-zone.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js")).EmptyPaper);
+const Watch = lazyPart(async () => (await import("../watch/watch.js")).Watch);
+const Adjust = lazyPart(async () => (await import("../watch/adjust.js")).Adjust);
+const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera);
 
 const TABS = ["setup", "queue", "machine"] as const;
@@ -44,22 +47,27 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const { openFile, openPasted } = useActions();
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
   const isEmpty = usePageState(
-    (state) =>
-      state.drawing === null && !state.isStarting && state.link !== "connecting" && activeJob(state) === null,
+    (state) => state.drawing === null && !state.isStarting && state.link !== "connecting",
   );
+  const isUnpaired = usePageState((state) => state.isUnpaired);
+  const view = usePageState(shownView);
+  const isFull = usePageState((state) => state.isFullScreen);
+  const isWatching = view === "watch";
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
+  if (isUnpaired) return <Pairing />;
   return (
     <DropZone hint={drawingText.dropHere} onFile={onFile} onText={openPasted}>
-      <div className="app" data-tab={tab}>
+      <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
         <TopBar />
         <main className="centre">
           <Strips />
+          {isWatching && <Watch />}
           <div className="paper-area">
             <Preview />
             {isEmpty && <EmptyPaper />}
-            <Notices />
+            {!isWatching && <Notices />}
           </div>
-          <TimeLine player={player} />
+          {!isWatching && <TimeLine player={player} />}
         </main>
         <Tabs tab={tab} onChange={setTab} />
         <aside className="column column-setup" aria-label={tabsText.setup}>
@@ -76,11 +84,13 @@ export const App = ({ player, shortcuts }: AppProps) => {
         </aside>
         <aside className="column column-run" aria-label={tabsText.queue}>
           <PlotBar />
+          {isWatching && hasCamera && <Camera />}
+          {isWatching && <Adjust />}
           <div className="tab-queue">
             <QueuePanel />
           </div>
           <div className="tab-machine">
-            {hasCamera && <Camera />}
+            {!isWatching && hasCamera && <Camera />}
             <MachinePanel />
           </div>
           <div className="tab-queue">

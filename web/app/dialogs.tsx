@@ -2,6 +2,7 @@ import type { Shortcut } from "./shortcuts.js";
 import { usePageState } from "../state/use-store.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
+const TakeOver = lazyPart(async () => (await import("./take-over.js")).TakeOver);
 const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
 const AboutDialog = lazyPart(async () => (await import("./about.js")).AboutDialog);
 const Wizard = lazyPart(async () => (await import("../plotter/wizard.js")).Wizard);
@@ -12,6 +13,8 @@ const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog
 /** The sheet that lies over the page, if any. */
 export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const dialog = usePageState((state) => state.openDialog);
+  const question = usePageState((state) => state.takeOverQuestion);
+  if (question) return <TakeOver question={question} />;
   switch (dialog) {
     case "keys":
       return <HelpSheet shortcuts={shortcuts} />;

@@ -13,7 +13,8 @@ import { Player } from "../preview/player.js";
 import { readPresets, writePresets } from "../state/presets.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
 import { applyServerEvent } from "../state/server-events.js";
-import { createPageStore, unfinishedJob, type PageStore } from "../state/store.js";
+import { createPageStore, type PageStore } from "../state/store.js";
+import { openWatch } from "../state/open-watch.js";
 import { PageContext } from "../state/use-store.js";
 import { appName } from "../ui/text.js";
 import { ErrorBoundary } from "../ui/error-boundary.js";
@@ -84,12 +85,12 @@ backend.listen({
   onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
   onLink: (isConnected) => {
     store.setState({ link: isConnected ? "connected" : "lost" });
-    if (!isConnected) return;
-    void actions.meet();
-    void lookForUpdate();
+    if (isConnected || !store.getState().isUnpaired) void actions.meet();
+    if (isConnected) void lookForUpdate();
   },
 });
 replanForBoard(store, actions.replan);
+openWatch(store);
 void greet(store);
 
 const root = document.getElementById("root");
@@ -133,7 +134,7 @@ function keepPresets(pageStore: PageStore): void {
   });
 }
 
-/** The last drawing comes back. A browser without one sees the plot that is under way, or an empty sheet. */
+/** The last drawing comes back. A browser without one has an empty sheet. */
 async function greet(pageStore: PageStore): Promise<void> {
   const kept = await readKeptDrawing(drawings);
   if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
@@ -141,10 +142,6 @@ async function greet(pageStore: PageStore): Promise<void> {
   await connected(pageStore);
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   actions.takeJobSettings();
-  const state = pageStore.getState();
-  if (state.drawing !== null) return;
-  const job = unfinishedJob(state);
-  if (job) await actions.openJob(job);
 }
 
 const connected = (pageStore: PageStore): Promise<void> =>

@@ -1,4 +1,4 @@
-import { activeJob, otherOperator } from "../state/store.js";
+import { activeJob, otherOperator, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stripsText } from "./text.js";
 import { errorText } from "../ui/text.js";
@@ -37,6 +37,9 @@ const LinkStrip = () => {
 
 const PenStrip = () => {
   const job = usePageState(activeJob);
+  // In Watch the status card asks for the pen.
+  const isWatched = usePageState((state) => shownView(state) === "watch");
+  if (isWatched) return null;
   if (job?.state !== "paused" || job.wait === null) return null;
   return (
     <div className="strip strip-wait">

@@ -13,6 +13,32 @@ export const tabsText = {
 
 export const studioLink = "Sharing, plotters, camera";
 
+export const viewText = {
+  label: "View",
+  prepare: "Prepare",
+  watch: "Watch",
+};
+
+export const pairingText = {
+  title: "Pair this device",
+  why: "This device is new to this plotter’s computer. Let it in once, and it is let in from then on.",
+  steps: [
+    "On a device that is paired already, or on the plotter’s own computer, open “Sharing” at the top of the page.",
+    "Scan the code there with this device’s camera, or open the link on it.",
+  ],
+  terminal: "The link is also printed in the window in which plotwright was started.",
+  retry: "Look again",
+};
+
+export const takeOverText = {
+  title: "Another browser operates",
+  operating: (name: string | null) =>
+    name === null ? "Another browser has the plotter in hand." : `${name} has the plotter in hand.`,
+  hint: "Only one operates at a time. If you take over, the other one watches until it takes over again.",
+  takeOver: "Take over",
+  keep: "Leave it",
+};
+
 export const themeText = {
   label: "Appearance",
   auto: "As the system",

@@ -1,30 +1,51 @@
-import { currentPlotter, mayOperate } from "../state/store.js";
+import { currentPlotter, mayOperate, shownView } from "../state/store.js";
 import { THEMES, type Theme } from "../state/persist.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { appName } from "../ui/text.js";
-import { historyText, shortcutsText, studioLink, themeText } from "./text.js";
+import { historyText, shortcutsText, studioLink, themeText, viewText } from "./text.js";
 import { plotterText } from "../plotter/text.js";
 import { Icon, type IconName } from "../ui/icon.js";
 import { MachineState } from "../plotter/machine-state.js";
 
 const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
 
-export const TopBar = () => (
-  <header className="top-bar">
-    <h1 className="wordmark">
-      <Mark />
-      {appName}
-    </h1>
-    <PlotterSwitch />
-    <MachineState />
-    <div className="top-tools">
-      <UndoButtons />
-      <StudioButton />
-      <ThemeButton />
-      <HelpButton />
+export const TopBar = () => {
+  const isPreparing = usePageState((state) => shownView(state) === "prepare");
+  return (
+    <header className="top-bar">
+      <h1 className="wordmark">
+        <Mark />
+        {appName}
+      </h1>
+      <ViewSwitch />
+      <PlotterSwitch />
+      <MachineState />
+      <div className="top-tools">
+        {isPreparing && <UndoButtons />}
+        <StudioButton />
+        <ThemeButton />
+        <HelpButton />
+      </div>
+    </header>
+  );
+};
+
+/** Lay out, or see to the plot under way; absent for a watcher, who has nothing to lay out. */
+const ViewSwitch = () => {
+  const view = usePageState((state) => state.pageView);
+  const isMine = usePageState(mayOperate);
+  const { showView } = useActions();
+  if (!isMine) return null;
+  return (
+    <div className="view-switch" role="group" aria-label={viewText.label}>
+      {(["prepare", "watch"] as const).map((name) => (
+        <button key={name} type="button" aria-pressed={view === name} onClick={() => showView(name)}>
+          {viewText[name]}
+        </button>
+      ))}
     </div>
-  </header>
-);
+  );
+};
 
 const Mark = () => (
   <svg className="mark" viewBox="0 0 32 32" aria-hidden="true">

@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import type { Backend, DrawingSource } from "../backend/backend.js";
 import { useBackend } from "../state/use-store.js";
+import { croppedPicture } from "./crop-picture.js";
 import "./thumb.css";
 
 /** Larger files are not fetched for a picture of a thumb's size. */
@@ -11,8 +12,8 @@ const MAX_PICTURES = 200;
 const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
 
 /**
- * A small picture of a drawing on the server, a job's or a sample. As the source of an image an SVG runs no scripts
- * and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
+ * A small picture of a drawing on the server, a job's or a sample, cut to what is drawn. As the source of an image an
+ * SVG runs no scripts and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
  */
 export const Thumb = ({ of, id }: DrawingSource) => {
   const backend = useBackend();
@@ -20,7 +21,7 @@ export const Thumb = ({ of, id }: DrawingSource) => {
   const box = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState(pictures.get(key) ?? null);
   useEffect(() => {
-    if (!box.current || pictures.has(key)) return;
+    if (!box.current || url !== null) return;
     const watcher = new IntersectionObserver((entries) => {
       if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
       watcher.disconnect();
@@ -28,7 +29,7 @@ export const Thumb = ({ of, id }: DrawingSource) => {
     });
     watcher.observe(box.current);
     return () => watcher.disconnect();
-  }, [backend, of, id, key]);
+  }, [backend, of, id, url]);
   return (
     <span className="thumb" ref={box} aria-hidden="true">
       {url !== null && <img src={url} alt="" loading="lazy" decoding="async" />}
@@ -37,8 +38,11 @@ export const Thumb = ({ of, id }: DrawingSource) => {
 };
 
 const pictureOf = async (backend: Backend, source: DrawingSource): Promise<string | null> => {
+  const known = pictures.get(keyOf(source));
+  if (known !== undefined) return known;
   const svg = await backend.svgOf(source, MAX_BYTES).catch(() => null);
-  const url = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const whole = svg === null ? null : URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  const url = whole === null ? null : await croppedPicture(whole).catch(() => whole);
   if (pictures.size >= MAX_PICTURES) forgetOldest();
   pictures.set(keyOf(source), url);
   return url;

@@ -2,7 +2,7 @@ import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
 import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
-import { currentPlotter, type PageState } from "../state/store.js";
+import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { previewText } from "./text.js";
 import { layerColor } from "../scene/color-map.js";
@@ -175,6 +175,9 @@ const markerOf = (state: PageState): Marker | null => {
     const { x, y, penUp } = stateAt(state.planned.trajectory, state.momentS);
     return { xMm: x, yMm: y, penUp };
   }
+  // The pen of a plot is shown on that plot's drawing, not over another one.
+  const job = activeJob(state);
+  if (job && job.id !== state.drawing?.jobId) return null;
   const plotter = currentPlotter(state);
   if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
   return { xMm: plotter.xMm, yMm: plotter.yMm, penUp: plotter.penUp ?? true };

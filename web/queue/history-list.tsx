@@ -4,8 +4,9 @@ import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { queueText } from "./text.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
-import { IconButton } from "../ui/icon-button.js";
-import { JobHead } from "./job-head.js";
+import { MenuItem, RowMenu } from "../ui/row-menu.js";
+import { canGoOn, EndedButtons } from "./ended-buttons.js";
+import { JobName, StateBadge } from "./job-head.js";
 import { Thumb } from "../drawing/thumb.js";
 
 const words = queueText;
@@ -26,7 +27,7 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
       </ul>
       {restCount > 0 && (
         <button type="button" className="link" onClick={() => setShownCount(shownCount + SHOWN_FIRST)}>
-          {words.more(restCount)}
+          {words.showMore(restCount)}
         </button>
       )}
     </>
@@ -34,30 +35,40 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
 };
 
 const EndedJob = ({ job }: { job: Job }) => {
-  const { actOnJob, removeJob } = useActions();
+  const { actOnJob, openJob, removeJob } = useActions();
   const isMine = usePageState(mayOperate);
+  const isOff = usePageState((state) => state.link !== "connected");
+  const { name } = job;
   return (
-    <article className="job job-with-thumb" data-state={job.state}>
-      <Thumb of="job" id={job.id} />
-      <JobHead job={job} />
-      <p className="job-line">
-        <span>{timesOf(job)}</span>
-        <span className="spacer" />
+    <article className="job" data-state={job.state}>
+      <div className="job-row">
+        <Thumb of="job" id={job.id} />
+        <div className="job-words">
+          <JobName job={job} />
+          <span className="note">{timesOf(job)}</span>
+        </div>
+        <StateBadge job={job} />
         {isMine && (
-          <>
-            <IconButton
-              icon="again"
-              label={words.againNamed(job.name)}
-              onClick={() => void actOnJob(job.id, "requeue")}
-            />
-            <IconButton
-              icon="close"
-              label={queueText.removeNamed(job.name)}
+          <RowMenu label={words.more(name)}>
+            {!canGoOn(job) && (
+              <MenuItem
+                words={words.again}
+                label={words.againNamed(name)}
+                isOff={isOff}
+                onClick={() => void actOnJob(job.id, "requeue")}
+              />
+            )}
+            <MenuItem words={words.open} label={words.openNamed(name)} onClick={() => void openJob(job)} />
+            <MenuItem
+              words={words.remove}
+              label={words.removeNamed(name)}
+              isOff={isOff}
               onClick={() => void removeJob(job.id)}
             />
-          </>
+          </RowMenu>
         )}
-      </p>
+      </div>
+      {isMine && canGoOn(job) && <EndedButtons job={job} />}
       {job.message && <p className={job.state === "failed" ? "note note-error" : "note"}>{job.message}</p>}
     </article>
   );
@@ -68,6 +79,6 @@ const timesOf = (job: Job): string => {
   const parts = job.endedAt === null ? [] : [formatWhen(job.endedAt)];
   parts.push(words.took(formatDuration(job.plottedS ?? job.elapsedS)));
   const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
-  if (job.state === "done" && expectedS !== null) parts.push(words.foretold(formatDuration(expectedS)));
+  if (job.state === "done" && expectedS !== null) parts.push(words.estimated(formatDuration(expectedS)));
   return parts.join(" · ");
 };

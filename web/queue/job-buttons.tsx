@@ -15,14 +15,16 @@ const words = jobText;
 export const JobButtons = ({ job }: { job: Job }) => {
   const [isAsking, setAsking] = useState(false);
   const isMine = usePageState(mayOperate);
-  if (isAsking) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
+  // What the server does not hear of must not look as if it did.
+  const isOff = usePageState((state) => state.link !== "connected");
+  if (isAsking && !isOff) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
   return (
     <div className="button-row job-buttons">
-      {(isMine || job.state === "plotting") && <MainButton job={job} />}
-      <button type="button" className="button" onClick={() => setAsking(true)}>
-        {job.wait === null ? queueText.cancel : words.stop}
+      {(isMine || job.state === "plotting") && <MainButton job={job} isOff={isOff} />}
+      <button type="button" className="button" disabled={isOff} onClick={() => setAsking(true)}>
+        {queueText.cancel}
       </button>
-      {job.state === "plotting" && <StopButton job={job} />}
+      {job.state === "plotting" && <StopButton job={job} isOff={isOff} />}
     </div>
   );
 };
@@ -37,7 +39,12 @@ const MAIN_ACTION = {
   cancelled: null,
 } as const;
 
-const MainButton = ({ job }: { job: Job }) => {
+interface ButtonProps {
+  readonly job: Job;
+  readonly isOff: boolean;
+}
+
+const MainButton = ({ job, isOff }: ButtonProps) => {
   const { actOnJob } = useActions();
   const busy = usePageState((state) => state.busyAction);
   const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
@@ -46,7 +53,7 @@ const MainButton = ({ job }: { job: Job }) => {
     <button
       type="button"
       className={job.state === "plotting" ? "button" : "button button-primary"}
-      disabled={busy === `${action} ${job.id}`}
+      disabled={isOff || busy === `${action} ${job.id}`}
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
@@ -55,7 +62,7 @@ const MainButton = ({ job }: { job: Job }) => {
   );
 };
 
-const StopButton = ({ job }: { job: Job }) => {
+const StopButton = ({ job, isOff }: ButtonProps) => {
   const { actOnJob } = useActions();
   const takesMs = usePageState(
     ({ plotters }) => plotters.find(({ id }) => id === job.plotterId)?.emergencyStopMs ?? null,
@@ -64,6 +71,7 @@ const StopButton = ({ job }: { job: Job }) => {
     <button
       type="button"
       className="button button-danger"
+      disabled={isOff}
       title={words.stopNowHint(takesMs)}
       onClick={() => void actOnJob(job.id, "emergency-stop")}
     >

@@ -1,29 +1,37 @@
 import type { Job } from "../../src/schema/index.js";
-import { useActions } from "../state/use-store.js";
+import { ACTIVE_STATES, mayOperate } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { queueText } from "./text.js";
 import "./jobs.css";
 
 const words = queueText;
 
-/** A job's name, which lays it on the paper, and its state. */
-export const JobHead = ({ job }: { job: Job }) => {
-  const { openJob } = useActions();
+/**
+ * A job's name. That of a plot under way shows it; that of another one lays it on the paper, where there is one for
+ * this browser.
+ */
+export const JobName = ({ job }: { job: Job }) => {
+  const { openJob, showView } = useActions();
+  const isMine = usePageState(mayOperate);
+  const isActive = ACTIVE_STATES.includes(job.state);
+  if (!isMine && !isActive) return <span className="job-name">{job.name}</span>;
   return (
-    <header className="job-head">
-      <button
-        type="button"
-        className="job-name"
-        title={words.openNamed(job.name)}
-        onClick={() => void openJob(job)}
-      >
-        {job.name}
-      </button>
-      <span className="badge" data-state={job.state}>
-        {job.wait !== null && job.state === "paused" ? words.waitsForPen : words.states[job.state]}
-      </span>
-    </header>
+    <button
+      type="button"
+      className="job-name"
+      title={isActive ? words.watchNamed(job.name) : words.openNamed(job.name)}
+      onClick={() => (isActive ? showView("watch") : void openJob(job))}
+    >
+      {job.name}
+    </button>
   );
 };
+
+export const StateBadge = ({ job }: { job: Job }) => (
+  <span className="badge" data-state={job.state}>
+    {job.wait !== null && job.state === "paused" ? words.waitsForPen : words.states[job.state]}
+  </span>
+);
 
 /** How much of a job is done. */
 export const Progress = ({ job }: { job: Job }) => (

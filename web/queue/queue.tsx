@@ -1,5 +1,6 @@
 import { useRef } from "react";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
@@ -11,7 +12,7 @@ import { useNow } from "../ui/use-now.js";
 import { NotifyButton } from "./notify-button.js";
 
 const words = queueText;
-const ActiveJob = lazyPart(async () => (await import("./active-job.js")).ActiveJob);
+const RunningJob = lazyPart(async () => (await import("./running-job.js")).RunningJob);
 const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).WaitingJob);
 const HistoryList = lazyPart(async () => (await import("./history-list.js")).HistoryList);
 
@@ -19,7 +20,9 @@ export const QueuePanel = () => {
   const all = usePlotterJobs();
   const jobs = all.filter((job) => !ENDED_STATES.includes(job.state));
   const list = useRef<HTMLUListElement>(null);
-  const waiting = jobs.filter((job) => job.state === "queued");
+  const active = jobs.filter((job) => ACTIVE_STATES.includes(job.state));
+  const rows = rowsOf(jobs.filter((job) => job.state === "queued"));
+  const rowIds = rows.map(([{ id }]) => id);
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">
@@ -28,13 +31,14 @@ export const QueuePanel = () => {
       </h2>
       {jobs.length === 0 && <Empty ended={all} />}
       <ul className="job-list" ref={list}>
-        {jobs.map((job) => (
-          <li key={job.id} data-row={job.state === "queued" ? job.id : undefined}>
-            {ACTIVE_STATES.includes(job.state) ? (
-              <ActiveJob job={job} />
-            ) : (
-              <WaitingJob job={job} queue={waiting} list={list} />
-            )}
+        {active.map((job) => (
+          <li key={job.id}>
+            <RunningJob job={job} />
+          </li>
+        ))}
+        {rows.map((copies) => (
+          <li key={copies[0].id} data-row={copies[0].id}>
+            <WaitingJob copies={copies} rowIds={rowIds} list={list} />
           </li>
         ))}
       </ul>

@@ -1,12 +1,13 @@
 import type { RefObject } from "react";
-import type { Job } from "../../src/schema/index.js";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { plotText, queueText } from "./text.js";
 import { formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { IconButton } from "../ui/icon-button.js";
-import { JobHead } from "./job-head.js";
+import { MenuItem, RowMenu } from "../ui/row-menu.js";
+import type { Copies } from "./copies.js";
+import { JobName } from "./job-head.js";
 import "../ui/row-drag.css";
 import { placeAfterMove, useRowDrag } from "../ui/row-drag.js";
 import { Thumb } from "../drawing/thumb.js";
@@ -14,109 +15,140 @@ import { Thumb } from "../drawing/thumb.js";
 const words = queueText;
 
 interface WaitingJobProps {
-  readonly job: Job;
-  /** The waiting jobs in their order. */
-  readonly queue: readonly Job[];
+  readonly copies: Copies;
+  /** The waiting rows in their order, each by its first job. */
+  readonly rowIds: readonly string[];
   readonly list: RefObject<HTMLUListElement | null>;
 }
 
-export const WaitingJob = ({ job, queue, list }: WaitingJobProps) => {
+/** One line: what it is, how many, how long, and the buttons. */
+export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
   const isMine = usePageState(mayOperate);
+  const [job] = copies;
   const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
   return (
-    <article className="job job-with-thumb" data-state={job.state}>
-      <Thumb of="job" id={job.id} />
-      <JobHead job={job} />
-      <p className="job-line">
-        <span>
-          {expectedS === null ? plotText.planning : words.about(formatDuration(expectedS))}
-          {job.speedPct !== 100 && `, ${words.atSpeed(job.speedPct)}`}
-        </span>
-        {isMine && <PlotterChoice job={job} />}
-      </p>
+    <article className="job" data-state={job.state}>
+      <div className="job-row">
+        <Thumb of="job" id={job.id} />
+        <div className="job-words">
+          <JobName job={job} />
+          <span className="note">
+            {expectedS === null ? plotText.planning : formatDuration(expectedS)}
+            {job.speedPct !== 100 && `, ${words.atSpeed(job.speedPct)}`}
+          </span>
+        </div>
+        {copies.length > 1 && (
+          <span className="job-copies" aria-label={words.copies(copies.length)}>
+            {words.times(copies.length)}
+          </span>
+        )}
+        {isMine && <Buttons copies={copies} rowIds={rowIds} list={list} />}
+      </div>
+      {isMine && <PlotterChoice copies={copies} />}
       {job.message && <p className="note">{job.message}</p>}
-      {isMine && <Buttons job={job} queue={queue} list={list} />}
     </article>
   );
 };
 
-const Buttons = ({ job, queue, list }: WaitingJobProps) => {
-  const { actOnJob, duplicateJob, moveJob, removeJob } = useActions();
+const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
+  const [job] = copies;
+  const { actOnJob, duplicateJob, moveJob, openJob, removeJob } = useActions();
   const isFree = usePageState((state) => activeJob(state) === null);
-  const ids = queue.map(({ id }) => id);
-  const index = ids.indexOf(job.id);
-  const moveTo = (place: number): void => {
-    const beforeId = placeAfterMove(ids, job.id, place);
-    if (beforeId !== undefined) void moveJob(job.id, beforeId);
+  const isOff = usePageState((state) => state.link !== "connected");
+  const index = rowIds.indexOf(job.id);
+  const moveTo = async (place: number): Promise<void> => {
+    const beforeId = placeAfterMove(rowIds, job.id, place);
+    if (beforeId === undefined) return;
+    for (const { id } of copies) await moveJob(id, beforeId);
   };
-  const drag = useRowDrag(list, job.id, moveTo);
+  const removeAll = async (): Promise<void> => {
+    // The first stands for the row as long as there is one.
+    for (const { id } of [...copies].reverse()) await removeJob(id);
+  };
+  const drag = useRowDrag(list, job.id, (place) => void moveTo(place));
+  const { name } = job;
+  // Of several copies the last is taken away: the first may be about to start.
+  const last = copies.at(-1) ?? job;
   return (
-    <div className="button-row">
-      <button
-        type="button"
-        className="button button-small"
-        aria-label={queueText.startNamed(job.name)}
-        disabled={!isFree}
-        onClick={() => void actOnJob(job.id, "start")}
-      >
-        <Icon name="play" />
-        {words.start}
-      </button>
-      <span className="spacer" />
-      {ids.length > 1 && (
-        <>
-          <IconButton
-            icon="up"
-            label={words.earlier(job.name)}
-            isOff={index <= 0}
-            onClick={() => moveTo(index - 1)}
-          />
-          <IconButton
-            icon="down"
-            label={words.later(job.name)}
-            isOff={index >= ids.length - 1}
-            onClick={() => moveTo(index + 1)}
-          />
-        </>
-      )}
-      <IconButton icon="copy" label={words.duplicate(job.name)} onClick={() => void duplicateJob(job.id)} />
+    <>
       <IconButton
-        icon="close"
-        label={queueText.removeNamed(job.name)}
-        onClick={() => void removeJob(job.id)}
+        icon="play"
+        label={words.startNamed(name)}
+        isOff={isOff || !isFree}
+        onClick={() => void actOnJob(job.id, "start")}
       />
-      {ids.length > 1 && (
+      <RowMenu label={words.more(name)}>
+        <MenuItem words={words.open} label={words.openNamed(name)} onClick={() => void openJob(job)} />
+        <MenuItem
+          words={words.duplicate}
+          label={words.duplicateNamed(name)}
+          isOff={isOff}
+          onClick={() => void duplicateJob(job.id)}
+        />
+        <MenuItem
+          words={words.earlier}
+          label={words.earlierNamed(name)}
+          isOff={isOff || index <= 0}
+          onClick={() => void moveTo(index - 1)}
+        />
+        <MenuItem
+          words={words.later}
+          label={words.laterNamed(name)}
+          isOff={isOff || index >= rowIds.length - 1}
+          onClick={() => void moveTo(index + 1)}
+        />
+        <MenuItem
+          words={words.remove}
+          label={words.removeNamed(name)}
+          isOff={isOff}
+          onClick={() => void removeJob(last.id)}
+        />
+        {copies.length > 1 && (
+          <MenuItem
+            words={words.removeAll(copies.length)}
+            label={words.removeAll(copies.length)}
+            isOff={isOff}
+            onClick={() => void removeAll()}
+          />
+        )}
+      </RowMenu>
+      {rowIds.length > 1 && (
         <button
           type="button"
           className="button button-icon button-small drag-handle"
-          aria-label={words.drag(job.name)}
+          aria-label={words.drag(name)}
           title={words.dragHint}
+          disabled={isOff}
           onKeyDown={(event) => {
             const way = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
             if (way === 0) return;
             event.preventDefault();
-            moveTo(index + way);
+            void moveTo(index + way);
           }}
           {...drag}
         >
           <Icon name="grip" />
         </button>
       )}
-    </div>
+    </>
   );
 };
 
 /** Which plotter's queue it stands in; absent where there is one plotter. */
-const PlotterChoice = ({ job }: { job: Job }) => {
+const PlotterChoice = ({ copies }: { copies: Copies }) => {
+  const [job] = copies;
   const plotters = usePageState((state) => state.plotters);
   const { patchJob } = useActions();
   if (plotters.length < 2) return null;
+  const moveAll = async (plotterId: string): Promise<void> => {
+    for (const { id } of copies) await patchJob(id, { plotterId });
+  };
   return (
     <select
       className="select-small"
       aria-label={words.moveToPlotter(job.name)}
       value={job.plotterId}
-      onChange={(event) => void patchJob(job.id, { plotterId: event.target.value })}
+      onChange={(event) => void moveAll(event.target.value)}
     >
       {plotters.map(({ id, name }) => (
         <option key={id} value={id}>

@@ -1,7 +1,7 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { isDrawingName } from "../../src/internal.js";
-import type { Backend, JobAction } from "../backend/backend.js";
+import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import {
   machineProfileSchema,
   type Job,
@@ -23,9 +23,11 @@ import {
   activeJob,
   boardFirmware,
   currentPlotter,
+  otherOperator,
   type Notice,
   type OpenDrawing,
   type PageStore,
+  type PageView,
 } from "./store.js";
 
 export type Actions = ReturnType<typeof createActions>;
@@ -69,11 +71,34 @@ export const createActions = (deps: ActionDeps) => {
   const clearErrors = (): void =>
     store.setState(({ notices }) => ({ notices: notices.filter(({ kind }) => kind !== "error") }));
 
+  const asksTakeOver = (): Promise<boolean> =>
+    new Promise((resolve) => {
+      const state = store.getState();
+      state.takeOverQuestion?.answer(false);
+      const answer = (takesOver: boolean): void => {
+        store.setState({ takeOverQuestion: null });
+        resolve(takesOver);
+      };
+      store.setState({ takeOverQuestion: { operator: otherOperator(state)?.name ?? null, answer } });
+    });
+
+  /** Where another browser operates, asks whether to take over, and then does it. Null: it stays as it is. */
+  const asOperator = async <T>(request: () => Promise<T>): Promise<T | null> => {
+    try {
+      return await request();
+    } catch (error) {
+      if (!(error instanceof BackendFault) || error.code !== "not-operator") throw error;
+      if (!(await asksTakeOver())) return null;
+      await backend.takeOver();
+      return request();
+    }
+  };
+
   /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
   const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
     store.setState({ busyAction: name });
     try {
-      const answer = await request();
+      const answer = await asOperator(request);
       clearErrors();
       return answer;
     } catch (error) {
@@ -127,6 +152,7 @@ export const createActions = (deps: ActionDeps) => {
       settings: jobId === null && name !== before ? forOtherDrawing(settings) : settings,
       planned: null,
       fault: null,
+      pageView: "prepare",
     }));
     replan();
   };
@@ -201,6 +227,9 @@ export const createActions = (deps: ActionDeps) => {
     redo: () => step("redoStack", "undoStack"),
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
+    /** The job that has the plotter is watched; `jobId` names another one, which had it. */
+    showView: (pageView: PageView, jobId?: string): void =>
+      store.setState(({ watchedId }) => ({ pageView, watchedId: jobId ?? watchedId, isFullScreen: false })),
     openDrawing,
     restoreDrawing,
     takeJobSettings,
@@ -240,8 +269,12 @@ export const createActions = (deps: ActionDeps) => {
     takeOver: () => attempt("take-over", () => backend.takeOver()),
     /** Who this browser is; asked anew with each connection, since a server that was started anew may have forgotten. */
     meet: async (): Promise<void> => {
-      const me = await backend.me().catch(() => null);
-      if (me) store.setState({ me });
+      try {
+        store.setState({ me: await backend.me(), isUnpaired: false });
+      } catch (error) {
+        if (error instanceof BackendFault && error.code === "not-allowed")
+          store.setState({ isUnpaired: true });
+      }
     },
     dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
     patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
@@ -293,6 +326,7 @@ export const createActions = (deps: ActionDeps) => {
         backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
       );
       if (!job) return;
+      store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
       if (activeJob(store.getState()) === null)
         await attempt("plot", () => backend.actOnJob(job.id, "start"));
       else notify("info", stateText.added(job.name));

@@ -48,6 +48,22 @@ export interface Notice {
   readonly text: string;
 }
 
+/** "prepare": what is to be plotted is laid out; "watch": the plot under way. */
+export type PageView = "prepare" | "watch";
+
+/** The plan of the job that Watch shows; not of the drawing that is laid out. */
+export interface WatchPlan {
+  readonly key: string;
+  readonly planned: Planned | null;
+  readonly fault: string | null;
+}
+
+/** Asked where only the operator may do what was pressed. */
+interface TakeOverQuestion {
+  readonly operator: string | null;
+  answer(takesOver: boolean): void;
+}
+
 /** Sheets over the page, one at a time. */
 export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
 
@@ -56,6 +72,15 @@ export interface PageState {
   readonly undoStack: readonly PlotSettings[];
   readonly redoStack: readonly PlotSettings[];
   readonly view: ViewSettings;
+
+  readonly pageView: PageView;
+  /** Watch shows this job while none has the plotter: the last one that had it. */
+  readonly watchedId: string | null;
+  readonly watchPlan: WatchPlan | null;
+  /** Watch fills the screen. */
+  readonly isFullScreen: boolean;
+  /** Small jobs that were started beside a drawing, such as marks: Watch does not open for them. */
+  readonly sideJobIds: readonly string[];
 
   /** Until the browser has said what lay on the paper at the last visit. */
   readonly isStarting: boolean;
@@ -75,6 +100,9 @@ export interface PageState {
   readonly snapLines: SnapLines | null;
 
   readonly link: ServerLink;
+  /** The server lets this device in only once it is paired. */
+  readonly isUnpaired: boolean;
+  readonly takeOverQuestion: TakeOverQuestion | null;
   readonly version: string | null;
   /** The server has a newer page than this one. */
   readonly isOutdated: boolean;
@@ -109,6 +137,11 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     undoStack: [],
     redoStack: [],
     view,
+    pageView: "prepare",
+    watchedId: null,
+    watchPlan: null,
+    isFullScreen: false,
+    sideJobIds: [],
     isStarting: true,
     drawing: null,
     planned: null,
@@ -121,6 +154,8 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     noteBoxes: [],
     snapLines: null,
     link: "connecting",
+    isUnpaired: false,
+    takeOverQuestion: null,
     version: null,
     isOutdated: false,
     plotters: [],
@@ -175,6 +210,13 @@ export const unfinishedJob = (state: PageState): Job | null => {
   const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
   return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
 };
+
+/** What Watch shows: the job that has the plotter or waits to have it back, else the last one that had it. */
+export const watchedJob = (state: PageState): Job | null =>
+  unfinishedJob(state) ?? state.jobs.find(({ id }) => id === state.watchedId) ?? null;
+
+/** A watcher has nothing to lay out. */
+export const shownView = (state: PageState): PageView => (mayOperate(state) ? state.pageView : "watch");
 
 /** Watchers see everything and may stop a plot; they change nothing else. */
 export const mayOperate = ({ me }: PageState): boolean => me?.role !== "watch";

@@ -1,6 +1,6 @@
 /** Words of the studio dialog and the camera. */
 export const studioText = {
-  title: "Studio",
+  title: "Sharing",
   sections: {
     share: "Share",
     access: "Access",

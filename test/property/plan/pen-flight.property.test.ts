@@ -16,6 +16,7 @@ import {
   machineById,
   plan,
   prepare,
+  type MachineProfile,
   type MotionSettings,
   type PenSettings,
   type StrokeSet,
@@ -23,9 +24,10 @@ import {
 import { MOTION_MODES, type PenOverlap } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { cases } from "../../support/full-run.js";
+import { SPRINGS, swinging } from "../../support/swinging.js";
 import { tipMarks, type TipMarks, type TipServo } from "../../support/tip-marks.js";
 
-const machine = machineById("axidraw-v3");
+const unmeasured = machineById("axidraw-v3");
 const FIRMWARES = ["2.4.4", "2.5.3", "2.7.0", "2.8.1", "3.0.3"];
 const SAFE_MM = 0.15;
 const FAST_MM = 0.3;
@@ -41,10 +43,11 @@ interface Job {
   readonly pen: PenSettings;
   readonly motion?: MotionSettings;
   readonly firmware?: string;
+  readonly machine?: MachineProfile;
 }
 
 function marksOf(
-  { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3" }: Job,
+  { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3", machine = unmeasured }: Job,
   servo: TipServo,
 ): TipMarks {
   const trajectory = plan(strokes, motionForFirmware(motion, firmware), pen, { machine });
@@ -88,7 +91,12 @@ const arbitraryServo: fc.Arbitrary<TipServo> = fc.record({
   contact: fc.oneof(fc.constantFrom(0.45, 0.55), fc.double({ min: 0.45, max: 0.55, noNaN: true })),
 });
 
-const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Required<Job>> =>
+/** A servo that is as stated. */
+const arbitraryPhase: fc.Arbitrary<TipServo> = fc
+  .double({ min: 0, max: 24, noNaN: true })
+  .map((phaseMs) => ({ speed: 1, phaseMs, contact: 0.5 }));
+
+const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Job> =>
   fc.record({
     strokes: arbitraryStrokes,
     pen: fc
@@ -108,6 +116,17 @@ const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Required<Job>> =>
     firmware: fc.constantFrom(...FIRMWARES),
   });
 
+/** The motion is shaped for a machine that swings. */
+const shaped = (jobs: fc.Arbitrary<Job>, shaper: "zv" | "ei"): fc.Arbitrary<Job> =>
+  fc
+    .tuple(jobs, fc.constantFrom(...SPRINGS), fc.constantFrom("junction", "blend"))
+    .map(([job, springs, mode]): Job => ({
+      ...job,
+      motion: { ...(job.motion ?? DEFAULT_MOTION), mode, shaper },
+      firmware: job.firmware === "2.4.4" ? "2.5.3" : (job.firmware ?? "3.0.3"),
+      machine: swinging(springs),
+    }));
+
 describe("random drawings", () => {
   it("are drawn without a stray mark and without a late start by a servo that differs: safe", () => {
     fc.assert(
@@ -122,10 +141,9 @@ describe("random drawings", () => {
   });
 
   it("are drawn within 0.3 mm by a servo that is as stated: fast", () => {
-    const phases = fc.double({ min: 0, max: 24, noNaN: true });
     fc.assert(
-      fc.property(arbitraryJob("fast"), phases, (job, phaseMs) => {
-        const marks = marksOf(job, { speed: 1, phaseMs, contact: 0.5 });
+      fc.property(arbitraryJob("fast"), arbitraryPhase, (job, servo) => {
+        const marks = marksOf(job, servo);
         expect(marks.strayMm).toBeLessThanOrEqual(FAST_MM);
         expect(marks.lateMm).toBeLessThanOrEqual(FAST_MM);
         expect(marks.brokenCount).toBe(0);
@@ -133,6 +151,26 @@ describe("random drawings", () => {
       { numRuns: cases() },
     );
   });
+
+  it.each([
+    ["safe", SAFE_MM, "zv"],
+    ["fast", FAST_MM, "zv"],
+    ["safe", SAFE_MM, "ei"],
+  ] as const)(
+    "are drawn as well when the motion is shaped: %s, within %d mm, by %s",
+    (overlap, mm, shaper) => {
+      const servos = overlap === "safe" ? arbitraryServo : arbitraryPhase;
+      fc.assert(
+        fc.property(shaped(arbitraryJob(overlap), shaper), servos, (job, servo) => {
+          const marks = marksOf(job, servo);
+          expect(marks.strayMm).toBeLessThanOrEqual(mm);
+          expect(marks.lateMm).toBeLessThanOrEqual(mm);
+          expect(marks.brokenCount).toBe(0);
+        }),
+        { numRuns: cases() },
+      );
+    },
+  );
 });
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
@@ -165,7 +203,7 @@ describe.each(samples)("the sample %s", (file) => {
 
   it("takes less time the more the pen overlaps", () => {
     const [off, safe, fast] = (["off", "safe", "fast"] as const).map(
-      (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine }).totalS,
+      (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
     );
     expect(safe).toBeLessThan(off);
     expect(fast).toBeLessThan(safe);
@@ -190,7 +228,7 @@ describe("the check itself", () => {
 it("draws moonrise in 5 000 s safely and in 4 300 s fast", () => {
   const strokes = sampleStrokes("moonrise.svg");
   const [safe, fast] = (["safe", "fast"] as const).map(
-    (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine }).totalS,
+    (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
   );
   expect(safe).toBeLessThanOrEqual(5_000);
   expect(fast).toBeLessThanOrEqual(4_300);

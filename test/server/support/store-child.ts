@@ -40,7 +40,7 @@ for (let count = 0; ; count++) {
     tell("try", pictureOf([...queued.filter((job) => job !== any), any, ...ended]));
     store.moveJob(any.id, null);
   } else {
-    const event: JobEvent = { type: "cancel" };
+    const event: JobEvent = { type: "cancel", place: null };
     const cancelled = applyJobEvent(any, event, new Date(2_000_000_000_000 + Date.now()).toISOString());
     tell(
       "try",

@@ -47,7 +47,11 @@ describe("a box of 0.1 s", () => {
 });
 
 describe("two impulses 0.05 s apart", () => {
-  const out = filtered(impulseKernel([{ delayS: 0, weight: 0.6 }, { delayS: 0.05, weight: 0.4 }])); // prettier-ignore
+  const impulses = [
+    { delayS: 0, weight: 0.6 },
+    { delayS: 0.05, weight: 0.4 },
+  ];
+  const out = filtered(impulseKernel(impulses, impulses));
 
   it("give blocks of constant acceleration, 0.05 s longer, that end in the same place at rest", () => {
     expect(Array.from(out.jx!.subarray(0, out.count)).every((j) => j === 0)).toBe(true);

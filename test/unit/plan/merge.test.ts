@@ -17,7 +17,13 @@ const LIMITS: RunLimits = {
   mixed: false,
   easeSpeed: Infinity,
 };
-const RULES: MergeRules = { toleranceMm: 0.02, floorS: 0.015, isSmooth: true };
+const RULES: MergeRules = {
+  toleranceMm: 0.02,
+  shortToleranceMm: 0.02,
+  floorS: 0.015,
+  isSmooth: true,
+  isShaped: false,
+};
 
 /** A run along x from rest, given as [seconds, acceleration] of each block. */
 function straightRun(phases: readonly (readonly [number, number])[]): {

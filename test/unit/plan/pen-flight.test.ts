@@ -11,6 +11,7 @@ import { comeToRest } from "../../../src/plan/come-to-rest.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 import { placeAt } from "../../../src/plan/place-on-plan.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
+import { SPRINGS, swinging } from "../../support/swinging.js";
 
 const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
 const SAFE: PenSettings = { ...DEFAULT_PEN, overlap: "safe" };
@@ -21,6 +22,15 @@ const planned = (pen: PenSettings): Trajectory =>
     strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
     DEFAULT_MOTION,
     pen,
+  );
+
+/** The same on a machine that swings. */
+const shaped = (pen: PenSettings): Trajectory =>
+  plan(
+    strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
+    { ...DEFAULT_MOTION, shaper: "zv" },
+    pen,
+    { machine: swinging(SPRINGS[0]) },
   );
 
 describe("a pen in flight", () => {
@@ -64,8 +74,7 @@ describe("a pen in flight", () => {
   });
 
   it("goes on to the stroke's start and lifts there, when it is stopped while it comes down", () => {
-    for (const pen of [SAFE, FAST]) {
-      const t = planned(pen);
+    for (const [t, pen] of [SAFE, FAST].flatMap((p) => [planned(p), shaped(p)].map((u) => [u, p] as const))) {
       const limits = { drawAccel: 500, travelAccel: 1_000 };
       for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
         const block = t.runs.firstBlock[drop.beforeRun];

@@ -3,6 +3,9 @@ import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.j
 import type { BackendListener } from "../backend.js";
 
 const RETRY_MS = 1_500;
+/** A server that has been away for a while, or does not let this device in, is asked less often. */
+const QUICK_RETRIES = 10;
+const SLOW_RETRY_MS = 6_000;
 /** A page that was out of sight for so long (a phone in a pocket) may have a stream that is dead and does not know. */
 const ASLEEP_MS = 15_000;
 
@@ -12,6 +15,7 @@ const ASLEEP_MS = 15_000;
  */
 export const openEvents = (path: string, listener: BackendListener): (() => void) => {
   let source: EventSource | null = null;
+  let failures = 0;
   let retry: ReturnType<typeof setTimeout> | null = null;
 
   const close = (): void => {
@@ -27,12 +31,15 @@ export const openEvents = (path: string, listener: BackendListener): (() => void
     opened.onmessage = ({ data }: MessageEvent<string>) => {
       const event = parseServerEvent(data);
       if (!event) return;
+      failures = 0;
       if (event.type === "snapshot") listener.onLink(true);
       listener.onEvent(event);
     };
     opened.onerror = () => {
       listener.onLink(false);
-      if (opened.readyState === EventSource.CLOSED) retry ??= setTimeout(open, RETRY_MS);
+      if (opened.readyState !== EventSource.CLOSED) return;
+      failures++;
+      retry ??= setTimeout(open, failures > QUICK_RETRIES ? SLOW_RETRY_MS : RETRY_MS);
     };
   };
   const stopWatching = watchNetwork(open, () => {

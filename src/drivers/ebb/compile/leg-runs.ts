@@ -34,6 +34,9 @@ const MOST_OFF_RATE = ACCUMULATOR_RANGE / 2;
 /** Max extra speed to make up for idle ticks: 32 steps/s, 0.4 mm/s at 80 steps/mm. */
 const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
 
+/** As `turnTicks` of the writer, for shaped motion: with its higher acceleration a motor is faster so far from a turn. */
+const SHAPED_TURN_TICKS = 12;
+
 /** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
 const SHORTEST_TICKS = 26;
 
@@ -56,6 +59,11 @@ export class LegRuns implements RunWriter {
     private readonly m1: MotorPlace,
     private readonly m2: MotorPlace,
   ) {}
+
+  /** A reversal nearer than this to a cut needs no cut of its own. */
+  private get turnTicks(): number {
+    return this.trajectory.planned ? SHAPED_TURN_TICKS : this.writer.turnTicks;
+  }
 
   write(run: number, midway: readonly Midway[]): void {
     const { walk, columns, leg } = this;
@@ -115,9 +123,15 @@ export class LegRuns implements RunWriter {
     const { walk, writer } = this;
     const last = walk.end - 1;
     const runEnd = Math.max(walk.endTick(last), tick + 1);
-    const soonest = Math.max(tick + writer.minTicks, notBefore);
+    const shortest = Math.max(tick + writer.minTicks, notBefore);
+    let soonest = shortest;
     let k = block;
     while (k < last && walk.endTick(k) < soonest) k++;
+    if (k !== block && this.trajectory.planned) {
+      // Room for two commands: one acceleration seldom joins short blocks of a shaped motion.
+      soonest = Math.max(shortest, tick + 2 * writer.minTicks);
+      while (k < last && walk.endTick(k) < soonest) k++;
+    }
     let end = k === last ? runEnd : walk.endTick(k);
     if (k !== block) {
       // Short blocks are combined: take no more of a long block than needed.
@@ -131,8 +145,9 @@ export class LegRuns implements RunWriter {
       k = walk.blockAt(end, block);
     }
     if (writer.turnTicks > 0) {
-      const turn = this.firstTurn(tick, block, k, soonest, end);
-      if (turn < end) {
+      let turn = this.firstTurn(tick, block, k, shortest, end);
+      if (turn === Infinity) turn = this.turnNear(end, block, soonest, runEnd);
+      if (turn !== Infinity) {
         end = turn;
         k = walk.blockAt(end, block);
       }
@@ -166,11 +181,29 @@ export class LegRuns implements RunWriter {
   /** The first tick at which a motor reverses within a leg; Infinity if none does. */
   private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
     const { walk, writer } = this;
-    const earliest = Math.max(tick + writer.turnTicks, soonest - writer.minTicks);
-    const latest = end - writer.turnTicks;
+    const earliest = Math.max(tick + this.turnTicks, soonest - writer.minTicks);
+    const latest = end - this.turnTicks;
     for (let k = from; k <= to; k++) {
       const after = k === from ? earliest : Math.max(earliest, walk.endTick(k - 1));
       const turn = walk.turnTick(k, after, k === to ? latest : Math.min(latest, walk.endTick(k)));
+      if (turn !== Infinity) return turn;
+    }
+    return Infinity;
+  }
+
+  /**
+   * A shaped motion has short blocks of high acceleration, so a motor that reverses near a cut gets the cut right there.
+   * Otherwise it would either need a command of its own, too short for the board, or jump.
+   */
+  private turnNear(end: number, block: number, soonest: number, runEnd: number): number {
+    const { walk, writer } = this;
+    if (!this.trajectory.planned) return Infinity;
+    const from = Math.max(soonest - 1, end - this.turnTicks);
+    const to = Math.min(end + writer.minTicks, runEnd - writer.minTicks);
+    for (let k = walk.blockAt(from, block); k < walk.end; k++) {
+      const since = k > block ? Math.max(from, walk.endTick(k - 1)) : from;
+      if (since >= to) break;
+      const turn = walk.turnTick(k, since, Math.min(to, walk.endTick(k)));
       if (turn !== Infinity) return turn;
     }
     return Infinity;

@@ -13,7 +13,7 @@ import { isPenUpBefore } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
 import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
-import { stateAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import { drawnAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
@@ -237,13 +237,17 @@ export class EbbRun implements MachineRun {
     };
   }
 
-  /** What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. */
+  /**
+   * What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. In a shaped
+   * motion that is not where the carriage stands, at `x`, `y`.
+   */
   private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
-    const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
+    const { stroke, alongMm, ...drawn } = drawnAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
+    const pen = trajectory.planned ? drawn : { ...drawn, x, y };
     return alongMm === 0
       ? { stroke, alongMm }
-      : snappedPlace(this.strokes, { stroke, alongMm }, { x, y, vx, vy }, SNAP_MM);
+      : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
   /** New heights on the way; where the pen is down at another height than it should be, it moves there. */

@@ -24,7 +24,7 @@ export const ebbFirmware: FirmwareRules = {
 
 /**
  * The settings limited to what this firmware can execute smoothly: before 2.5.3, which has only
- * constant speeds, accelerations are limited to 500 mm/s². Idempotent. Newer or unknown (null) firmware
+ * constant speeds, accelerations are limited to 500 mm/s² and nothing is shaped. Idempotent. Newer or unknown (null) firmware
  * gets the settings unchanged.
  *
  * Throws `bad-setting` for an invalid version.
@@ -34,6 +34,7 @@ export function motionForFirmware(motion: MotionSettings, firmware: string | nul
   const { draw, travel, layers } = motion;
   return {
     ...motion,
+    shaper: "none",
     draw: gentler(draw),
     travel: gentler(travel),
     ...(layers === undefined ? {} : { layers: gentlerLayers(layers) }),

@@ -1,52 +1,29 @@
 import type { Job } from "../../src/schema/index.js";
-import { mayOperate } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
-import { jobText } from "./text.js";
-import { Select } from "../ui/choice.js";
-import { formatClockIn, formatCount, formatDuration, formatNumber, formatPercent } from "../ui/format.js";
-import { useNow } from "../ui/use-now.js";
-import { JobButtons } from "./job-buttons.js";
-import { JobHead, Progress } from "./job-head.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
-import { PenWait } from "./pen-wait.js";
+import { jobText } from "../queue/text.js";
+import { activeJob, mayOperate } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { Select } from "../ui/choice.js";
+import { formatCount, formatNumber } from "../ui/format.js";
+import { watchText } from "./text.js";
 
 const words = jobText;
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 
-/** The job that has the plotter: how far it is, and what can be done with it in its state. */
-export const ActiveJob = ({ job }: { job: Job }) => {
-  const isMine = usePageState(mayOperate);
+/** What can be changed of a plot under way: pen heights, speed, and the place where a paused one goes on. */
+export const Adjust = () => {
+  const job = usePageState(activeJob);
+  const canChange = usePageState((state) => mayOperate(state) && state.link === "connected");
+  if (!job || !canChange) return null;
   const isWaiting = job.state === "paused" && job.wait !== null;
   return (
-    <article className="job job-active" data-state={job.state}>
-      <JobHead job={job} />
-      <Progress job={job} />
-      <TimeLeft job={job} />
-      {job.message && !isWaiting && <p className="note">{job.message}</p>}
-      {job.state === "interrupted" && <p className="note">{words.recoverHint}</p>}
-      {isWaiting && job.wait ? <PenWait job={job} wait={job.wait} /> : <JobButtons job={job} />}
-      {isMine && job.state !== "interrupted" && <NudgeJob job={job} />}
-      {isMine && job.state === "paused" && !isWaiting && job.place && (
-        <PlaceControls job={job} place={job.place} />
-      )}
-      {isMine && job.state !== "interrupted" && !isWaiting && <LiveChanges job={job} />}
-    </article>
-  );
-};
-
-const TimeLeft = ({ job }: { job: Job }) => {
-  const nowMs = useNow();
-  return (
-    <p className="job-line">
-      <span className="big-figure">{formatPercent(job.progress)}</span>
-      {job.remainingS !== null && (
-        <span>
-          {words.left(formatDuration(job.remainingS))}
-          {job.state === "plotting" && `, ${words.doneAt(formatClockIn(nowMs, job.remainingS))}`}
-        </span>
-      )}
-    </p>
+    <section className="card adjust" aria-label={watchText.adjust}>
+      <h2 className="card-title">{watchText.adjust}</h2>
+      <NudgeJob job={job} />
+      {job.state === "paused" && !isWaiting && job.place && <PlaceControls job={job} place={job.place} />}
+      {!isWaiting && <LiveChanges job={job} />}
+    </section>
   );
 };
 

@@ -1,0 +1,111 @@
+/**
+ * npm run compare:shaping: what keeps the swinging of a machine out of the line, and what a step of quality is worth.
+ * Prints the tables of docs/motion.md. All samples; time without pen waits and the simulated pen's distance from the
+ * drawing, as shares of the default's (A = 500, V = 50, δ = 0.025, not shaped); medians.
+ */
+import { readdirSync, readFileSync } from "node:fs";
+import path from "node:path";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  DEFAULT_PREPARE,
+  importSvg,
+  machineById,
+  plan,
+  prepare,
+  type MotionSettings,
+  type StrokeSet,
+  type Trajectory,
+} from "../src/index.js";
+import { motionOfQuality, penError, QUALITIES, SHAPERS, type Springs } from "../src/internal.js";
+import { inverseMotion } from "../test/support/inverse-motion.js";
+import { markdownTable } from "./settings-table.js";
+
+const FOLDER = path.join(import.meta.dirname, "..", "samples");
+const SPRINGS: readonly Springs[] = [
+  [10, 15],
+  [15, 25],
+  [25, 40],
+].map(([xHz, yHz]) => ({ xHz, yHz, damping: 0.05 }));
+/** The machine's true frequency over the one that it is shaped for. */
+const FACTORS = [1, 0.9, 1.1, 0.8, 1.2];
+
+const drawings: readonly StrokeSet[] = readdirSync(FOLDER).map(
+  (file) => prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes,
+);
+
+interface Way {
+  readonly name: string;
+  readonly motion: MotionSettings;
+  /** u = q + (2ζ/ω) q′ + q″/ω² of the plan. */
+  readonly isInverse?: boolean;
+}
+
+function rowOf(springs: Springs, { name, motion, isInverse }: Way): string[] {
+  const machine = { ...machineById("axidraw-v3"), springs };
+  const rows = drawings.map((strokes) => {
+    const before = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN, { machine });
+    const planned = plan(strokes, motion, DEFAULT_PEN, { machine });
+    const after = isInverse ? inverseMotion(planned, springs) : planned;
+    const errorOf = (t: Trajectory, factor: number) =>
+      penError(strokes, t, { ...springs, xHz: factor * springs.xHz, yHz: factor * springs.yHz });
+    const was = errorOf(before, 1);
+    const errors = FACTORS.map((factor) => errorOf(after, factor));
+    return {
+      time: motionS(planned) / motionS(before),
+      max: errors.map(({ maxMm }) => maxMm / was.maxMm),
+      rms: errors.map(({ rmsMm }) => rmsMm / was.rmsMm),
+    };
+  });
+  const errors = FACTORS.map((_, i) => {
+    const of = (what: "max" | "rms"): string => median(rows.map((row) => row[what][i])).toFixed(2);
+    return `${of("max")} / ${of("rms")}`;
+  });
+  return [
+    `${springs.xHz} / ${springs.yHz}`,
+    name,
+    median(rows.map(({ time }) => time)).toFixed(2),
+    ...errors,
+  ];
+}
+
+const HEAD = ["Hz x / y", "", "time", ...FACTORS.map((factor) => (factor === 1 ? "right" : `f × ${factor}`))];
+
+const [, springs] = SPRINGS;
+const fast = { ...DEFAULT_MOTION, ...motionOfQuality("fast", springs) };
+const inverse = (jerk: number): Way => ({
+  name: `inverse, J = ${jerk / 1000} 000`,
+  isInverse: true,
+  motion: {
+    ...fast,
+    shaper: "none",
+    mode: "scurve",
+    draw: { ...fast.draw, jerkMmPerS3: jerk },
+    travel: { ...fast.travel, jerkMmPerS3: 2 * jerk },
+  },
+});
+const ways: readonly Way[] = [
+  ...SHAPERS.map((shaper): Way => ({ name: shaper, motion: { ...fast, shaper } })),
+  ...[10_000, 40_000, 160_000].map(inverse),
+];
+console.log("At the limits of quality fast:\n");
+console.log(markdownTable([HEAD, ...ways.map((way) => rowOf(springs, way))]));
+
+console.log("\nThe steps of quality:\n");
+const steps = SPRINGS.flatMap((one) =>
+  QUALITIES.map((quality) => {
+    const motion = { ...DEFAULT_MOTION, ...motionOfQuality(quality, one) };
+    return rowOf(one, { name: quality, motion });
+  }),
+);
+console.log(markdownTable([HEAD, ...steps]));
+
+function motionS({ durationS, blockCount }: Trajectory): number {
+  return durationS.subarray(0, blockCount).reduce((sum, s) => sum + s, 0);
+}
+
+function median(values: readonly number[]): number {
+  const sorted = [...values].sort((a, b) => a - b);
+  const half = sorted.length >> 1;
+  return sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}

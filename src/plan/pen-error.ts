@@ -1,0 +1,87 @@
+/** How far beside the drawing the pen of a swinging machine would be (spring-pen.ts), while it draws. */
+import type { StrokeSet } from "../drawing/stroke-set.js";
+import type { Springs } from "../machines/profile.js";
+import { swingPen } from "./spring-pen.js";
+import type { Trajectory } from "./trajectory.js";
+
+export interface PenError {
+  readonly maxMm: number;
+  /** 99 % of the drawing time the pen is nearer than this. */
+  readonly p99Mm: number;
+  readonly rmsMm: number;
+}
+
+const STEP_S = 0.001;
+/** The line is searched this far before and after the place where the pen should be, mm. */
+const NEAR_MM = 2;
+/** Width of the classes that are counted for the percentile, mm, and their number. */
+const CLASS_MM = 0.001;
+const CLASSES = 5_000;
+
+export function penError(strokes: StrokeSet, trajectory: Trajectory, springs: Springs): PenError {
+  const line = new NearLine(strokes);
+  const secondsIn = new Float64Array(CLASSES);
+  let maxMm = 0;
+  let squares = 0;
+  let seconds = 0;
+  let lastS = 0;
+  swingPen(trajectory, springs, STEP_S, ({ tS, x, y, stroke, alongMm }) => {
+    const dt = tS - lastS;
+    lastS = tS;
+    if (stroke < 0) return;
+    const mm = line.distance(stroke, alongMm, x, y);
+    maxMm = Math.max(maxMm, mm);
+    squares += dt * mm * mm;
+    seconds += dt;
+    secondsIn[Math.min(CLASSES - 1, Math.floor(mm / CLASS_MM))] += dt;
+  });
+  if (seconds === 0) return { maxMm: 0, p99Mm: 0, rmsMm: 0 };
+  let left = seconds / 100;
+  let top = CLASSES - 1;
+  while (top > 0 && left >= secondsIn[top]) left -= secondsIn[top--];
+  return { maxMm, p99Mm: (top + 1) * CLASS_MM, rmsMm: Math.sqrt(squares / seconds) };
+}
+
+/** Distances from the drawing near a place on it. */
+class NearLine {
+  private stroke = -1;
+  private point = 0;
+  private startMm = 0;
+
+  constructor(private readonly strokes: StrokeSet) {}
+
+  distance(stroke: number, alongMm: number, x: number, y: number): number {
+    const { xy, offsets } = this.strokes;
+    const [first, last] = [offsets[stroke], offsets[stroke + 1] - 1];
+    if (stroke !== this.stroke) {
+      this.stroke = stroke;
+      this.point = first;
+      this.startMm = 0;
+    }
+    // On to the segment in which the search begins.
+    while (this.point + 1 < last) {
+      const length = this.lengthOf(this.point);
+      if (this.startMm + length >= alongMm - NEAR_MM) break;
+      this.startMm += length;
+      this.point++;
+    }
+    let nearest2 = Infinity;
+    let fromMm = this.startMm;
+    for (let i = this.point; i <= Math.max(first, last - 1) && fromMm <= alongMm + NEAR_MM; i++) {
+      const j = Math.min(i + 1, last);
+      const [dx, dy] = [xy[2 * j] - xy[2 * i], xy[2 * j + 1] - xy[2 * i + 1]];
+      const [px, py] = [x - xy[2 * i], y - xy[2 * i + 1]];
+      const length2 = dx * dx + dy * dy;
+      const share = length2 > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / length2)) : 0;
+      const [ex, ey] = [px - share * dx, py - share * dy];
+      nearest2 = Math.min(nearest2, ex * ex + ey * ey);
+      fromMm += Math.sqrt(length2);
+    }
+    return Math.sqrt(nearest2);
+  }
+
+  private lengthOf(i: number): number {
+    const { xy } = this.strokes;
+    return Math.hypot(xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]);
+  }
+}

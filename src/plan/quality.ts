@@ -1,0 +1,69 @@
+/**
+ * What the steps of quality set: speed, acceleration and corner rounding together, from how the machine swings.
+ *
+ * A shaped carriage leaves the line by up to A/32f², and a wrong frequency leaves a share of that on the paper, so A
+ * is lowered with f² on weak machines. From 10 Hz on the motors, not the springs, are the limit.
+ */
+import { PlotwrightError } from "../errors.js";
+import { DEFAULT_MOTION, DRAW_TABLE, type MotionSettings } from "../settings/motion.js";
+import { QUALITIES, type Quality } from "../settings/quality.js";
+import { defaultsOf } from "../settings/setting.js";
+import type { Springs } from "../machines/profile.js";
+
+/** mm/s, mm/s² from 10 Hz on, mm. */
+const STEPS = {
+  fine: { speed: 60, accel: 1_000, corner: 0.011, travelSpeed: 180, travelAccel: 2_000 },
+  normal: { speed: 70, accel: 1_300, corner: 0.016, travelSpeed: 200, travelAccel: 2_200 },
+  fast: { speed: 85, accel: 1_750, corner: 0.022, travelSpeed: 220, travelAccel: 2_500 },
+} as const satisfies Record<Quality, object>;
+
+/** From this frequency on the acceleration is the full one, Hz. */
+const STIFF_HZ = 10;
+
+/** What a step of quality sets. */
+export type QualityMotion = Pick<MotionSettings, "shaper" | "draw" | "travel">;
+
+/** @throws PlotwrightError "bad-setting" for fine or fast on a machine that was not measured */
+export function motionOfQuality(quality: Quality, springs: Springs | null): QualityMotion {
+  if (springs === null) {
+    if (quality === "normal")
+      return { shaper: "none", draw: DEFAULT_MOTION.draw, travel: DEFAULT_MOTION.travel };
+    throw new PlotwrightError(
+      "bad-setting",
+      `Quality ${quality} needs to know how the machine swings: plot the ringing sheet, it takes ten minutes.`,
+    );
+  }
+  const { speed, accel, corner, travelSpeed, travelAccel } = STEPS[quality];
+  const share = Math.min(1, Math.min(springs.xHz, springs.yHz) / STIFF_HZ) ** 2;
+  return {
+    shaper: "zv",
+    draw: {
+      ...defaultsOf(DRAW_TABLE),
+      speedMmPerS: speed,
+      accelMmPerS2: Math.round(accel * share),
+      cornerMm: corner,
+    },
+    travel: {
+      ...DEFAULT_MOTION.travel,
+      speedMmPerS: travelSpeed,
+      accelMmPerS2: Math.round(travelAccel * share),
+    },
+  };
+}
+
+/** The step whose numbers these are; null: numbers of the user's own. */
+export function qualityOf({ shaper, draw, travel }: MotionSettings, springs: Springs | null): Quality | null {
+  const isSame = (quality: Quality): boolean => {
+    if (springs === null && quality !== "normal") return false;
+    const step = motionOfQuality(quality, springs);
+    return (
+      step.shaper === (shaper ?? "none") &&
+      step.draw.speedMmPerS === draw.speedMmPerS &&
+      step.draw.accelMmPerS2 === draw.accelMmPerS2 &&
+      step.draw.cornerMm === draw.cornerMm &&
+      step.travel.speedMmPerS === travel.speedMmPerS &&
+      step.travel.accelMmPerS2 === travel.accelMmPerS2
+    );
+  };
+  return QUALITIES.find(isSame) ?? null;
+}

@@ -1,0 +1,108 @@
+/**
+ * A stop in a shaped motion: the planned motion brakes, and goes through the shaper as the rest of it would have, so
+ * that the pen does not swing afterwards.
+ *
+ *   planned   ──window──|──braking──|            window: what the shaper still remembers at the stop
+ *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
+ */
+import { BlockColumns } from "./block-columns.js";
+import { writeFiltered, type Kernel } from "./filter.js";
+import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
+
+/** Shorter pieces are rounding errors, s. */
+const NO_PIECE_S = 1e-9;
+/** Too quick for the gantry to follow, s. */
+const JOIN_S = 0.02;
+
+export interface ShapedRest {
+  /** Both count time from the stop's beginning; the planned motion begins before it. */
+  readonly planned: BlockColumns;
+  readonly shaped: BlockColumns;
+}
+
+/**
+ * @param planned the motion before the shaper
+ * @param tS when the braking begins
+ * @param carriage where it is then
+ * @param braking blocks of the planned motion from `tS` on; none if it is at rest then
+ * @param end where it comes to rest
+ */
+export function shapeRest(
+  planned: Trajectory,
+  run: number,
+  kernel: Kernel,
+  tS: number,
+  carriage: MotionState,
+  braking: BlockColumns,
+  end: { readonly x: number; readonly y: number; readonly alongMm: number },
+): ShapedRest {
+  const window = new BlockColumns(0, false);
+  addWindow(planned, run, tS - kernel.lengthS, tS, window);
+  for (let k = 0; k < braking.count; k++) window.pushFrom(braking, k);
+  const whole = new BlockColumns(0, false);
+  const shaped = new BlockColumns(0, false);
+  if (window.count === 0) return { planned: window, shaped };
+  whole.clockS = window.startS[0];
+  const blocks = window.count;
+  writeFiltered(window, { ...end, segmentCount: 0 }, kernel, whole);
+  // Without the rests that the filter adds.
+  window.count = blocks;
+  const exact = new BlockColumns(0, false);
+  addAfter(whole, exact);
+  joinFrom(carriage, exact, end, shaped);
+  return { planned: window, shaped };
+}
+
+/**
+ * The carriage follows merged blocks (merge.ts), so it is a few µm beside the exact motion. Two blocks of constant
+ * acceleration lead from where it is to the exact motion JOIN_S later.
+ */
+function joinFrom(
+  carriage: MotionState,
+  exact: BlockColumns,
+  end: { readonly x: number; readonly y: number },
+  out: BlockColumns,
+): void {
+  if (exact.count === 0) return;
+  let k = 0;
+  while (k < exact.count && exact.startS[k] < JOIN_S) k++;
+  const isEnd = k === exact.count;
+  const [x1, y1] = isEnd ? [end.x, end.y] : [exact.x[k], exact.y[k]];
+  const [vx1, vy1] = isEnd ? [0, 0] : [exact.vx[k], exact.vy[k]];
+  const wholeS = isEnd ? Math.max(exact.clockS, JOIN_S / 2) : exact.startS[k];
+  const { x, y, vx, vy } = carriage;
+  const wx = (2 * (x1 - x)) / wholeS - (vx + vx1) / 2;
+  const wy = (2 * (y1 - y)) / wholeS - (vy + vy1) / 2;
+  const half = wholeS / 2;
+  out.push(half, x, y, vx, vy, (wx - vx) / half, (wy - vy) / half, 0);
+  const [mx, my] = [x + (half * (vx + wx)) / 2, y + (half * (vy + wy)) / 2];
+  out.push(half, mx, my, wx, wy, (vx1 - wx) / half, (vy1 - wy) / half, 0);
+  for (; k < exact.count; k++) out.pushFrom(exact, k);
+}
+
+/** Appends what run `run` does from `fromS` to `toS`. Time 0 is `toS`. */
+function addWindow(planned: Trajectory, run: number, fromS: number, toS: number, out: BlockColumns): void {
+  const { runs, startS, durationS } = planned;
+  const state = newMotionState();
+  for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1] && startS[k] < toS; k++) {
+    const from = Math.max(0, fromS - startS[k]);
+    const to = Math.min(durationS[k], toS - startS[k]);
+    if (to - from <= NO_PIECE_S) continue;
+    const { x, y, vx, vy, ax, ay, alongMm } = blockState(planned, k, from, state);
+    out.clockS = startS[k] + from - toS;
+    out.push(to - from, x, y, vx, vy, ax, ay, alongMm);
+  }
+}
+
+/** Appends the part of `from` after time 0. */
+function addAfter(from: BlockColumns, out: BlockColumns): void {
+  for (let k = 0; k < from.count; k++) {
+    const t = Math.max(0, -from.startS[k]);
+    const rest = from.durationS[k] - t;
+    if (rest <= NO_PIECE_S) continue;
+    const [vx, vy, ax, ay] = [from.vx[k], from.vy[k], from.ax[k], from.ay[k]];
+    const x = from.x[k] + t * (vx + (t * ax) / 2);
+    const y = from.y[k] + t * (vy + (t * ay) / 2);
+    out.push(rest, x, y, vx + t * ax, vy + t * ay, ax, ay, from.alongMm[k]);
+  }
+}

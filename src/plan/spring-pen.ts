@@ -1,0 +1,93 @@
+/**
+ * The pen at the end of a swinging gantry: each axis is a spring of natural frequency f and damping ratio ζ
+ * between the carriage u and the pen x.
+ *
+ *   x″ = ω² (u − x) + 2ζω (u′ − x′)      ω = 2πf
+ *
+ * While u has constant acceleration a, the difference d = x − u obeys d″ + 2ζω d′ + ω² d = −a, whose solution is
+ * exact: a decaying swing around −a/ω². A jump of the carriage's velocity is one of d′.
+ */
+import type { Springs } from "../machines/profile.js";
+import { blockState, newMotionState, type Trajectory } from "./trajectory.js";
+
+/** The swing of one axis. */
+export class SpringAxis {
+  /** x − u, mm, and its rate of change, mm/s. */
+  d = 0;
+  rate = 0;
+  private readonly omega: number;
+  private readonly decay: number;
+  private readonly swing: number;
+
+  constructor(hz: number, damping: number) {
+    this.omega = 2 * Math.PI * hz;
+    this.decay = damping * this.omega;
+    this.swing = this.omega * Math.sqrt(1 - damping * damping);
+  }
+
+  /** `t` seconds further, under constant acceleration of the carriage. */
+  advance(t: number, accel: number): void {
+    const centre = -accel / (this.omega * this.omega);
+    const from = this.d - centre;
+    const other = (this.rate + this.decay * from) / this.swing;
+    const left = Math.exp(-this.decay * t);
+    const [sin, cos] = [Math.sin(this.swing * t), Math.cos(this.swing * t)];
+    const d = left * (from * cos + other * sin);
+    this.rate = -this.decay * d + left * this.swing * (other * cos - from * sin);
+    this.d = centre + d;
+  }
+}
+
+export interface PenPoint {
+  readonly tS: number;
+  readonly x: number;
+  readonly y: number;
+  /** −1 unless the pen is down. */
+  readonly stroke: number;
+  /** mm along the stroke, as the plan has it. */
+  readonly alongMm: number;
+}
+
+/** Calls `see` about every `stepS` seconds, in motion and for a moment after it. Jerk counts as steps of acceleration. */
+export function swingPen(
+  trajectory: Trajectory,
+  { xHz, yHz, damping }: Springs,
+  stepS: number,
+  see: (pen: PenPoint) => void,
+): void {
+  const axisX = new SpringAxis(xHz, damping);
+  const axisY = new SpringAxis(yHz, damping);
+  const state = newMotionState();
+  const { runs, startS, durationS } = trajectory;
+  let [lastVx, lastVy] = [0, 0];
+  let tS = 0;
+  const wait = (untilS: number, stroke: number, alongMm: number): void => {
+    axisX.rate += lastVx;
+    axisY.rate += lastVy;
+    lastVx = lastVy = 0;
+    axisX.advance(untilS - tS, 0);
+    axisY.advance(untilS - tS, 0);
+    tS = untilS;
+    see({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke, alongMm });
+  };
+  for (let run = 0; run < runs.count; run++) {
+    for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
+      if (startS[k] > tS) wait(startS[k], -1, 0);
+      const steps = Math.max(1, Math.ceil(durationS[k] / stepS));
+      const dt = durationS[k] / steps;
+      blockState(trajectory, k, 0, state);
+      axisX.rate += lastVx - state.vx;
+      axisY.rate += lastVy - state.vy;
+      for (let i = 1; i <= steps; i++) {
+        blockState(trajectory, k, (i - 0.5) * dt, state);
+        axisX.advance(dt, state.ax);
+        axisY.advance(dt, state.ay);
+        blockState(trajectory, k, i * dt, state);
+        tS = startS[k] + i * dt;
+        const { alongMm } = state;
+        see({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke: runs.stroke[run], alongMm });
+      }
+      [lastVx, lastVy] = [state.vx, state.vy];
+    }
+  }
+}

@@ -1,0 +1,125 @@
+/** Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped. */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import type { Place } from "../../src/index.js";
+import { SpringAxis } from "../../src/plan/spring-pen.js";
+import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
+import { comeToRest } from "../../src/plan/come-to-rest.js";
+import { DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { DRAWING, seamsMm, seeded } from "../support/live-plot.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
+import { FIGURES, inQuality, SPRINGS, swinging } from "../support/swinging.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
+
+/** A gap, a doubled stretch or a swing that nobody sees, mm. */
+const UNSEEN_MM = 0.05;
+const [springs] = SPRINGS;
+const machine = swinging(springs);
+const MOTION = inQuality("fast", springs);
+const SETTINGS: PlotSettings = {
+  ...DEFAULT_PLOT_SETTINGS,
+  motion: MOTION,
+  machine: machine.id,
+  customMachine: machine,
+};
+
+async function plotting(firmware: string) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const planner = new KeepingPlanner(DRAWING);
+  const run = await world.run(driver.plot(planner, SETTINGS));
+  return { world, run, planner, board: virtualBoardOf(driver) };
+}
+
+describe("a hold in shaped motion", () => {
+  it("stops a swinging machine's pen without a swing, on the planned line", () => {
+    const limits = { drawAccel: MOTION.draw.accelMmPerS2, travelAccel: MOTION.travel.accelMmPerS2 };
+    const random = seeded(11);
+    let stops = 0;
+    for (const strokes of Object.values(FIGURES)) {
+      const t = plan(strokes, MOTION, DEFAULT_PEN, { machine });
+      for (let i = 0; i < 60; i++) {
+        const tS = t.totalS * random();
+        const { trajectory: rest, planS } = comeToRest(t, tS, limits, null);
+        if (rest.blockCount === 0) continue;
+        stops++;
+        const axes = [
+          new SpringAxis(springs.xHz, springs.damping),
+          new SpringAxis(springs.yHz, springs.damping),
+        ] as const;
+        const begun = [...t.runs.startS].filter((startS) => startS <= tS).length - 1;
+        for (let k = t.runs.firstBlock[begun]; k < t.runs.firstBlock[begun + 1]; k++) {
+          const s = Math.min(t.durationS[k], tS - t.startS[k]);
+          if (s <= 0) break;
+          axes[0].advance(s, t.ax[k]);
+          axes[1].advance(s, t.ay[k]);
+        }
+        for (let k = 0; k < rest.blockCount; k++) {
+          axes[0].advance(rest.durationS[k], rest.ax[k]);
+          axes[1].advance(rest.durationS[k], rest.ay[k]);
+        }
+        const swingMm = Math.hypot(
+          Math.hypot(axes[0].d, axes[0].rate / (2 * Math.PI * springs.xHz)),
+          Math.hypot(axes[1].d, axes[1].rate / (2 * Math.PI * springs.yHz)),
+        );
+        expect(swingMm).toBeLessThan(UNSEEN_MM);
+        const end = stateAt(rest, rest.totalS);
+        if (stateAt(t, tS).stroke < 0) continue;
+        expect(Math.abs(end.alongMm - stateAt(t, planS - 1e-9).alongMm)).toBeLessThan(UNSEEN_MM);
+      }
+    }
+    expect(stops).toBeGreaterThan(150);
+  }, 60_000);
+
+  it.each(["2.8.1", "3.0.3"])(
+    "leaves no gap and no doubled stretch, and ends exactly, on firmware %s",
+    async (firmware) => {
+      const random = seeded(5);
+      for (let i = 0; i < 10; i++) {
+        const { world, board, run } = await plotting(firmware);
+        const holds: Place[] = [];
+        let done = false;
+        void run.finished.then(() => (done = true));
+        const isDone = (): boolean => done;
+        for (let k = 0; k < 10; k++) {
+          await world.advance(0.1 + 1.2 * random());
+          if (isDone()) break;
+          await world.run(run.pause());
+          if (run.holdPlace) holds.push(run.holdPlace);
+          await world.run(run.resume());
+        }
+        expect(await world.run(run.finished)).toEqual({ kind: "done" });
+        expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+        expect(holds.length).toBeGreaterThan(3);
+        expect(Math.max(0, ...seamsMm(board))).toBeLessThan(UNSEEN_MM);
+        expect(board.statistics().longestUnderrunS).toBeLessThan(0.005);
+      }
+    },
+    120_000,
+  );
+});
+
+describe("an emergency stop in shaped motion", () => {
+  it.each(["2.8.1", "3.0.3"])(
+    "is gone on from where the pen was, on firmware %s",
+    async (firmware) => {
+      const random = seeded(17);
+      const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);
+      for (let i = 0; i < 50; i++) {
+        const { world, board, run, planner } = await plotting(firmware);
+        await world.advance(0.1);
+        const [plot] = planner.plots;
+        await world.advance(0.95 * plot.trajectory.totalS * random());
+        await world.run(run.emergencyStop());
+        const ticks = ranTicks(board) - (hasClear ? 1 + idleTicksTimed : 0);
+        const truthMm = drawnUntilMm(DRAWING, plot, planSAfter(plot.commands, ticks));
+        expect(Math.abs(mmOf(DRAWING, run.holdPlace!) - truthMm)).toBeLessThan(UNSEEN_MM);
+        await world.run(Promise.all([run.cancel(), run.finished]));
+      }
+    },
+    120_000,
+  );
+});

@@ -1,0 +1,27 @@
+import { useActions } from "../state/use-store.js";
+import { appName } from "../ui/text.js";
+import { pairingText } from "./text.js";
+import "./pairing.css";
+
+const words = pairingText;
+
+/** In place of the page on a device that the server does not know. */
+export const Pairing = () => {
+  const { meet } = useActions();
+  return (
+    <main className="pairing">
+      <p className="pairing-brand">{appName}</p>
+      <h1>{words.title}</h1>
+      <p>{words.why}</p>
+      <ol>
+        {words.steps.map((step) => (
+          <li key={step}>{step}</li>
+        ))}
+      </ol>
+      <p className="note">{words.terminal}</p>
+      <button type="button" className="button button-primary" onClick={() => void meet()}>
+        {words.retry}
+      </button>
+    </main>
+  );
+};

@@ -1,0 +1,21 @@
+import type { PageState } from "../state/store.js";
+import { Dialog } from "../ui/dialog.js";
+import { takeOverText } from "./text.js";
+
+const words = takeOverText;
+
+/** Before what only the operator may do, while another browser operates. */
+export const TakeOver = ({ question }: { question: NonNullable<PageState["takeOverQuestion"]> }) => (
+  <Dialog title={words.title} onClose={() => question.answer(false)}>
+    <p>{words.operating(question.operator)}</p>
+    <p className="note">{words.hint}</p>
+    <div className="button-row">
+      <button type="button" className="button button-primary" onClick={() => question.answer(true)}>
+        {words.takeOver}
+      </button>
+      <button type="button" className="button" onClick={() => question.answer(false)}>
+        {words.keep}
+      </button>
+    </div>
+  </Dialog>
+);

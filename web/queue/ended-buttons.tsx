@@ -1,0 +1,56 @@
+import type { Job } from "../../src/schema/index.js";
+import { activeJob, mayOperate } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { queueText } from "./text.js";
+
+const words = queueText;
+
+/** Of a job that waits or has ended: start it, go on with it, or plot it once more. */
+export const EndedButtons = ({ job }: { job: Job }) => {
+  const { actOnJob } = useActions();
+  const isMine = usePageState(mayOperate);
+  const isOff = usePageState((state) => state.link !== "connected");
+  const isFree = usePageState((state) => activeJob(state) === null);
+  if (!isMine) return null;
+  if (job.state === "queued") {
+    return (
+      <button
+        type="button"
+        className="button button-primary"
+        disabled={isOff || !isFree}
+        aria-label={words.startNamed(job.name)}
+        onClick={() => void actOnJob(job.id, "start")}
+      >
+        {words.start}
+      </button>
+    );
+  }
+  return (
+    <div className="button-row ended-buttons">
+      {canGoOn(job) && (
+        <button
+          type="button"
+          className="button"
+          disabled={isOff || !isFree}
+          aria-label={words.goOnNamed(job.name)}
+          onClick={() => void actOnJob(job.id, "recover")}
+        >
+          {words.goOn}
+        </button>
+      )}
+      <button
+        type="button"
+        className="button"
+        disabled={isOff}
+        aria-label={words.againNamed(job.name)}
+        onClick={() => void actOnJob(job.id, "requeue")}
+      >
+        {words.again}
+      </button>
+    </div>
+  );
+};
+
+/** Part of a cancelled job is drawn, and the server knows which. */
+export const canGoOn = ({ state, place, progress }: Job): boolean =>
+  state === "cancelled" && place !== null && progress > 0;

@@ -1,0 +1,46 @@
+import type { Job } from "../../src/schema/index.js";
+import { shownView } from "../state/store.js";
+import { usePageState } from "../state/use-store.js";
+import { jobText, queueText } from "./text.js";
+import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
+import { useNow } from "../ui/use-now.js";
+import { Thumb } from "../drawing/thumb.js";
+import { JobButtons } from "./job-buttons.js";
+import { JobName, Progress, StateBadge } from "./job-head.js";
+import { PenWait } from "./pen-wait.js";
+
+/** The job that has the plotter, first in the queue. In Watch its buttons stand on the status card. */
+export const RunningJob = ({ job }: { job: Job }) => {
+  const isWatched = usePageState((state) => shownView(state) === "watch");
+  const wait = job.state === "paused" ? job.wait : null;
+  return (
+    <article className="job job-active" data-state={job.state}>
+      <div className="job-row">
+        <Thumb of="job" id={job.id} />
+        <JobName job={job} />
+        <StateBadge job={job} />
+      </div>
+      <Progress job={job} />
+      <TimeLeft job={job} />
+      {!isWatched && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
+    </article>
+  );
+};
+
+const TimeLeft = ({ job }: { job: Job }) => {
+  const nowMs = useNow();
+  const isSeen = usePageState((state) => state.link === "connected");
+  const share = formatPercent(job.progress);
+  if (!isSeen) return <p className="job-line">{queueText.lastSeen(share)}</p>;
+  return (
+    <p className="job-line">
+      <span className="job-share">{share}</span>
+      {job.remainingS !== null && (
+        <span>
+          {jobText.left(formatDuration(job.remainingS))}
+          {job.state === "plotting" && `, ${jobText.doneAt(formatClockIn(nowMs, job.remainingS))}`}
+        </span>
+      )}
+    </p>
+  );
+};

@@ -1,0 +1,67 @@
+import { useEffect, useRef, useState, type ReactNode } from "react";
+import { Icon } from "./icon.js";
+import "./row-menu.css";
+
+/** A row's further buttons, behind one. Escape, a press elsewhere and a press on one of them close it. */
+export const RowMenu = ({ label, children }: { label: string; children: ReactNode }) => {
+  const [isOpen, setOpen] = useState(false);
+  const box = useRef<HTMLDivElement>(null);
+  const opener = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    if (!isOpen) return;
+    const onPress = (event: PointerEvent): void => {
+      if (!box.current?.contains(event.target as Node)) setOpen(false);
+    };
+    document.addEventListener("pointerdown", onPress);
+    return () => document.removeEventListener("pointerdown", onPress);
+  }, [isOpen]);
+  return (
+    <div
+      className="row-menu"
+      ref={box}
+      onKeyDown={(event) => {
+        if (event.key !== "Escape" || !isOpen) return;
+        setOpen(false);
+        opener.current?.focus();
+      }}
+    >
+      <button
+        ref={opener}
+        type="button"
+        className="button button-icon button-small"
+        aria-label={label}
+        aria-expanded={isOpen}
+        title={label}
+        onClick={() => setOpen(!isOpen)}
+      >
+        <Icon name="more" />
+      </button>
+      {isOpen && (
+        <div
+          className="row-menu-list"
+          role="group"
+          aria-label={label}
+          onClick={(event) => {
+            if (event.target instanceof Element && event.target.closest("button")) setOpen(false);
+          }}
+        >
+          {children}
+        </div>
+      )}
+    </div>
+  );
+};
+
+interface MenuItemProps {
+  readonly words: string;
+  /** With the row's name, for who does not see the row. */
+  readonly label: string;
+  readonly isOff?: boolean;
+  onClick(): void;
+}
+
+export const MenuItem = ({ words, label, isOff = false, onClick }: MenuItemProps) => (
+  <button type="button" className="row-menu-item" aria-label={label} disabled={isOff} onClick={onClick}>
+    {words}
+  </button>
+);

@@ -1,0 +1,40 @@
+import { useEffect } from "react";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { Icon } from "../ui/icon.js";
+import { watchText } from "./text.js";
+
+const words = watchText;
+
+/** For a tablet beside the plotter: the status, the sheet and the camera, nothing else, and the screen stays on. */
+export const FullScreenButton = () => {
+  const store = usePageStore();
+  const isFull = usePageState((state) => state.isFullScreen);
+  useEffect(() => {
+    if (!isFull) return;
+    // Where the browser has no full screen of its own (a phone), Watch still fills the page.
+    void document.documentElement.requestFullscreen?.().catch(() => undefined);
+    const lock = "wakeLock" in navigator ? navigator.wakeLock.request("screen").catch(() => null) : null;
+    const onChange = (): void => {
+      if (document.fullscreenElement === null) store.setState({ isFullScreen: false });
+    };
+    document.addEventListener("fullscreenchange", onChange);
+    return () => {
+      document.removeEventListener("fullscreenchange", onChange);
+      void lock?.then((held) => held?.release());
+      if (document.fullscreenElement !== null) void document.exitFullscreen().catch(() => undefined);
+    };
+  }, [isFull, store]);
+  const label = isFull ? words.endFullScreen : words.fullScreen;
+  return (
+    <button
+      type="button"
+      className="tool"
+      aria-label={label}
+      title={label}
+      aria-pressed={isFull}
+      onClick={() => store.setState({ isFullScreen: !isFull })}
+    >
+      <Icon name="full" />
+    </button>
+  );
+};

@@ -1,0 +1,107 @@
+import type { Job } from "../../src/schema/index.js";
+import { EndedButtons } from "../queue/ended-buttons.js";
+import { JobButtons } from "../queue/job-buttons.js";
+import { Progress, StateBadge } from "../queue/job-head.js";
+import { PenWait } from "../queue/pen-wait.js";
+import { jobText } from "../queue/text.js";
+import { ACTIVE_STATES } from "../state/store.js";
+import { usePageState } from "../state/use-store.js";
+import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
+import { useNow } from "../ui/use-now.js";
+import { layerNow } from "./watch-look.js";
+import { watchText } from "./text.js";
+
+const words = watchText;
+
+/** How far the plot is, readable from across the room, and what can be done with it now. */
+export const StatusCard = ({ job }: { job: Job }) => {
+  const isActive = ACTIVE_STATES.includes(job.state);
+  const wait = job.state === "paused" ? job.wait : null;
+  return (
+    <section className="status-card" aria-label={words.status} data-state={job.state}>
+      <div className="status-words">
+        <p className="status-name">
+          <strong>{job.name}</strong>
+          <StateBadge job={job} />
+        </p>
+        <Figures job={job} />
+        {isActive && <LayerLine job={job} />}
+      </div>
+      <div className="status-actions">
+        {isActive && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
+        {!isActive && <EndedButtons job={job} />}
+      </div>
+      {job.state !== "queued" && <Progress job={job} />}
+      <Message job={job} isWaiting={wait !== null} />
+    </section>
+  );
+};
+
+const Figures = ({ job }: { job: Job }) => {
+  const nowMs = useNow();
+  const isSeen = usePageState((state) => state.link === "connected");
+  const share = formatPercent(job.progress);
+  if (!isSeen) {
+    return (
+      <p className="status-figures">
+        <span className="status-large">{words.lastSeen(share)}</span>
+        {job.state === "plotting" && <span>{words.lastSeenHint}</span>}
+      </p>
+    );
+  }
+  if (job.state === "queued") {
+    const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+    return (
+      <p className="status-figures">
+        {expectedS !== null && <span>{words.estimated(formatDuration(expectedS))}</span>}
+      </p>
+    );
+  }
+  if (!ACTIVE_STATES.includes(job.state)) {
+    return (
+      <p className="status-figures">
+        <span className="status-large">{share}</span>
+        <span>{words.took(formatDuration(job.plottedS ?? job.elapsedS))}</span>
+      </p>
+    );
+  }
+  return (
+    <p className="status-figures">
+      {job.remainingS !== null && (
+        <span>
+          <span className="status-large">{formatDuration(job.remainingS)}</span> {words.left}
+        </span>
+      )}
+      <span className="status-share">{share}</span>
+      {job.remainingS !== null && job.state === "plotting" && (
+        <span>{words.doneAt(formatClockIn(nowMs, job.remainingS))}</span>
+      )}
+    </p>
+  );
+};
+
+/** The layer and the pen that draw now. */
+const LayerLine = ({ job }: { job: Job }) => {
+  const planned = usePageState((state) => state.watchPlan?.planned ?? null);
+  const live = usePageState((state) => state.live);
+  const layer = layerNow(job, planned, live);
+  if (!layer) return null;
+  const { number, count, name, penName, color } = layer;
+  return (
+    <p className="status-layer">
+      <span className="status-ink" style={{ background: color ?? "transparent" }} aria-hidden="true" />
+      {count > 1 ? words.layer(number, count, name) : name}
+      {penName !== null && penName !== name && ` · ${words.pen(penName)}`}
+    </p>
+  );
+};
+
+const Message = ({ job, isWaiting }: { job: Job; isWaiting: boolean }) => {
+  const isBroken = job.state === "interrupted";
+  if (isWaiting || (job.message === null && !isBroken)) return null;
+  return (
+    <p className={job.state === "failed" ? "note note-error" : "note"}>
+      {job.message} {isBroken && jobText.recoverHint}
+    </p>
+  );
+};

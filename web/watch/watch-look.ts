@@ -1,0 +1,78 @@
+/** How the plot under way looks: in its pens' colours and widths as far as it is drawn, and where the pen is. */
+import { findMachine, penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
+import type { Job } from "../../src/schema/index.js";
+import type { Desk } from "../preview/backdrop.js";
+import { jobUntilS } from "../preview/drawn-until.js";
+import type { Marker } from "../preview/overlay.js";
+import type { FrameLook } from "../preview/stage.js";
+import { layerColor } from "../scene/color-map.js";
+import { LAYER_SHORT, PIECE_SHORTS } from "../scene/pieces.js";
+import { piecesBefore } from "../scene/scene.js";
+import { currentPlotter, type PageState } from "../state/store.js";
+import type { Planned } from "../worker/protocol.js";
+
+const DEFAULT_LINE_MM = 0.35;
+
+export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageState["live"]): FrameLook => {
+  const layers = planned?.drawnLayers ?? [];
+  return {
+    colorBy: "pen",
+    showTravel: false,
+    lineMm: DEFAULT_LINE_MM,
+    layerColors: layers.map(
+      (layer, index) => penOfJob(job, layer)?.color ?? layer.color ?? layerColor(index),
+    ),
+    layerWidthsMm: layers.map((layer) => penOfJob(job, layer)?.widthMm ?? DEFAULT_LINE_MM),
+    untilS: job && planned ? jobUntilS(job, planned.trajectory, live) : null,
+  };
+};
+
+const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.settings, layer) : null);
+
+export const deskOfSettings = (settings: Job["settings"]): Desk => {
+  const { paper, landscape, margins, marginMm } = settings.prepare;
+  const long = Math.max(paper.widthMm, paper.heightMm);
+  const short = Math.min(paper.widthMm, paper.heightMm);
+  const machine = findMachine(settings);
+  return {
+    paperMm: landscape ? { width: long, height: short } : { width: short, height: long },
+    margins: margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm },
+    reachMm: machine ? { width: machine.widthMm, height: machine.heightMm } : null,
+  };
+};
+
+/** The pen, while it is known where it is. */
+export const markerOfJob = (state: PageState, job: Job | null): Marker | null => {
+  const plotter = currentPlotter(state);
+  if (!job || state.link !== "connected" || !plotter) return null;
+  const { xMm, yMm, penUp } = plotter;
+  return xMm === null || yMm === null ? null : { xMm, yMm, penUp: penUp ?? true };
+};
+
+export interface LayerNow {
+  readonly number: number;
+  readonly count: number;
+  readonly name: string;
+  readonly penName: string | null;
+  readonly color: string | null;
+}
+
+/** The layer that the pen is at; of layers the plot has none of, none. */
+export const layerNow = (job: Job, planned: Planned | null, live: PageState["live"]): LayerNow | null => {
+  if (!planned || planned.scene.draw.count === 0) return null;
+  const { draw } = planned.scene;
+  const untilS = jobUntilS(job, planned.trajectory, live);
+  const reached = untilS === null ? draw.count : piecesBefore(draw, untilS);
+  const piece = Math.min(draw.count - 1, Math.max(0, reached - 1));
+  const index = new Uint16Array(draw.bytes)[piece * PIECE_SHORTS + LAYER_SHORT];
+  const layer = planned.drawnLayers[index];
+  if (!layer) return null;
+  const pen = penOfJob(job, layer);
+  return {
+    number: index + 1,
+    count: planned.drawnLayers.length,
+    name: shownLayerName(layer.name),
+    penName: pen?.name ?? null,
+    color: pen?.color ?? layer.color,
+  };
+};

@@ -1,0 +1,71 @@
+/** The plan of the job that is watched: for its picture, and to know which layer the pen is at. */
+import type { Job } from "../../src/schema/index.js";
+import type { Backend } from "../backend/backend.js";
+import { boardFirmware, type PageState, type PageStore, type WatchPlan } from "../state/store.js";
+import { Planner } from "../worker/planner.js";
+import type { Planned } from "../worker/protocol.js";
+
+interface WatchDeps {
+  readonly store: PageStore;
+  readonly backend: Backend;
+}
+
+const planners = new WeakMap<PageStore, Planner>();
+
+/** A job that is started again may have other settings. */
+const keyOf = ({ id, startedAt }: Job): string => `${id} ${startedAt ?? ""}`;
+
+/** Plans the job unless that is done or under way. */
+export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Promise<void> => {
+  const key = keyOf(job);
+  const state = store.getState();
+  if (state.watchPlan?.key === key) return;
+  const laidOut = planOnPaper(state, job);
+  store.setState({ watchPlan: { key, planned: laidOut, fault: null } });
+  if (laidOut) return;
+  try {
+    const text = await backend.jobDrawing(job.id);
+    if (store.getState().watchPlan?.key !== key) return;
+    const firmware = boardFirmware({ ...store.getState(), settings: job.settings });
+    plannerOf(store).request({ drawing: { key, text }, settings: job.settings, firmware });
+  } catch {
+    // Asked for again when the server is back.
+    answer(store, key, null);
+  }
+};
+
+/** The job's drawing lies on the paper and is planned already: a large one is not planned twice. */
+const planOnPaper = ({ drawing, planned, isPlanning }: PageState, job: Job): Planned | null =>
+  drawing?.jobId === job.id && planned?.drawingKey === drawing.key && !isPlanning ? planned : null;
+
+const plannerOf = (store: PageStore): Planner => {
+  const known = planners.get(store);
+  if (known) return known;
+  const made = new Planner(
+    () => new Worker(new URL("../worker/plan.worker.ts", import.meta.url), { type: "module" }),
+    {
+      after: (delayMs, callback) => {
+        const timer = setTimeout(callback, delayMs);
+        return () => clearTimeout(timer);
+      },
+    },
+    {
+      onPlanned: (planned) => {
+        const key = planned.drawingKey;
+        answer(store, key, { key, planned, fault: null });
+      },
+      onFault: (fault) => {
+        const key = store.getState().watchPlan?.key;
+        if (key !== undefined) answer(store, key, { key, planned: null, fault: fault.message });
+      },
+      onExported: () => undefined,
+      onExportFailed: () => undefined,
+    },
+  );
+  planners.set(store, made);
+  return made;
+};
+
+/** An answer about a job that is not watched any more is dropped. */
+const answer = (store: PageStore, key: string, watchPlan: WatchPlan | null): void =>
+  store.setState((state) => (state.watchPlan?.key === key ? { watchPlan } : {}));

@@ -1,0 +1,60 @@
+import { useEffect } from "react";
+import { watchedJob } from "../state/store.js";
+import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { Notices } from "../ui/notices.js";
+import { StatusCard } from "./status-card.js";
+import { watchText } from "./text.js";
+import { planWatched } from "./watch-plan.js";
+import { WatchSheet } from "./watch-sheet.js";
+import "./watch.css";
+
+const words = watchText;
+
+/** The plot under way, or the last one: how far it is, and its sheet. */
+export const Watch = () => {
+  const job = usePageState(watchedJob);
+  usePlan();
+  return (
+    <div className="watch">
+      {job ? <StatusCard job={job} /> : <NothingCard />}
+      <div className="watch-area">
+        <WatchSheet />
+        <Notices />
+      </div>
+    </div>
+  );
+};
+
+/** Plans whatever is watched; anew when the server is back, since the drawing may not have come. */
+const usePlan = (): void => {
+  const store = usePageStore();
+  const backend = useBackend();
+  const id = usePageState((state) => watchedJob(state)?.id ?? null);
+  const startedAt = usePageState((state) => watchedJob(state)?.startedAt ?? null);
+  const isLinked = usePageState((state) => state.link === "connected");
+  useEffect(() => {
+    const job = watchedJob(store.getState());
+    if (job && isLinked) void planWatched({ store, backend }, job);
+  }, [store, backend, id, startedAt, isLinked]);
+};
+
+const NothingCard = () => {
+  const { showView } = useActions();
+  const isWatcher = usePageState((state) => state.me?.role === "watch");
+  return (
+    <section className="status-card" aria-label={words.status}>
+      <div className="status-words">
+        <p className="status-name">
+          <strong>{words.nothing}</strong>
+        </p>
+      </div>
+      {!isWatcher && (
+        <div className="status-actions">
+          <button type="button" className="button" onClick={() => showView("prepare")}>
+            {words.toPrepare}
+          </button>
+        </div>
+      )}
+    </section>
+  );
+};
