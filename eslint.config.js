@@ -1,5 +1,6 @@
 import tseslint from "typescript-eslint";
 import reactHooks from "eslint-plugin-react-hooks";
+import { plainWords } from "./scripts/lint/plain-words.mjs";
 
 // Who may import whom is written in ARCHITECTURE.md; these rules hold it.
 const onlyEntryPoints = (folder) => ({
@@ -17,6 +18,11 @@ export default tseslint.config(
       "no-console": "error",
       eqeqeq: "error",
     },
+  },
+  {
+    files: ["{src,server,web,test,scripts,bench}/**/*.{ts,tsx}"],
+    plugins: { plotwright: { rules: { "plain-words": plainWords } } },
+    rules: { "plotwright/plain-words": "error" },
   },
   {
     files: ["{src,server,web,test,scripts}/**/*.{ts,tsx}"],

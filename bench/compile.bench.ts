@@ -42,7 +42,7 @@ function measured(trajectory: Trajectory, firmware: string): Record<string, stri
   };
 }
 
-/** Small loops side by side, as in a page of handwriting: about three blocks a segment. */
+/** Small loops side by side, as in a page of handwriting: about three blocks per segment. */
 function lettering(blocks: number): Trajectory {
   const pointsAStroke = 40;
   const strokes = Math.max(1, Math.round(blocks / (2.4 * pointsAStroke)));

@@ -1,7 +1,7 @@
 /**
- * Imports in a fresh process, by the built library, as a program that uses it would do it. Prints JSON: ms from the text
- * in memory to a drawing and, warm, on to a plan; the memory that the first import took at its highest beyond what the
- * process had before. Not counted: the start of Node, loading the library, reading the file.
+ * Imports in a fresh process with the built library, as a program that uses it would. Prints JSON: ms from
+ * the text in memory to a drawing and, warm, to a plan; the peak memory of the first import beyond the memory
+ * of the process before it. Not counted: the start of Node, loading the library, reading the file.
  *
  *   node bench/import-child.mjs FILE [plan]
  */

@@ -1,7 +1,7 @@
 /**
- * SVG text to drawing, each in a fresh process, and text to plan in one that is warm. Files of the kinds that weigh most:
- * many short lines, long polylines, and circles, whose outlines are many times their text. What is counted and what
- * is not stands in import-child.mjs.
+ * SVG text to drawing, each in a fresh process, and text to plan in a warm one. The most expensive kinds of
+ * files: many short lines, long polylines, and circles, whose outlines are many times their text.
+ * import-child.mjs describes what is counted.
  */
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -15,10 +15,10 @@ const BIG_BYTES = 25_000_000;
 
 interface Result {
   readonly importMs: number;
-  /** Warm; null where no plan was asked for. */
+  /** Warm; null if no plan was requested. */
   readonly planMs: number | null;
   readonly shapes: number;
-  /** null where the system does not tell. */
+  /** null if the system does not report it. */
   readonly timesFile: number | null;
 }
 
@@ -60,7 +60,7 @@ function textToPlan(folder: string): Row {
   };
 }
 
-/** The quickest of a few runs: the others waited for somebody else's work. */
+/** The fastest of a few runs: the others were slowed by other work on the machine. */
 function bestOf(folder: string, text: string, then: string): Result {
   const file = path.join(folder, "drawing.svg");
   writeFileSync(file, text);
@@ -107,7 +107,7 @@ function fileOf(bytes: number, element: (random: () => number) => string | null)
   return `${parts.join("")}</g></svg>\n`;
 }
 
-/** Lehmer's, so that every run has the same files. */
+/** Lehmer's generator, so that every run has the same files. */
 function generator(): () => number {
   let seed = 1;
   return () => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;

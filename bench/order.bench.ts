@@ -1,8 +1,8 @@
 /**
- * Stroke order: 20 000 random short strokes on A4, how far the pen travels in the air and what finding out costs.
- * Seconds are processor time of this process, so that other work on the machine does not count.
- * `PLOTWRIGHT_ORDER_S=600 npm run bench -- order` adds a long run; `PLOTWRIGHT_ORDER_SVG=FILE` writes the strokes
- * for comparison with other programs.
+ * Stroke order: 20 000 random short strokes on A4, the pen-up travel and the cost of ordering. Seconds are
+ * processor time of this process, so that other work on the machine does not count. `PLOTWRIGHT_ORDER_S=600
+ * npm run bench -- order` adds a long run; `PLOTWRIGHT_ORDER_SVG=FILE` writes the strokes for comparison with
+ * other programs.
  */
 import { writeFileSync } from "node:fs";
 import {
@@ -79,7 +79,7 @@ function measured(drawing: Drawing, settings: PrepareSettings): { mm: number; or
   return { mm: prepared.travelMm, orderS: Number((cpuS() - from).toFixed(2)) };
 }
 
-/** What a program does that always goes to the nearest beginning and never turns a stroke round. */
+/** A program that always goes to the nearest start point and never reverses a stroke. */
 function greedyForwards({ xy, offsets }: StrokeSet): number {
   const count = offsets.length - 1;
   const starts = Float64Array.from({ length: 2 * count }, (_, k) => xy[2 * offsets[k >> 1] + (k & 1)]);

@@ -1,8 +1,8 @@
 /**
- * What the page's own thread does with large drawings, in real Chromium: the longest task while a file of 25 MB is
- * opened and planned, and while it is put in the queue; how soon a million segments are to be seen once they are
- * planned; and the work of a frame while they are panned and zoomed: how many frames a second come of that is the
- * graphics card's and the machine's. Needs the built product (`npm run build`).
+ * The work of the page's own thread with large drawings, in real Chromium. Measured are the longest task
+ * while a file of 25 MB is opened and planned, and while it is queued; the time from the plan of a million
+ * segments to its picture; and the work per frame while it is panned and zoomed. How many frames per second
+ * result depends on the graphics card and the machine. Needs the built product (`npm run build`).
  */
 import type { Page } from "playwright-core";
 import { PageTest } from "../test/support/page-test.js";
@@ -14,11 +14,11 @@ const FILES = [
 ] as const;
 const FRAMES = 60;
 
-/** Kept by the page for us. */
+/** Recorded by the page for this benchmark. */
 interface Watched {
-  /** Of those over 50 ms, which is what a browser tells. */
+  /** Tasks over 50 ms, which is what a browser reports. */
   longestTaskMs: number;
-  /** What moving about took. */
+  /** Cost of panning and zooming. */
   movedMs: number;
   file: File | null;
 }
@@ -36,13 +36,13 @@ export default async function pageBench(report: Report): Promise<void> {
   report(
     "The page and large drawings",
     rows,
-    "In Chromium without a graphics card; tasks and work are of the page's thread, tasks under 50 ms count as none.",
+    "In Chromium without a graphics card; tasks and work are those of the page's thread, tasks under 50 ms do not count.",
   );
 }
 
 async function measure(test: PageTest, strokes: number, points: number): Promise<Row> {
   const { page } = test;
-  // The runner that compiles this wraps named functions in a helper that the page does not have.
+  // The compiler of this script wraps named functions in a helper that the page does not have.
   await page.evaluate("window.__name = (named) => named");
   await page.evaluate(watch);
   const bytes = await page.evaluate(makeFile, { strokes, points });
@@ -69,7 +69,10 @@ async function measure(test: PageTest, strokes: number, points: number): Promise
   };
 }
 
-/** Pans and zooms by the wheel, a step a frame; returns the processor time that the page's thread took a frame, ms. */
+/**
+ * Pans and zooms by the wheel, one step per frame; returns the processor time of the page's thread per frame,
+ * ms.
+ */
 async function moveAbout(page: Page): Promise<number> {
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
@@ -82,7 +85,7 @@ async function moveAbout(page: Page): Promise<number> {
   return ((await workS()) - before) * (1_000 / FRAMES);
 }
 
-// What follows runs in the page.
+// The following code runs in the page.
 
 function watch(): void {
   const watched: Watched = { longestTaskMs: 0, movedMs: 0, file: null };
@@ -93,7 +96,7 @@ function watch(): void {
   }).observe({ type: "longtask" });
 }
 
-/** A scribble of so many strokes: writes the file in parts, since one text of it would be a long task. */
+/** A scribble of that many strokes. Writes the file in parts, because one text of it would be a long task. */
 async function makeFile({ strokes, points }: { strokes: number; points: number }): Promise<number> {
   const parts = [
     '<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" viewBox="0 0 210 297">',
@@ -129,7 +132,7 @@ async function forget(): Promise<void> {
   performance.clearMarks();
 }
 
-/** Drops the file on the page; returns when, on the page's clock. */
+/** Drops the file on the page; returns the time on the page's clock. */
 function open(): number {
   const { file } = (window as unknown as { watched: Watched }).watched;
   const data = new DataTransfer();
@@ -157,7 +160,7 @@ async function turnWheel(frames: number): Promise<void> {
   (window as unknown as { watched: Watched }).watched.movedMs = performance.now() - fromMs;
 }
 
-/** When the plan of what was opened then came, when the preview first showed it, and when all of it. */
+/** When the plan of the opened file came, when the preview first showed it, and when it was complete. */
 async function picturesAfter(
   openedAt: number,
 ): Promise<{ plannedMs: number; pictureMs: number; wholeMs: number }> {
@@ -173,7 +176,7 @@ async function picturesAfter(
   return { plannedMs, pictureMs, wholeMs: await markAfter("plotwright-whole-picture", plannedMs) };
 }
 
-/** What has been seen; long tasks are told a little later. */
+/** Times recorded so far; long tasks are reported slightly later. */
 async function watched(): Promise<{ longestTaskMs: number; movedMs: number }> {
   await new Promise((resolve) => setTimeout(resolve, 1_000));
   const { longestTaskMs, movedMs } = (window as unknown as { watched: Watched }).watched;

@@ -1,13 +1,14 @@
 /**
- * Planning against a floor: a bare two-pass loop that writes the same blocks into arrays that exist
- * already. The floor gets for nothing what planning must find out (lengths, directions, corner limits),
- * so a ratio says what all the rest costs: corners, counting, growing, runs.
+ * Planning compared with a floor: a bare two-pass loop that writes the same blocks into existing arrays. The
+ * floor gets the results of planning for free (lengths, directions, corner limits), so a ratio shows the cost
+ * of everything else: corners, counting, growing arrays, runs.
  *
- * There are two of it: the loop as it was first written, and a tighter one, which is the same without a function for each block: V8
- * boxes the numbers that such a function changes.
+ * There are two floors: the loop as first written, and a tighter one without a function for each block,
+ * because V8 boxes the numbers that such a function changes.
  *
- * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so both floors are run before
- * and after each plan, and a plan's ratio is its time over the mean of one; the median over the rounds is what counts.
+ * Times are processor time of all threads. A machine's speed drifts by a third within seconds, so both floors
+ * run before and after each plan. A plan's ratio is its time over the mean of the two runs of a floor. The
+ * result is the median over the rounds.
  */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
@@ -26,7 +27,7 @@ import { DEFAULT_FIT, MOTION_MODES } from "../src/internal.js";
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 
-/** How the loops are called, and what the ratios to them are. */
+/** The names of the loops, and of the ratios to them. */
 const FLOORS = [
   { what: "bare two-pass loop, as first written", of: "ratio", loop: firstLoop },
   { what: "the same, tighter", of: "ratio to the tighter", loop: tightLoop },
@@ -36,7 +37,7 @@ const ROUNDS = 7;
 const REPEATS = 5;
 
 export default function planBench(report: Report): void {
-  // First, while memory is empty: collecting a million segments would be counted here.
+  // First, while the heap is empty: garbage collection of a million segments would be counted here.
   report("Planning the samples with and without merging, blend, warm", samples());
   const drawing = scribble(1_000_000, 1_000);
   const floor = prepareFloor(drawing);
@@ -74,13 +75,13 @@ export default function planBench(report: Report): void {
 }
 
 const SAMPLES = path.join(import.meta.dirname, "..", "samples");
-/** Rounds that are run before any is timed, and rounds that are. */
+/** Number of warm-up rounds, and of timed rounds. */
 const WARM_UP = 30;
 const SAMPLE_ROUNDS = 31;
-/** A round plans a sample so often that it has about this many points. */
+/** A round plans a sample repeatedly, until it has planned about this many points. */
 const POINTS_A_ROUND = 15_000;
 
-/** Processor ms with and without merging in turns, warm; the ratio is the median of the rounds' own ratios. */
+/** Processor ms with and without merging, alternating, warm; the ratio is the median of the rounds' ratios. */
 function samples(): Record<string, string | number>[] {
   const files = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
   return files.map((file) => {
@@ -109,8 +110,9 @@ function samples(): Record<string, string | number>[] {
 }
 
 /**
- * Time for each segment at two sizes: equal when growth is linear. The small drawing is planned so often, and its plans are
- * kept, that as much memory is touched for the first time as for the large one: the system asks its price for that.
+ * Time per segment at two sizes: equal if growth is linear. The small drawing is planned repeatedly and its
+ * plans are stored, so that as much memory is touched for the first time as for the large one: the system
+ * charges for that.
  */
 function growth(): Record<string, string | number>[] {
   const sizes = [100_000, 1_000_000];
@@ -139,12 +141,15 @@ const spread = (values: readonly number[]): string =>
   `${median(values).toFixed(2)} (${Math.min(...values).toFixed(1)} to ${Math.max(...values).toFixed(1)})`;
 
 interface Measured {
-  /** Of each round: processor ms; and of each floor, how many times as long as that just then. */
+  /** For each round: processor ms, and its ratio to each floor at that time. */
   readonly ms: number[];
   readonly ratios: readonly number[][];
 }
 
-/** Runs the floors, the first plan, the floors, the second one … in every round; the first round is not counted. */
+/**
+ * Runs the floors, the first plan, the floors, the second plan … in every round; the first round is not
+ * counted.
+ */
 function inTurns(
   floors: readonly (() => void)[],
   plans: readonly (() => void)[],
@@ -178,7 +183,7 @@ function median(values: readonly number[]): number {
   return [...values].sort((a, b) => a - b)[values.length >> 1]!;
 }
 
-/** Processor ms of each, the least of REPEATS; all of them in turns. */
+/** Processor ms of each, the minimum of REPEATS, alternating. */
 function best(runs: readonly (() => unknown)[]): number[] {
   const ms = runs.map(() => Infinity);
   for (let round = 0; round < REPEATS; round++) {
@@ -187,7 +192,7 @@ function best(runs: readonly (() => unknown)[]): number[] {
   return ms;
 }
 
-/** Smooth lines with a corner now and then, 0.2 to 1 mm a segment; the same every time. */
+/** Smooth lines with occasional corners, 0.2 to 1 mm per segment; the same every time. */
 export function scribble(segments: number, strokes: number): StrokeSet {
   let seed = 12345;
   const random = (): number => (seed = (seed * 1103515245 + 12345) % 2147483648) / 2147483648;
@@ -229,7 +234,7 @@ interface Floor {
   readonly columns: NineColumns;
 }
 
-/** Everything that the bare loop is given: segments, their corner limits, and arrays already paged in. */
+/** The inputs of the bare loop: segments, their corner limits, and arrays already paged in. */
 function prepareFloor(drawing: StrokeSet): Floor {
   const segments = drawing.xy.length / 2 - 1;
   const make = (n: number) => new Float64Array(n).fill(1);
@@ -246,7 +251,7 @@ function prepareFloor(drawing: StrokeSet): Floor {
     columns: Array.from({ length: 9 }, () => make(3 * segments)) as unknown as NineColumns,
   };
   const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
-  // The corner limits: the speeds that the plan itself found.
+  // The corner limits: the speeds of the plan itself.
   for (let i = 0; i <= segments; i++) {
     floor.x[i] = drawing.xy[2 * i]!;
     floor.y[i] = drawing.xy[2 * i + 1]!;
@@ -281,7 +286,7 @@ type NineColumns = readonly [
   Float64Array,
 ];
 
-/** As it was first written. */
+/** As first written. */
 function firstLoop(floor: Floor): void {
   const { segments: n, x, y, ux, uy, length, limit2, v2, columns } = floor;
   const [durationS, bx, by, vx, vy, ax, ay, startS, alongMm] = columns;

@@ -1,6 +1,6 @@
 /**
- * `npm run bench [-- NAME… --write]`: runs bench/NAME.bench.ts (all of them without names) and prints
- * what they report as markdown tables. `--write` also puts each table into its section of docs/benchmarks.md.
+ * `npm run bench [-- NAME… --write]`: runs bench/NAME.bench.ts (all of them without names) and prints their
+ * results as Markdown tables. `--write` also puts each table into its section of docs/benchmarks.md.
  */
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
@@ -8,7 +8,7 @@ import { pathToFileURL } from "node:url";
 import path from "node:path";
 
 export type Row = Readonly<Record<string, string | number>>;
-/** Called by a benchmark once for each table it has: a stable section name, the rows, and what to know of this run. */
+/** Called by a benchmark once per table: a stable section name, the rows, and notes about this run. */
 export type Report = (section: string, rows: readonly Row[], note?: string) => void;
 export type Benchmark = (report: Report) => Promise<void>;
 
@@ -28,7 +28,7 @@ function markdownTable(rows: readonly Row[]): string {
   return [write(columns), rule, ...cells.slice(1).map(write)].join("\n");
 }
 
-/** Puts a table between its two marks; a section that has none yet is added at the end. */
+/** Puts a table between its two marks; adds a section that does not exist at the end. */
 export function withSection(document: string, section: string, table: string): string {
   const begin = `<!-- bench: ${section} -->`;
   const end = "<!-- /bench -->";

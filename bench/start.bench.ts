@@ -1,4 +1,4 @@
-/** How long somebody waits before anything happens: the command line's own start, and what importing the library costs. */
+/** Start-up times: the command line's, and that of importing the library. */
 import { spawnSync } from "node:child_process";
 import path from "node:path";
 import type { Report } from "./run.js";
@@ -24,7 +24,7 @@ const STARTS: readonly Start[] = [
 export default function startBenchmark(report: Report): Promise<void> {
   ensureBuild();
   const rows = STARTS.map(({ what, args, limitS }) => ({ what, seconds: bestS(args), limit: limitS }));
-  const note = `Whole processes, Node's own start with them; the best of ${RUNS} warm ones.`;
+  const note = `Whole processes, including Node's own start; the best of ${RUNS} warm ones.`;
   report("start", rows, note);
   for (const { what, seconds, limit } of rows) {
     if (seconds > limit) console.error(`${what} takes ${seconds} s: more than ${limit} s`);
@@ -32,7 +32,10 @@ export default function startBenchmark(report: Report): Promise<void> {
   return Promise.resolve();
 }
 
-/** Of warm runs: the first one, which reads the files from disk, is left out. Other work on the computer only adds to it. */
+/**
+ * Of warm runs: the first one, which reads the files from disk, is left out. Other work on the computer can
+ * only add to the time.
+ */
 function bestS(args: readonly string[]): number {
   const times = Array.from({ length: RUNS + 1 }, () => {
     const startedMs = performance.now();

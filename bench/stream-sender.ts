@@ -1,4 +1,4 @@
-/** The host of bench/stream.bench.ts: plans a dense curve, streams it to the port given, reports, and ends. */
+/** The host of bench/stream.bench.ts: plans a dense curve, streams it to the given port, reports, and ends. */
 import {
   BoardSession,
   compile,
@@ -15,8 +15,8 @@ import { openSerial } from "../server/serial/serial-transport.js";
 
 export interface SenderTask {
   readonly pacing: "window" | "acks";
-  /** False: a command for every piece of the polyline, as they come out of the plan. */
-  readonly fitted: boolean;
+  /** False: one command for every piece of the polyline, as planned. */
+  readonly merged: boolean;
   /** Quality fast, on springs of 15 and 25 Hz. */
   readonly shaped?: boolean;
 }
@@ -29,7 +29,7 @@ export interface SenderReport {
   readonly steps2: number;
 }
 
-/** A rose of three turns inside one another: smooth, curved everywhere, a point every 0.3 mm, over 60 s long. */
+/** A rose of three nested turns: smooth, curved everywhere, a point every 0.3 mm, over 60 s long. */
 function denseCurve(): StrokeSet {
   const points: number[] = [];
   const turns = 12;
@@ -59,7 +59,7 @@ const { firmware } = await session.identify();
 await session.send("EM,1,1");
 const springs = { xHz: 15, yHz: 25, damping: 0.05 };
 const machine = { ...machineById("axidraw-v3"), springs };
-const plain = task.fitted ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
+const plain = task.merged ? DEFAULT_MOTION : { ...DEFAULT_MOTION, mode: "junction" as const, fit: null };
 const motion = task.shaped ? { ...plain, ...motionOfQuality("fast", springs) } : plain;
 const trajectory = plan(denseCurve(), motion, DEFAULT_PEN, task.shaped ? { machine } : {});
 const commands = compile(trajectory, {
@@ -73,7 +73,7 @@ const { underrunCount, steps1, steps2 } = await streamCommands(session, commands
   pacing: task.pacing,
   poll: { lines: ["QG"], everyS: 0.25 },
 }).catch((error: unknown) => {
-  // What was said last tells whether the board, the line or this process went wrong.
+  // The last lines show whether the board, the connection or this process failed.
   console.error(session.log.tail(30).join("\n"));
   console.error(
     `${session.unansweredCount} unanswered, ${session.lostReplyCount} lost, ${session.strayCount} stray`,

@@ -1,10 +1,10 @@
 /**
- * Does the board run dry when the host is stalled? A dense curve at real speed, through serialport and a
- * pseudo-terminal, to a virtual board in another process (firmware 2.8.1, queue of one), while the sending
- * process is stopped (SIGSTOP) for 150 ms in every second. The judge is the board, which counts the times
- * that its motors stood still for want of a command. Time in which the machine does not run the board's own
- * process is not board time (a real board is never descheduled); how much that was is told, and how long the
- * sender was stopped in truth.
+ * Does the board run out of commands when the host is stalled? A dense curve at real speed, through
+ * serialport and a pseudo-terminal, to a virtual board in another process (firmware 2.8.1, queue of one). The
+ * sending process is stopped (SIGSTOP) for 150 ms in every second. The board counts how often its motors
+ * stood still because it had no command. Time in which the machine does not run the board's own process is
+ * not board time, because a real board is never descheduled. That time is reported, and so is the real length
+ * of the sender's stops.
  */
 import { fork } from "node:child_process";
 import path from "node:path";
@@ -18,10 +18,10 @@ const STALL_MS = 150;
 const EVERY_MS = 1_000;
 
 const CASES: readonly { readonly what: string; readonly task: SenderTask }[] = [
-  { what: "short commands, window of 0.3 s", task: { pacing: "window", fitted: false } },
-  { what: "short commands, by acknowledgement", task: { pacing: "acks", fitted: false } },
-  { what: "fitted commands, window of 0.3 s", task: { pacing: "window", fitted: true } },
-  { what: "shaped, quality fast, window of 0.3 s", task: { pacing: "window", fitted: true, shaped: true } },
+  { what: "short commands, window of 0.3 s", task: { pacing: "window", merged: false } },
+  { what: "short commands, by acknowledgement", task: { pacing: "acks", merged: false } },
+  { what: "merged commands, window of 0.3 s", task: { pacing: "window", merged: true } },
+  { what: "shaped, quality fast, window of 0.3 s", task: { pacing: "window", merged: true, shaped: true } },
 ];
 
 export default async function streamBench(report: Report): Promise<void> {
@@ -72,7 +72,7 @@ async function measure(task: SenderTask): Promise<Record<string, string | number
 }
 
 interface Stalls {
-  /** How long the longest stop came to be. */
+  /** Length of the longest stop. */
   longestMs(): number;
   end(): void;
 }

@@ -1,4 +1,4 @@
-/** `npm run docs`: writes what docs/*.md has from the code: parts of cli.md, and all of library-reference.md. */
+/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md, and all of library-reference.md. */
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";

@@ -42,7 +42,7 @@ async function playwrightsOwn() {
   }
 }
 
-/** Path of a Chromium, Chrome or Edge, or null. CHROMIUM_PATH in the environment comes first. */
+/** Path of a Chromium, Chrome or Edge, or null. CHROMIUM_PATH in the environment has priority. */
 export async function findBrowser() {
   const given = process.env.CHROMIUM_PATH;
   if (given) return existsSync(given) ? given : null;
@@ -67,7 +67,7 @@ function runAs(prefix, command, args) {
   return spawnSync(program, rest, { stdio: "inherit" }).status === 0;
 }
 
-/** Debian's Chromium through apt-get where that is possible, else Playwright's own download. */
+/** Debian's Chromium through apt-get if possible, otherwise Playwright's own download. */
 export async function installBrowser(playwrightCli) {
   const prefix = process.platform === "linux" && hasProgram("apt-get") ? administrator() : null;
   if (prefix !== null) {

@@ -1,4 +1,4 @@
-/** docs/library-reference.md: what the docstrings of the public library say, in the order of src/index.ts. */
+/** Writes docs/library-reference.md: the docstrings of the public library, in the order of src/index.ts. */
 import path from "node:path";
 import prettier from "prettier";
 import ts from "typescript";
@@ -37,7 +37,7 @@ class ReferenceWriter {
   readonly withoutDocs: string[] = [];
   private readonly checker: ts.TypeChecker;
   private readonly printer = ts.createPrinter({ removeComments: true });
-  /** Every type that has a place in the reference; those that are not public are written last. */
+  /** Every type that has an entry in the reference; those that are not public are written last. */
   private readonly known = new Set<ts.Symbol>();
   private readonly otherTypes: ts.Symbol[] = [];
   private isWritingOthers = false;
@@ -58,12 +58,12 @@ class ReferenceWriter {
     );
     parts.push("## Other types\n");
     this.isWritingOthers = true;
-    for (const symbol of this.otherTypes) parts.push(this.entry(symbol)); // the list grows on the way
+    for (const symbol of this.otherTypes) parts.push(this.entry(symbol)); // the list grows during the loop
     return parts.join("\n");
   }
 
   private target(name: ts.ExportSpecifier): ts.Symbol {
-    const symbol = this.checker.getSymbolAtLocation(name.name) ?? raise(`${name.getText()} is not known`);
+    const symbol = this.checker.getSymbolAtLocation(name.name) ?? raise(`${name.getText()} is unknown`);
     return this.checker.getAliasedSymbol(symbol);
   }
 
@@ -122,7 +122,10 @@ class ReferenceWriter {
     return `: ${type.replace(/ \| undefined$/, "")}`;
   }
 
-  /** For a field that is a row of a settings table: what the row says. An override has no default. */
+  /**
+   * For a field that is a row of a settings table: the row's label, default and range. An override has no
+   * default.
+   */
   private settingInWords(field: ts.Declaration, isOverride: boolean): string | null {
     if (!ts.isPropertyAssignment(field)) return null;
     const row = this.literalsOf(this.checker.getTypeAtLocation(field.initializer)) as unknown as Setting;
@@ -131,7 +134,7 @@ class ReferenceWriter {
     return `${row.about.charAt(0).toUpperCase()}${row.about.slice(1)}${range}.${initial}`;
   }
 
-  /** The values of a literal object, by its type. Only `true` and single values are of use here. */
+  /** The values of a literal object, by its type. Only `true` and single values are used. */
   private literalsOf(type: ts.Type): Record<string, unknown> {
     const fields = this.checker.getPropertiesOfType(type).map((field): [string, unknown] => {
       const value = this.checker.getTypeOfSymbol(field);
@@ -226,7 +229,7 @@ function sectionsOf(index: ts.SourceFile): { title: string; names: ts.ExportSpec
 const declarationOf = (symbol: ts.Symbol): ts.Declaration =>
   symbol.declarations?.[0] ?? raise(`${symbol.name} is declared nowhere`);
 
-/** Declared in src, and not the machinery of the settings tables. */
+/** Declared in src, and not internal to the settings tables. */
 function isOurs(symbol: ts.Symbol): boolean {
   const file = path.relative(path.join(ROOT, "src"), declarationOf(symbol).getSourceFile().fileName);
   return !file.startsWith("..") && file !== path.join("settings", "setting.ts");

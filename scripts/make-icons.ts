@@ -1,6 +1,6 @@
 /**
- * Writes the PNG icons of web/public from its icon.svg, for home screens that take no SVG. They are committed: run
- * this only after changing the icon (`npm run icons`).
+ * Writes the PNG icons of web/public from its icon.svg, for home screens that do not accept SVG. They are
+ * committed: run this only after changing the icon (`npm run icons`).
  */
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -11,24 +11,27 @@ const FOLDER = new URL("../web/public/", import.meta.url);
 interface PngIcon {
   readonly file: string;
   readonly px: number;
-  /** Share of the picture's width that the drawing takes; below 1 the ground goes to the edges, to be cut to shape. */
+  /**
+   * Share of the icon's width that the drawing takes; below 1 the background extends to the edges, to be
+   * cropped.
+   */
   readonly share: number;
 }
 
 const ICONS: readonly PngIcon[] = [
   { file: "icon-192.png", px: 192, share: 1 },
   { file: "icon-512.png", px: 512, share: 1 },
-  // iOS rounds the corners; Android cuts as much as a circle of 80 % leaves.
+  // iOS rounds the corners; Android may crop to a circle of 80 %.
   { file: "apple-touch-icon.png", px: 180, share: 0.9 },
   { file: "icon-maskable-192.png", px: 192, share: 0.8 },
   { file: "icon-maskable-512.png", px: 512, share: 0.8 },
 ];
 
-/** The icon, or the icon on a square of its own ground. */
+/** The icon, or the icon on a square of its background. */
 function pictureOf(icon: string, share: number): string {
   if (share === 1) return icon;
   const [, ground] = /<rect [^>]*fill="(#\w+)"/.exec(icon) ?? [];
-  if (ground === undefined) throw new Error("icon.svg has no ground to go on to the edges");
+  if (ground === undefined) throw new Error("icon.svg has no background to extend to the edges");
   const place = `x="${50 - 50 * share}" y="${50 - 50 * share}" width="${100 * share}" height="${100 * share}"`;
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><rect width="100" height="100" fill="${ground}"/>` +

@@ -7,7 +7,7 @@ import { moonrise } from "./samples/moonrise.js";
 import { threeColours } from "./samples/three-colours.js";
 import { whirlTriangles } from "./samples/whirl.js";
 
-/** The page opens the first in the order of names, and this one stands first. */
+/** The page opens the first by name, so this one must come first. */
 const SAMPLES: Readonly<Record<string, () => string>> = {
   "flower-meadow": meadow,
   harmonograph: harmonograph,

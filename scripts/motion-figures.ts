@@ -1,4 +1,4 @@
-/** Draws the figures of docs/motion.md with the planner itself: `npx tsx scripts/motion-figures.ts`. */
+/** Draws the figures of docs/motion.md with the planner: `npx tsx scripts/motion-figures.ts`. */
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import {
@@ -40,7 +40,7 @@ save("corner-deviations", [cornerChart()]);
 save("three-modes", [overTime("speed"), overTime("acceleration")]);
 save("circle-resampling", [resamplingChart()]);
 save("swinging-pen", [swingChart("none", "not shaped"), swingChart("zv", "shaped by zv")]);
-save("fitted-pieces", [fitChart(null, "as planned"), fitChart(DEFAULT_FIT, "fitted")]);
+save("merged-pieces", [fitChart(null, "as planned"), fitChart(DEFAULT_FIT, "merged")]);
 
 function cornerChart(): Chart {
   const corner: Point[] = [
@@ -170,7 +170,7 @@ function planned(
   return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false, machine });
 }
 
-/** The first run at many instants. */
+/** The first run, sampled. */
 function along(t: Trajectory, see: (state: ReturnType<typeof stateAt>, tS: number) => Point): Point[] {
   const start = t.runs.startS[0];
   const end = t.penMoves.startS[1] - 1e-9;
@@ -236,7 +236,7 @@ function drawn(chart: Chart): string {
   ].join("\n");
 }
 
-/** To three digits of what the axis spans. */
+/** To three digits of the axis' range. */
 function short(value: number, span: number): string {
   return Number(value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(span))))).toString();
 }

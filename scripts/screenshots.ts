@@ -1,7 +1,7 @@
 /**
- * `npm run screenshots [-- FOLDER [STATE…]]`: every state of the page, at the size of a desk and of a phone, light and dark,
- * as PNG files in test/screenshots/, and the README's picture in docs/. Look at them after changing anything that is seen.
- * Each state is also put before axe; serious findings are printed, and end the run with code 1.
+ * `npm run screenshots [-- FOLDER [STATE…]]`: every state of the page, at desktop and phone size, light and
+ * dark, as PNG files in test/screenshots/, and the README's picture in docs/. Look at them after each visible
+ * change. Each state is also checked by axe; serious findings are printed, and set exit code 1.
  */
 import { mkdirSync } from "node:fs";
 import path from "node:path";
@@ -29,7 +29,7 @@ async function shootAll(browser: Browser, look: Look): Promise<void> {
   });
 }
 
-/** Until the picture on the paper is that of now: without a graphics card a frame takes its time. */
+/** Waits until the picture on the paper is current: without a graphics card a frame takes its time. */
 async function drawn(page: Page): Promise<void> {
   for (let frame = 0; frame < 3; frame++) await page.evaluate(() => new Promise(requestAnimationFrame));
   await page.waitForTimeout(300);

@@ -10,7 +10,7 @@ export function settingsTable(): string {
   return markdownTable([["option", "meaning", "values"], ...rows]);
 }
 
-/** Columns are padded as prettier does it. */
+/** Columns are padded as prettier does. */
 export function markdownTable(rows: readonly (readonly string[])[]): string {
   const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => row[column].length)));
   const line = (cells: readonly string[]): string =>

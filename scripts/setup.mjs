@@ -1,6 +1,6 @@
 /**
- * What `npm start` and `npm test` do first: right Node, packages installed, dist/ built.
- * Runs before anything is installed, so it uses nothing but Node itself.
+ * The first step of `npm start` and `npm test`: right Node, packages installed, dist/ built. Runs before
+ * anything is installed, so it uses nothing but Node itself.
  */
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -21,7 +21,7 @@ const inRoot = (...parts) => path.join(ROOT, ...parts);
 
 const OLDEST_NODE = [20, 19];
 
-/** Says what to do and ends the process: for faults that only the person at the keyboard can mend. */
+/** Prints advice and ends the process: for faults that only the user can fix. */
 export function giveUp(message) {
   console.error(`\nplotwright: ${message}`);
   process.exit(1);
@@ -40,7 +40,7 @@ export function checkNode() {
 export function run(command, args, options = {}) {
   const result = spawnSync(command, args, { cwd: ROOT, stdio: "inherit", ...options });
   if (result.error) throw result.error;
-  // What was caught is worth reading only when it went wrong.
+  // Captured output is shown only after a failure.
   if (result.status !== 0)
     for (const text of [result.stdout, result.stderr]) process.stderr.write(text ?? "");
   return result.status ?? 1;
@@ -59,7 +59,7 @@ export const nodeModule = (...parts) => inRoot("node_modules", ...parts);
 
 const readJson = (file) => JSON.parse(readFileSync(file, "utf8"));
 
-/** npm notes in node_modules/.package-lock.json what it installed; that is compared with what is wanted. */
+/** npm records in node_modules/.package-lock.json what it installed; that is compared with package-lock.json. */
 function installedIsCurrent() {
   const noteFile = nodeModule(".package-lock.json");
   if (!existsSync(noteFile)) return false;
@@ -70,14 +70,14 @@ function installedIsCurrent() {
   );
 }
 
-/** Packages and the build are kept beside the sources. */
+/** Packages and the build are stored beside the sources. */
 function mustBeWritable() {
   try {
     accessSync(ROOT, constants.W_OK);
   } catch {
     giveUp(
-      `${ROOT} can't be written to, so packages and the build have no place.\n` +
-        "Change who may write there, or copy the folder to a place of your own.",
+      `${ROOT} can't be written to, so packages and the build can't be stored.\n` +
+        "Change its permissions, or copy the folder to a place of your own.",
     );
   }
 }
@@ -139,9 +139,7 @@ export function ensureBuild() {
   // A test runner's NODE_ENV would bring React's development version.
   const env = { ...process.env, NODE_ENV: "production" };
   if (runNpm(["run", "--silent", "build"], { env, stdio: "pipe", maxBuffer: 100e6 }) !== 0) {
-    giveUp(
-      "the build failed; its message is above. In a checkout that you have not changed this is a fault of ours.",
-    );
+    giveUp("the build failed; its message is above. In an unmodified checkout this is a bug in plotwright.");
   }
   mkdirSync(inRoot("dist"), { recursive: true });
   writeFileSync(stampFile, stamp);

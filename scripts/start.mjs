@@ -6,7 +6,8 @@ checkNode();
 ensureDependencies();
 ensureBuild();
 
-// The channel tells the server when this process is gone, however it ended: it lifts the pen then, and ends too.
+// The server notices by the channel when this process ends, for whatever reason. It then lifts the pen and
+// ends too.
 const server = spawn(process.execPath, ["dist/server/main.js", ...process.argv.slice(2)], {
   cwd: ROOT,
   stdio: ["inherit", "inherit", "inherit", "ipc"],
@@ -15,7 +16,8 @@ const end = () => server.connected && server.disconnect();
 for (const signal of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(signal, end);
 server.on("exit", (code) => process.exit(code ?? 1));
 
-// npm ends its shell, not this process: then the parent changes. (On SIGKILL of npm, its shell lives on unnoticed.)
+// npm ends its shell, not this process: then the parent changes. (After SIGKILL of npm, its shell stays alive
+// unnoticed.)
 const npm = process.ppid;
 if (process.env.npm_lifecycle_event === "start") {
   setInterval(() => process.ppid !== npm && end(), 500).unref();

@@ -1,6 +1,6 @@
 /**
- * `npm run test:faults`: a fault in mid-plot over a real pseudo-terminal, 20 random instants of each kind on two
- * firmwares. About half an hour on a machine with nothing else to do. `npm run test:faults -- 5`: so many instants.
+ * `npm run test:faults`: a fault in mid-plot over a real pseudo-terminal, 20 random times for each kind on
+ * two firmware versions. About half an hour on an idle machine. `npm run test:faults -- 5`: that many times.
  */
 import { checkNode, ensureDependencies, nodeModule, run } from "./setup.mjs";
 

@@ -1,6 +1,7 @@
 /**
- * `npm run test:matrix`: every sample on every firmware in every mode, against the board's promises. Minutes.
- * `npm run test:matrix -- 2.4.4`: the same for one firmware. Prints the table of docs/ebb.md at the end.
+ * `npm run test:matrix`: every sample on every firmware in every mode, against the board's guarantees. Takes
+ * minutes. `npm run test:matrix -- 2.4.4`: the same for one firmware. Prints the table of docs/ebb.md at the
+ * end.
  */
 import { checkNode, ensureDependencies, nodeModule, run } from "./setup.mjs";
 

@@ -25,7 +25,7 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** The projects of vitest.config.ts that may run beside the checks, and those that run after them. */
+/** The projects of vitest.config.ts that may run in parallel with the checks, and those that run after them. */
 const SHARED_RUNS = ["functions", "together", "processes"];
 const UNDISTURBED_RUNS = ["real-time", "load"];
 
@@ -38,7 +38,10 @@ function fail(what, count = 1) {
   failures.push(what);
 }
 
-/** Runs a Node program in the project's folder; returns its exit code. `isQuiet`: its output is shown when it ends. */
+/**
+ * Runs a Node program in the project's folder; returns its exit code. `isQuiet`: its output is shown when it
+ * ends.
+ */
 function runNode(args, isQuiet) {
   return new Promise((resolve, reject) => {
     const child = spawn(process.execPath, args, { cwd: ROOT, stdio: isQuiet ? "pipe" : "inherit" });
@@ -70,7 +73,10 @@ async function runTests(name, filters, folder) {
   countTests(name, code, resultFile);
 }
 
-/** Adds up vitest's own report. A file that could not even be loaded has no tests in it, so it counts as one failure. */
+/**
+ * Adds up vitest's own report. A file that could not be loaded has no tests in it, so it counts as one
+ * failure.
+ */
 function countTests(name, code, resultFile) {
   let report;
   try {

@@ -1,6 +1,6 @@
 /**
- * `npx tsx scripts/true-corners.ts`: what one corner costs under each rule and at least, and how much longer blend takes for
- * whole polygons than junction, for docs/comparison.md.
+ * `npx tsx scripts/true-corners.ts`: the time cost of one corner under each rule and its minimum, and how
+ * much longer blend takes than junction for whole polygons. For docs/comparison.md.
  */
 import { DEFAULT_PEN, plan, type StrokeSet } from "../src/index.js";
 import type { MotionMode } from "../src/internal.js";
@@ -24,7 +24,7 @@ for (const deg of [30, 45, 60, 90, 120, 150]) {
 }
 
 const SIDES_MM = [0.5, 1, 2, 5, 20];
-/** Corners, and how many times round: the second one is a star of five points. */
+/** Corners, and number of turns: the second one is a star of five points. */
 const POLYGONS = [
   [3, 1],
   [5, 2],

@@ -4,7 +4,8 @@ export { ERROR_TABLE } from "./errors.js";
 
 // drawing
 export type { DrawingWarning } from "./drawing/drawing.js";
-export { strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
+export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
+export { meanScale } from "./geometry/affine.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
 
 // import
@@ -60,6 +61,7 @@ export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
+export { cutOffLines, type CutOff } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
 export {

@@ -1,8 +1,8 @@
 /**
- * Outlines as a font has them: two words in a round alphabet drawn for this page, each letter built of
- * straight stems and true arcs. The letters throw a hatched shadow down and to the right.
+ * Outlines as in a font: two words in a round alphabet drawn for this page, each letter built of straight
+ * stems and true arcs. The letters cast a hatched shadow down and to the right.
  *
- * Units inside a letter: R = 1 is the radius of the bowl; the baseline is y = 0, y runs down.
+ * Units inside a letter: R = 1 is the radius of the bowl; the baseline is y = 0, y points down.
  */
 import { PAGE_HEIGHT_MM, PAGE_WIDTH_MM, mm, pair, polyline, samplePage, type Point } from "./svg.js";
 
@@ -104,7 +104,7 @@ function place(outline: Outline, scale: number, [originX, originY]: Point): { pa
     const on = (angle: number): Point =>
       at([center[0] + radius * Math.cos(angle), center[1] + radius * Math.sin(angle)]);
     lineTo(on(from));
-    // Thirds, because one arc command cannot say a whole turn.
+    // Thirds, because one arc command cannot describe a whole turn.
     for (let third = 1; third <= 3; third++) {
       const end = from + ((until - from) * third) / 3;
       path += `A${mm(radius * scale)} ${mm(radius * scale)} 0 0 ${until > from ? 1 : 0} ${pair(on(end))}`;

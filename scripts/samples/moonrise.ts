@@ -1,6 +1,6 @@
 /**
- * Thousands of short strokes and nothing else: a night sky that swirls around the moon, hills, and
- * its light on the water. Tone comes only from how closely the strokes stand.
+ * Only short strokes, thousands of them: a night sky that swirls around the moon, hills, and its light on the
+ * water. Tone comes only from the density of the strokes.
  */
 import { PAGE_HEIGHT_MM, PAGE_WIDTH_MM, polyline, samplePage, seededRandom, type Point } from "./svg.js";
 
@@ -9,7 +9,7 @@ const MOON = { x: 112, y: 68, radiusMm: 27 };
 const SHORE_MM = 146;
 
 interface Tone {
-  /** Room that a stroke keeps around itself, mm: small is dark. */
+  /** Distance that a stroke keeps from others, mm: small is dark. */
   readonly gapMm: number;
   readonly angle: number;
   readonly lengthMm: number;
@@ -18,7 +18,7 @@ interface Tone {
 const hillLine = (x: number): number =>
   SHORE_MM - 15 - 9 * Math.sin(x * 0.021 + 0.4) - 5 * Math.sin(x * 0.053 + 2) - 1.6 * Math.sin(x * 0.16);
 
-/** Stars: each with a small whirl of its own, turning against the moon's. */
+/** Stars: each with its own small whirl, turning against the moon's. */
 const STARS = [
   { x: 226, y: 62, reachMm: 30, radiusMm: 4 },
   { x: 178, y: 36, reachMm: 15, radiusMm: 2.2 },

@@ -1,4 +1,4 @@
-/** What the sample drawings share: a seeded random source, number writing, and the A4 page around them. */
+/** Shared code of the sample drawings: a seeded random source, number formatting, and the A4 page around them. */
 
 export const PAGE_WIDTH_MM = 297;
 export const PAGE_HEIGHT_MM = 210;

@@ -15,7 +15,7 @@ function ridgeNoise(random: () => number, octaves: number): (x: number) => numbe
   return (x) => waves.reduce((sum, w) => sum + w.height * Math.sin(w.frequency * x * 2 * Math.PI + w.phase), 0);
 }
 
-/** The hills' lines from front to back: each is drawn only where it stands above all before it. */
+/** The hills' lines from front to back: each is drawn only where it is above all lines before it. */
 function hills(random: () => number): { paths: string[]; horizon: (x: number) => number; front: (x: number) => number } {
   const paths: string[] = [];
   const stepMm = 0.75;

@@ -1,6 +1,6 @@
 /**
- * Nothing but straight lines and sharp corners: triangles that chase each other inwards, each
- * corner a fixed part of the way along the side before it, tiled so that the spirals meet.
+ * Only straight lines and sharp corners: nested triangles, each corner a fixed fraction along the side before
+ * it, tiled so that the spirals meet.
  */
 import { PAGE_HEIGHT_MM, PAGE_WIDTH_MM, polygon, samplePage, type Point } from "./svg.js";
 

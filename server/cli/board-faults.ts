@@ -11,18 +11,26 @@ interface Fault {
 const noise = Uint8Array.of(0xff, 0x21, 13, 0x80, 0x41, 13, 10);
 
 const FAULTS: Readonly<Record<string, Fault>> = {
-  unplug: { usage: "unplug", does: "the cable comes out, and goes in again", apply: act((b) => b.unplug()) },
-  reset: { usage: "reset", does: "its supply fails for a moment", apply: act((b) => b.resetByPower()) },
+  unplug: {
+    usage: "unplug",
+    does: "the cable is unplugged, and plugged in again",
+    apply: act((b) => b.unplug()),
+  },
+  reset: { usage: "reset", does: "its supply fails briefly", apply: act((b) => b.resetByPower()) },
   button: { usage: "button", does: "its button is pressed", apply: act((b) => b.pressButton()) },
-  mute: { usage: "mute on|off", does: "it answers nothing", apply: toggle((b, on) => b.setMute(on)) },
+  mute: {
+    usage: "mute on|off",
+    does: "it accepts everything and answers nothing",
+    apply: toggle((b, on) => b.setMute(on)),
+  },
   freeze: {
     usage: "freeze on|off",
-    does: "it answers, but what runs never ends",
+    does: "it answers, but the running command never ends",
     apply: toggle((b, on) => b.setFrozen(on)),
   },
   motionless: {
     usage: "motionless on|off",
-    does: "it takes moves and makes no step",
+    does: "moves take their time, but make no steps",
     apply: toggle((b, on) => b.setMotionless(on)),
   },
   volts: {
@@ -34,7 +42,7 @@ const FAULTS: Readonly<Record<string, Fault>> = {
   garbage: { usage: "garbage", does: "noise on the line", apply: act((b) => b.sendGarbage(noise)) },
   slow: {
     usage: "slow BYTES",
-    does: "its line takes so many bytes a second; 0 = as fast as it can",
+    does: "its connection carries that many bytes per second; 0: no limit",
     apply: quantity((b, bytesPerS) => b.setUsbBytesPerS(bytesPerS === 0 ? Infinity : bytesPerS)),
   },
 };

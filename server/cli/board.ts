@@ -122,7 +122,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   );
   if (options.speed !== undefined && options.speed !== 1) {
     io.err(
-      `It runs ${options.speed} times as fast as time: plotwright drives it with --device ${options.pty} --virtual-speed ${options.speed}.\n`,
+      `It runs ${options.speed} times as fast as real time: plotwright drives it with --device ${options.pty} --virtual-speed ${options.speed}.\n`,
     );
   }
   if (io.isTerminal) io.err(faultHelp());
@@ -143,7 +143,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
 function watchDrops(ptyBoard: PtyBoard, path: string, io: CliIo): Promise<never> {
   const replug = async (): Promise<void> => {
     rmSync(path, { force: true });
-    io.err("The board has dropped its line.\n");
+    io.err("The board has dropped its connection.\n");
     await new Promise((resolve) => setTimeout(resolve, REPLUG_MS));
     if (!(await ptyBoard.replug())) return;
     link(ptyBoard.path, path);
@@ -217,7 +217,7 @@ function checkLinkPlace(path: string): void {
   } catch {
     return;
   }
-  throw new PlotwrightError("bad-setting", `${path} exists and is no link: choose another --pty path.`);
+  throw new PlotwrightError("bad-setting", `${path} exists and is not a link: choose another --pty path.`);
 }
 
 function link(target: string, path: string): void {
@@ -273,7 +273,7 @@ async function loadPty(): Promise<PtyModule> {
 }
 
 const noPty = (why: string, cause?: unknown): PlotwrightError =>
-  new PlotwrightError("no-board", `A pseudo-terminal is needed and can't be had: ${why}.`, { cause });
+  new PlotwrightError("no-board", `A pseudo-terminal is required, but not available: ${why}.`, { cause });
 
 function closePty(pty: RawPty): Promise<void> {
   return new Promise((resolve) => {

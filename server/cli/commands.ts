@@ -158,7 +158,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "board",
-    about: "be a virtual board that other programs can drive",
+    about: "run a virtual board that other programs can drive",
     examples: ["plotwright board --pty /tmp/plotter --speed 10 --svg drawn.svg"],
     load: async () => (await import("./board-command.js")).declareBoard,
   },

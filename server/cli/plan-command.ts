@@ -8,8 +8,8 @@ export const declarePlan: Declare = (command, { io }) => {
   addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))
     .option("--only <layer...>", "draw these layers only, by name or id")
     .option("--json", "print one JSON object")
-    .option("--pen-error", "say how far beside the drawing the pen of the swinging machine would be")
-    .option("--ebb <out>", "write the board's commands, one a line, to a file or - for stdout")
+    .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
+    .option("--ebb <out>", "write the board's commands, one per line, to a file or - for stdout")
     .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
     .option("--preview <out.svg>", "write a picture coloured by speed, to a file or -")
     .option(

@@ -9,14 +9,14 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     ),
   )
     .option("--only <layer...>", "draw these layers only, by name or id")
-    .option("--copies <number>", "how often to plot each", copies, 1)
+    .option("--copies <number>", "number of times to plot each", copies, 1)
     .option(
       "--paper-s <seconds>",
-      "wait so long for new paper between two plots, instead of for Enter",
+      "time to wait for new paper between two plots, instead of for Enter",
       seconds,
     )
     .option("--resume", "resume the plot that a crash interrupted")
-    .option("--anew", "discard an interrupted plot")
+    .option("--restart", "discard an interrupted plot and start from the beginning")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
       if (options.resume === true) setExitCode(await resumePlot(files, options, io));

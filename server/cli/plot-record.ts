@@ -92,7 +92,7 @@ export class PlotRecord {
     if (found !== null) return found;
     throw new PlotwrightError(
       "not-found",
-      "No plot was cut short on this device: there is nothing to resume.",
+      "No plot was interrupted on this device: there is nothing to resume.",
     );
   }
 

@@ -27,8 +27,8 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
   run.onHeld((_held, wait = null) => {
     if (wait !== null) control.waitsFor(wait);
   });
-  if (bar === null) say(`${resumed === null ? "Plotting" : "Going on with"} ${name}.\n`);
-  if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter goes on, Ctrl-C cancels.\n`);
+  if (bar === null) say(`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
+  if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     if (outcome.kind === "cancelled") return cancelled(io);
@@ -41,8 +41,8 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
   }
 }
 
-const LOST = "The board has lost its place: push the carriage to home by hand first.";
-const KNOWN = "The board still knows its place.";
+const LOST = "The board has lost its position: push the carriage to home by hand first.";
+const KNOWN = "The board still knows its position.";
 
 /** False if it was cancelled meanwhile. */
 export async function waitForPaper(name: string, waitS: number | undefined, io: CliIo): Promise<boolean> {
@@ -102,7 +102,7 @@ class Control {
   waitsFor({ penName, layerName }: PlotWait): void {
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(`\nPut in ${what}. Enter goes on, Ctrl-C cancels.\n`);
+    this.#io.err(`\nInsert ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
   goOn(): void {

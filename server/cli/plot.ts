@@ -24,7 +24,7 @@ export interface PlotCommandOptions extends DeviceOptions {
   readonly copies: number;
   readonly paperS?: number;
   readonly resume?: boolean;
-  readonly anew?: boolean;
+  readonly restart?: boolean;
   readonly quiet?: boolean;
   readonly data?: string;
 }
@@ -49,7 +49,7 @@ export async function runPlot(
   if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
     throw new PlotwrightError(
       "bad-setting",
-      "Between two plots somebody changes the paper and presses Enter. Without a keyboard, say with --paper-s how many seconds to wait.",
+      "Between two plots it waits for Enter, so that the paper can be changed. Without a keyboard, use --paper-s SECONDS to set the wait.",
     );
   }
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
@@ -83,13 +83,13 @@ export async function resumePlot(
   return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
 }
 
-/** The carriage is in the middle of that drawing, and part of it is on the paper: beginning again is rarely meant. */
-function mustHaveEnded(record: PlotRecord, { anew }: PlotCommandOptions): void {
+/** The carriage is in the middle of that drawing, and part of it is on the paper: starting again is rarely intended. */
+function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): void {
   const found = record.find();
-  if (found === null || anew === true) return;
+  if (found === null || restart === true) return;
   throw new PlotwrightError(
     "conflict",
-    `The plot of ${found.name} was cut short at ${Math.round(100 * found.progress)} %. plotwright plot --resume goes on with it; --anew forgets it and begins with a new one.`,
+    `The plot of ${found.name} was interrupted at ${Math.round(100 * found.progress)} %. Use plotwright plot --resume to resume it, or add --restart to discard it and plot from the beginning.`,
   );
 }
 

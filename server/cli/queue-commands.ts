@@ -22,7 +22,7 @@ interface AddOptions extends ServerOptions {
 export const declareAdd: Declare = (command, { io }) => {
   addData(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin"))))
     .option("--only <layer...>", "draw these layers only, by name or id")
-    .option("--copies <number>", "how often to plot each", copies, 1)
+    .option("--copies <number>", "number of times to plot each", copies, 1)
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {

@@ -56,7 +56,7 @@ async function ask({ url, key }: ServerOptions, path: string, init: RequestInit 
   const why = fault.success ? fault.data.error.message : `it answered ${response.status}`;
   throw new PlotwrightError(
     response.status === 422 ? "bad-file" : response.status === 403 ? "not-allowed" : "bad-setting",
-    `The server at ${url} did not take it: ${why}`,
+    `The server at ${url} refused it: ${why}`,
   );
 }
 
@@ -74,7 +74,7 @@ export async function serverHint(error: unknown): Promise<unknown> {
   if (!isThere) return error;
   return new PlotwrightError(
     error.code,
-    `${error.message} A plotwright server runs at ${DEFAULT_URL}, which may have the plotter: plotwright add FILE puts a drawing into its queue.`,
+    `${error.message} A plotwright server runs at ${DEFAULT_URL}, which may use the plotter: plotwright add FILE puts a drawing into its queue.`,
     { cause: error },
   );
 }

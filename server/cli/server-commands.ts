@@ -28,7 +28,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
       .option("--system", "for the whole computer, started at boot; needs root");
   sub("install", "write the unit and start it; options of serve after --")
     .argument("[serve-options...]")
-    .option("--user <name>", "with --system: whose server it is")
+    .option("--user <name>", "with --system: the user that runs the server")
     .option("--print", "only show what would be written")
     .action((serveArgs: string[], options: ServiceOptions) => {
       // A service that fails on a mistyped option would fail unnoticed, so check here.
@@ -38,7 +38,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
   sub("uninstall", "stop it and remove the unit").action((options: ServiceOptions) =>
     uninstallService(options, io),
   );
-  sub("status", "say whether it runs").action((options: ServiceOptions) =>
+  sub("status", "report whether it runs").action((options: ServiceOptions) =>
     setExitCode(serviceStatus(options, io)),
   );
 };
@@ -59,6 +59,6 @@ function addServe(command: Command): Command {
         "PLOTWRIGHT_SHARED_QUEUE",
       ),
     )
-    .option("--max-upload-mb <number>", "largest drawing taken, MB", positive, 200)
+    .option("--max-upload-mb <number>", "maximum size of a drawing, MB", positive, 200)
     .option("--open", "open the page in the browser");
 }

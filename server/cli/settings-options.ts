@@ -43,7 +43,7 @@ export function addSettingOptions(command: Command, parts?: readonly string[]): 
   }
   return command
     .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter, or -"))
-    .addOption(new Option("--config <file>", "JSON file with settings, or -; flags go before it"));
+    .addOption(new Option("--config <file>", "JSON file with settings, or -; flags override it"));
 }
 
 /** Throws `bad-setting` naming the flag at fault. */

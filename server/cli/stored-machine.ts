@@ -33,7 +33,7 @@ function openStore(dataDir: string): Store {
     if (!(cause instanceof PlotwrightError && cause.code === "conflict")) throw cause;
     throw new PlotwrightError(
       "busy",
-      "A plotwright server is running: move the plotter from its page, or say with --machine which plotter this is.",
+      "A plotwright server is running: move the plotter from its page, or choose the machine with --machine.",
       { cause },
     );
   }

@@ -52,7 +52,7 @@ export function requireRole(
 /** Whether a job is on a plotter now. */
 export type IsRunning = (jobId: string) => boolean;
 
-/** Stopping a plot needs no operator role: whoever is closest must be able to do it. `path` is below /api. */
+/** Stopping a plot needs no operator role: the person closest to the plotter must be able to do it. `path` is below /api. */
 export function isStop({ method, path }: Request, isRunning: IsRunning): boolean {
   const match = /^\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/.exec(path);
   // Cancelling a job that is only queued is not a stop.

@@ -2,7 +2,7 @@
  * Limits the connections of unknown clients. A client is unknown until it has sent a valid session or key.
  * Unknown clients share a small part of the server's connections, and each address may have only a few of
  * them. A new connection is always accepted; at the limit, the oldest unknown connection is closed. So
- * unknown clients can lock nobody out, and most connections remain for paired devices and for this computer.
+ * unknown clients cannot lock others out, and most connections remain for paired devices and for this computer.
  */
 import type { IncomingMessage } from "node:http";
 import type { Socket } from "node:net";

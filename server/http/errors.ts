@@ -20,7 +20,7 @@ export const notFound: RequestHandler = (request) => {
 
 export function errorResponder(log: (line: string) => void): ErrorRequestHandler {
   return (error: unknown, request, response, next) => {
-    // The client disconnected during its request: there is nobody to answer.
+    // The client disconnected during its request: there is no one to answer.
     if (request.destroyed && !request.complete) return;
     const { code, message, status } = describe(error);
     if (code === "internal" || code === "disk-full")

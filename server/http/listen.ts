@@ -45,7 +45,7 @@ export function httpServer(
   const limits = new ConnectionLimits((address) => isTrustedAddress(address, access));
   const listener: RequestListener = (request, response) => {
     if (roleOf(request, access) !== null) limits.identified(request);
-    // Connections of unknown clients end with the answer, so that nobody can pile up refused connections.
+    // Connections of unknown clients end with the answer, so that refused connections cannot pile up.
     else response.setHeader("Connection", "close");
     app(request, response);
   };

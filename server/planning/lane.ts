@@ -8,7 +8,7 @@ import { PlotwrightError } from "../../src/index.js";
 export interface Requester {
   /** Requests of one client run one after the other; default: the server itself. */
   readonly client?: string | undefined;
-  /** Aborted when nobody waits for the result any longer. */
+  /** Aborted when the result is no longer needed. */
   readonly signal?: AbortSignal | undefined;
 }
 

@@ -102,7 +102,7 @@ class PlannerThread {
   constructor({ limits = PLANNING_LIMITS, ...input }: PlannerInput) {
     this.#limits = limits;
     this.#ready = this.#wait(null);
-    // Avoids an unhandled rejection when nobody calls ready(); ready() itself still rejects.
+    // Avoids an unhandled rejection if ready() is never called; ready() itself still rejects.
     this.#ready.catch(() => undefined);
     const { heapMb, growthMb } = limits;
     const start = { name: "plan-worker", starterUrl: import.meta.url, workerData: input, heapMb, growthMb };

@@ -1,4 +1,4 @@
-/** Finds and opens a plotter, real or virtual, and has its driver learn what it is. */
+/** Finds and opens a plotter, real or virtual, and lets its driver identify it. */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
 import type { Driver, Machine, MachineEvents, VirtualMachine } from "../../src/internal.js";
 import { findBoards } from "../serial/find-boards.js";
@@ -7,16 +7,16 @@ import { openSerial } from "../serial/serial-transport.js";
 
 export interface ConnectOptions {
   readonly driver: Driver;
-  /** "auto": the first board on USB that is surely the driver's, else the virtual one. "virtual", or a serial port's path. */
+  /** "auto": the first board on USB that is certainly the driver's, else the virtual one. "virtual", or a serial port's path. */
   readonly device: string;
   /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
   /** "auto" with no board on USB: true for the virtual one, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
   readonly clock: Clock;
-  /** How many times faster than real time the machine runs; only a virtual one is ever not 1. */
+  /** How many times faster than real time the machine runs; not 1 only for a virtual one. */
   readonly speed: number;
-  /** The built-in virtual machine, made when it is needed; the same one after a lost connection. */
+  /** The built-in virtual machine, created when needed; the same one after a lost connection. */
   readonly virtualMachine: () => VirtualMachine;
   readonly events: MachineEvents;
 }
@@ -66,6 +66,6 @@ const notFound = ({ usbIds }: Driver): PlotwrightError =>
   new PlotwrightError(
     "no-board",
     usbIds.length === 0
-      ? "This machine's controller can't be found by itself: name its port with --device."
+      ? "This machine's controller can't be detected automatically: name its port with --device."
       : "The plotter is no longer plugged in: check its USB cable and its power.",
   );

@@ -1,6 +1,6 @@
 /**
- * What may be asked of an idle plotter by hand, as data, and how the machine does it. Every move begins with the
- * pen up and stays within the machine; where nobody knows where the carriage is, it stands at home.
+ * Manual moves of an idle plotter, as data, and how the machine performs them. Every move begins with the
+ * pen up and stays within the machine; if the carriage's position is unknown, it is assumed to be at home.
  */
 import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import { type Machine, machineOf } from "../../src/internal.js";
@@ -27,7 +27,7 @@ export type HandMove =
   /** A raw servo position, 1/12 µs. */
   | { readonly kind: "servo"; readonly pos: number };
 
-/** Rejects with `out-of-bounds` before anything moves, or with what the board fails with. */
+/** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
 export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
   switch (move.kind) {
@@ -62,7 +62,7 @@ async function jog(plotter: Machine, dxMm: number, dyMm: number, settings: PlotS
     throw new PlotwrightError("out-of-bounds", `A step of ${dxMm}, ${dyMm} mm is longer than the machine.`);
   }
   const { x, y } = await standing(plotter, settings);
-  // Home may not be where the machine's corner is, but it can't be further from it than the machine is long.
+  // Home may not be at the machine's corner, but cannot be further from it than the machine's length.
   const isWithin =
     x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
   if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);
@@ -86,7 +86,7 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
   for (const [cornerX, cornerY] of corners) await plotter.walk(cornerX, cornerY, settings);
 }
 
-/** Draws strokes in mm from where the carriage stands, and comes back there. */
+/** Draws strokes in mm from the carriage's position, and returns there. */
 async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
   const { x, y } = await standing(plotter, settings);
@@ -124,7 +124,7 @@ function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: numbe
   const at = `${Number(x.toFixed(2))}, ${Number(y.toFixed(2))} mm`;
   return new PlotwrightError(
     "out-of-bounds",
-    `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage stands elsewhere.`,
+    `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage is elsewhere.`,
   );
 }
 

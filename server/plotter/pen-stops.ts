@@ -24,7 +24,7 @@ export class PenStops {
     return this.#stops.map(({ strokeIndex }) => strokeIndex);
   }
 
-  /** The pen to put in before the plot continues at a place; null if none. */
+  /** The pen to insert before the plot continues at a place; null if none. */
   due(place: Place | null): PlotWait | null {
     const stroke = place?.stroke ?? 0;
     const stop = this.#stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
@@ -33,7 +33,7 @@ export class PenStops {
     return { kind: "pen", layerName, penName, color };
   }
 
-  /** The user has put in the pen that was due at a place. */
+  /** The user has inserted the pen that was due at a place. */
   answer(place: Place | null): void {
     this.#answeredTo = Math.max(this.#answeredTo, place?.stroke ?? 0);
   }

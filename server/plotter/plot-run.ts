@@ -4,8 +4,8 @@
  *              ┌──────── resume: plan the rest, from the same place ────────────┐
  *   plan ──> streaming ──pause──> slows down along the path, lifts ──> held ────┘
  *    ^          │ │ │  └──emergency──> stops at once, lifts ──> held
- *    │          │ │ └──cancel──> slows down, lifts, walks home ──> cancelled
- *    │          │ └──a pen is due──> lifts, walks home ──> held
+ *    │          │ │ └──cancel──> slows down, lifts, goes home ──> cancelled
+ *    │          │ └──a pen is due──> lifts, goes home ──> held
  *    └──────────┘                                          done when nothing is left
  *
  * A drawing with pen changes is planned and streamed in parts, each from one change to the next.
@@ -106,7 +106,7 @@ export class MachinePlot implements LivePlotRun {
         throw error;
       },
     );
-    // Callers await `finished`. If nobody does, its rejection must not end the process.
+    // Callers await `finished`. If none does, its rejection must not end the process.
     this.finished.catch(() => undefined);
   }
 

@@ -1,4 +1,5 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
+import { isDeepStrictEqual } from "node:util";
 import { PlotwrightError } from "../../src/index.js";
 import { machineOf, firmwareFor, isPlannedAlike } from "../../src/internal.js";
 import {
@@ -84,17 +85,20 @@ export class JobQueue {
   }
 
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
-    const { name, settings, drawing, watched, sharedId, plotterId = this.#firstPlotter() } = wanted;
+    const { name, settings, drawing, watched, sharedId, from, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
+    if (from && from.strokeIndex >= stats.strokeCount) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `The drawing has ${stats.strokeCount} strokes, so it can't start at number ${from.strokeIndex + 1}.`,
+      );
+    }
     // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
-    return this.#jobs.insert(
-      this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] }),
-      drawing,
-      { watched, sharedId },
-    );
+    const job = this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] });
+    return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId });
   }
 
   /**
@@ -104,7 +108,10 @@ export class JobQueue {
   async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
-    if (settings !== undefined) this.#jobs.mustBeQueued(id, "Its settings");
+    if (settings !== undefined) {
+      this.#jobs.mustBeQueued(id, "Its settings");
+      mustKeepStrokes(this.get(id), settings);
+    }
     if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
     const planned = await this.#remeasured(id, patch, requester);
     // The plotter may have been removed meanwhile.
@@ -327,3 +334,12 @@ export class JobQueue {
 }
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
+
+/** The place where a queued job starts is a stroke's number, which other preparing would give to another stroke. */
+function mustKeepStrokes(job: Job, settings: PlotSettings): void {
+  if (job.place === null || isDeepStrictEqual(job.settings.prepare, settings.prepare)) return;
+  throw new PlotwrightError(
+    "conflict",
+    `"${job.name}" starts at stroke ${job.place.strokeIndex + 1}, so its layout can't be changed. Add a new job instead.`,
+  );
+}

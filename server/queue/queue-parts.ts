@@ -1,5 +1,5 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
-import type { Job, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import type { Planning } from "../planning/planning.js";
 import type { DrawingFiles, StoredDrawing } from "../storage/drawing-files.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
@@ -42,6 +42,8 @@ export interface NewQueueJob {
   readonly settings: PlotSettings;
   readonly drawing: StoredDrawing;
   readonly plotterId?: string | undefined;
+  /** Where it starts; left out: at the beginning. */
+  readonly from?: JobPlace | undefined;
   /** The watched file it comes from; marked as handled in the same transaction. */
   readonly watched?: WatchedFile | undefined;
   /** Its id in the shared queue; stored in the same transaction. */

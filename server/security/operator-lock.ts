@@ -90,7 +90,7 @@ export class OperatorLock {
       // A full disk must neither prevent operating nor end the server when the lock lapses.
       this.#parts.log(`the operator is not stored: ${(error as Error).message}`);
     }
-    this.#parts.log(`operator: ${operator?.name ?? "nobody"} (${why})`);
+    this.#parts.log(`operator: ${operator?.name ?? "none"} (${why})`);
     this.#parts.announce(operator);
     this.#restartLapse();
   }

@@ -1,12 +1,13 @@
 /**
- * What plotwright asks of a controller. A driver is a folder beside this file and a line in `registry.ts`; nothing
- * outside its folder knows its commands.
+ * What plotwright needs from a controller. A driver is a folder beside this file and a line in `registry.ts`;
+ * nothing outside its folder knows its commands.
  *
  *   PlanForMachine ──────> MachineJob   the motion and its commands, without a machine
- *   Driver ──identify──> Machine      one that is connected: pen, moves by hand, supply, console
- *                          └──startRun──> MachineRun   one plot: play, hold, stop, go over to another plan
+ *   Driver ──identify──> Machine      a connected one: pen, moves by hand, supply, console
+ *                          └──startRun──> MachineRun   one plot: play, hold, stop, switch to another plan
  *
- * A controller may follow our plan (EBB) or plan by itself (Grbl): then its trajectory is a model of what it does.
+ * A controller may follow our plan (EBB) or plan by itself (Grbl). In the second case its trajectory is a
+ * model of what it does.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
@@ -23,32 +24,32 @@ export interface UsbId {
 }
 
 export interface Driver {
-  /** Devices that are surely this controller: "auto" takes the first. None: the user names the port. */
+  /** Devices that are certainly this controller: "auto" takes the first. Empty: the user names the port. */
   readonly usbIds: readonly UsbId[];
-  /** Learns who is at the other end. Closes the line and rejects when it is nobody that this driver knows. */
+  /** Finds out what is connected. Closes the connection and rejects if this driver does not know it. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
-  /** The controller in software, to plot without hardware. */
+  /** A simulated controller, to plot without hardware. */
   virtualMachine(options: VirtualMachineOptions): VirtualMachine;
 }
 
 export interface ConnectOptions {
-  /** Counts our seconds. */
+  /** Counts seconds of this computer. */
   readonly clock: Clock;
   /** Counts the machine's seconds. */
   readonly machineClock: Clock;
-  /** The machine's seconds in one of ours; only a virtual machine is ever not 1. */
+  /** The machine's seconds per second of this computer; not 1 only for a virtual machine. */
   readonly speed: number;
   readonly events: MachineEvents;
 }
 
 export interface MachineEvents {
-  /** Pen, motors or place have changed. */
+  /** Pen, motors or position have changed. */
   changed(): void;
-  /** The button on the machine was pressed while it plotted. */
+  /** The button on the machine was pressed during a plot. */
   buttonPressed(): void;
-  /** One reading of the motors' supply while it plotted. A single one may be wrong. */
+  /** One reading of the motors' supply during a plot. A single one may be wrong. */
   supplyRead(isLow: boolean): void;
-  /** The line or the controller has failed; the machine is of no use any more. */
+  /** The connection or the controller has failed; this machine cannot be used any more. */
   lost(error: PlotwrightError): void;
 }
 
@@ -56,67 +57,70 @@ export interface VirtualMachineOptions {
   readonly clock: Clock;
   readonly speed: number;
   readonly machine: MachineProfile;
-  /** Version that it shows; left out: the driver's usual one. */
+  /** The version it reports; default: the driver's choice. */
   readonly firmware?: string | undefined;
 }
 
 export interface VirtualMachine {
-  /** A new line to it: the machine stays as it is when a line is closed. */
+  /** Opens a new connection to it. The machine keeps its state when a connection is closed. */
   transport(): Transport;
   close(): void;
 }
 
-/** One connected machine. Places are mm from home; null where nobody knows. */
+/** One connected machine. Positions are mm from home; null if unknown. */
 export interface Machine {
   readonly firmware: string;
-  /** The controller's own name; null where it has none. */
+  /** The controller's own name; null if it has none. */
   readonly name: string | null;
   /** Counts the machine's seconds. */
   readonly clock: Clock;
-  /** The machine's seconds in one of ours. */
+  /** The machine's seconds per second of this computer. */
   readonly speed: number;
   readonly penUp: boolean | null;
   readonly motorsOn: boolean | null;
-  /** Until something moves: how a machine stood that had kept its place when it was connected. */
+  /**
+   * Set until something moves: how the machine was found, if it still knew its position when it was
+   * connected.
+   */
   readonly left: { readonly penUp: boolean } | null;
-  /** What the next job has to begin from; null while its place is not known. */
+  /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
   place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;
 
-  /** After connecting: what a machine has kept from before. Lifts a pen that was left on the paper. */
+  /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper. */
   takeOver(): Promise<void>;
-  /** Motors on, where they are off. Where the place is not known, here is home. */
+  /** Switches the motors on if they are off. If the position is unknown, this place becomes home. */
   ready(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<MachineState>;
-  /** Resolves when the pen is there. */
+  /** Resolves when the pen has arrived. */
   movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void>;
-  /** To a raw position of the pen's servo. */
+  /** Moves the pen's servo to a raw position. */
   moveServo(profile: MachineProfile, pos: number): Promise<void>;
-  /** Pen up, in a straight line to a place, at travel speed. */
+  /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
-  /** Plays a job that ends with the pen up, with no run around it. */
+  /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
-  /** Here is home from now on. */
+  /** Makes this place home. */
   setHome(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<void>;
-  /** Finds home by the machine's own switches; false, with nothing moved, where it has none. */
+  /** Finds home with the machine's own switches. False if it has none; nothing moves then. */
   findHome(settings: MachineSettings): Promise<boolean>;
-  /** Lets the carriage be pushed by hand; its place is not known then. */
+  /** Lets the carriage be pushed by hand; its position is unknown from then on. */
   motorsOff(): Promise<void>;
   /** Something else has moved the carriage. */
   forgetPlace(): Promise<void>;
-  /** After the place is lost: pen up, motors off. */
+  /** After the position is lost: pen up, motors off. */
   letGo(settings: MachineSettings): Promise<void>;
-  /** Before the line is given up in the middle of something: stops at once, pen up. */
+  /** Before the connection is closed during motion: stops at once, pen up. */
   leave(settings: MachineSettings): Promise<void>;
-  /** A move by hand ends with `conflict`, and the place is read back. */
+  /** Stops a move by hand, which rejects with `conflict`, and reads the position back. */
   stopAtOnce(): void;
 
-  /** Asks; false too where the controller cannot tell. */
+  /** Asks the machine. False too if the controller cannot tell. */
   isSupplyLow(): Promise<boolean>;
-  /** How long the motors may still run after an emergency stop. */
+  /** How long the motors may keep running after an emergency stop. */
   emergencyStopMs(settings: MachineSettings): number;
-  /** One line that the user has typed. Rejects with `bad-setting` for what would end the talk. */
+  /** One line that the user typed. Rejects with `bad-setting` for a line that would break the communication. */
   command(line: string): Promise<ConsoleAnswer>;
-  /** What was said on the line, as text to be downloaded. */
+  /** The log of the communication, as text to download. */
   log(): string;
   startRun(request: RunRequest): MachineRun;
   close(): Promise<void>;
@@ -124,58 +128,58 @@ export interface Machine {
 
 export interface ConsoleAnswer {
   readonly replies: string[];
-  /** What became of place or pen; null: nothing. */
+  /** What happened to the position or the pen; null: nothing. */
   readonly note: string | null;
 }
 
 export interface RunRequest {
   readonly strokes: StrokeSet;
-  /** As they stand now: they may change on the way. */
+  /** The current settings; they may change during the plot. */
   settings(): MachineSettings;
   readonly events: RunEvents;
 }
 
 export interface RunEvents {
   tell(progress: PlotProgress): void;
-  /** A play has ended, however it did; `place`: the first that is still to be drawn, null where that is not known. */
+  /** A play has ended, for whatever reason; `place`: the first that is still to be drawn, null if unknown. */
   ended(place: Place | null): void;
 }
 
-/** One plot on a machine. What is to be drawn, and when, is said by the caller. */
+/** One plot on a machine. The caller decides what is drawn, and when. */
 export interface MachineRun {
   readonly progress: RunProgress;
-  /** What plays now, another object for each play; null at rest. */
+  /** What is playing now, a new object for each play; null at rest. */
   readonly playing: object | null;
-  /** Set when a play was stopped on purpose: what is still to be drawn then. */
+  /** Set when a play was stopped on purpose: what is still to be drawn. */
   readonly stopped: { readonly place: Place | null } | null;
-  /** What the machine will be given next is from there on: it draws up to there by itself. */
+  /** The machine already has everything up to this place and will draw it; what it receives next begins here. */
   readonly sentPlace: Place | undefined;
-  /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
+  /** Plays a plan to its end, or to a hold; `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
-  /** Where the pen is now; null at rest. */
+  /** Current position of the pen; null at rest. */
   now(): PlotProgress | null;
   /** Slows down along the path and lifts the pen; `play` ends. */
   slowToRest(): void;
-  /** Drops what the machine has; `play` ends with the place read back. */
+  /** Drops what the machine has queued; `play` ends and the position is read back. */
   stopAtOnce(): void;
-  /** Stops the motors for good: what plays, or would be played next, fails with the error. */
+  /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void;
-  /** On its way to another plan; until it is there, it can't be told to go to a third one. */
+  /** Switching to another plan; until that is done, no third plan is accepted. */
   readonly isGoingOver: boolean;
   /**
-   * A place at least `leadS` ahead where another plan can take over in motion; null when what is left is too short, or
-   * the controller cannot do it: then a change waits for the next rest.
+   * A place at least `leadS` ahead where another plan can take over in motion. Null if too little is left, or
+   * if the controller cannot do it: a change then waits for the next rest.
    */
   placeAhead(leadS: number): PlaceAhead | null;
 }
 
-/** Where another plan can take over: plan on `from` there, at `x`, `y` in mm. */
+/** Where another plan can take over: plan from `from`, at `x`, `y` in mm. */
 export interface PlaceAhead {
   readonly from: Place;
   readonly x: number;
   readonly y: number;
-  /** How the machine will stand there. */
+  /** The machine's state there. */
   readonly board: MachineState;
-  /** Goes over to a plan from there; false when the machine has got there meanwhile. */
+  /** Switches to a plan that begins there; false if the machine has already passed the place. */
   goOver(plot: PlannedPlot, afterS: number): boolean;
 }

@@ -1,15 +1,18 @@
-/** Faults that any controller can tell of, in words for the user. */
+/** Faults that any controller can report, in words for the user. */
 import { PlotwrightError } from "../errors.js";
 
 export const powerLow = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The motors have no power, or too little: check the plotter's power supply, its plug and its switch. " +
-      "The carriage may have been moved meanwhile, so put it to home before the next plot.",
+      "The carriage may have been moved, so push it to home before the next plot.",
   );
 
-/** Said of a plot whose place was found by the last good reading: some of what follows it may be drawn already. */
-const MAY_OVERLAP = "Its line may overlap a little where it goes on.";
+/**
+ * Added to the message of a plot that resumes at the last good reading: some of the line after it may already
+ * be drawn.
+ */
+const MAY_OVERLAP = "Its line may overlap a little where it resumes.";
 
 export const powerLost = (): PlotwrightError =>
   new PlotwrightError("board-error", `${powerLow().message} ${MAY_OVERLAP}`);
@@ -17,7 +20,7 @@ export const powerLost = (): PlotwrightError =>
 export const boardRestarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The board has started anew in the middle of its motion and has lost its place: its reset button was pressed, or its " +
-      "supply failed for a moment. Its motors are off now: put the carriage to home before you go on. " +
+    "The board restarted during its motion and has lost its position: its reset button was pressed, or its " +
+      "supply failed for a moment. Its motors are off: push the carriage to home before you resume. " +
       MAY_OVERLAP,
   );

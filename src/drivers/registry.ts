@@ -1,6 +1,6 @@
 /**
- * The drivers, by the `kind` of a machine's controller. Planning and versions have tables of their own: a page that
- * only plans does not load what talks to a machine.
+ * The drivers, by the `kind` of a machine's controller. Planning and versions have their own tables, so that
+ * a page that only plans does not load the code that talks to a machine.
  */
 import { PlotwrightError } from "../errors.js";
 import type { Controller } from "../machines/controllers.js";
@@ -19,21 +19,21 @@ const PLANNERS: ByController<PlanForMachine> = { ebb: planEbbJob, grbl: planGrbl
 const FIRMWARES: ByController<FirmwareRules> = { ebb: ebbFirmware, grbl: grblFirmware };
 const DRIVERS: ByController<Driver> = { ebb: ebbDriver, grbl: grblDriver };
 
-/** Plans jobs for a machine. Throws `bad-setting` for a profile whose controller is not known. */
+/** Plans jobs for a machine. Throws `bad-setting` for a profile with an unknown controller. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofController(PLANNERS, machine);
 
-/** Connects machines. Throws `bad-setting` for a profile whose controller is not known. */
+/** Connects machines. Throws `bad-setting` for a profile with an unknown controller. */
 export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
 
 /** The USB devices of all drivers. */
 export const usbIds = (): readonly UsbId[] => Object.values(DRIVERS).flatMap((driver) => driver.usbIds);
 
-/** The version to plan for: null where it is that of another controller than the machine's. */
+/** The version to plan for: null if it belongs to a different controller. */
 export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
   return firmware !== null && ofController(FIRMWARES, machine).isOwn(firmware) ? firmware : null;
 }
 
-/** Whether a machine moves in the same way with either version. */
+/** Whether a machine moves in the same way with both versions. */
 export function isPlannedAlike(machine: MachineProfile, a: string | null, b: string | null): boolean {
   const { limitsMotion } = ofController(FIRMWARES, machine);
   return limitsMotion(firmwareFor(machine, a)) === limitsMotion(firmwareFor(machine, b));
@@ -44,6 +44,6 @@ function ofController<T>(table: ByController<T>, { name, controller }: MachinePr
   const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",
-    `The controller of ${name}, "${controller.kind}", is not known. Known controllers: ${known}.`,
+    `The controller of ${name}, "${controller.kind}", is unknown. Known controllers: ${known}.`,
   );
 }

@@ -1,4 +1,4 @@
-/** How far a plot is: translates the place of whatever stream is playing into the terms of the whole plot. */
+/** Progress of a plot: translates the position in the current stream into a position in the whole plot. */
 import { nextPlace } from "../plan/place-on-plan.js";
 import { PlaceTimes } from "../plan/place-times.js";
 import { stateAt, type MotionState, type Place, type Trajectory } from "../plan/trajectory.js";
@@ -16,20 +16,20 @@ export interface PlotProgress {
   readonly penUp: boolean;
 }
 
-/** A stretch of motion that is or will be streamed, and the plan that it came from. */
+/** A stretch of motion that is or will be streamed, and the plan that it belongs to. */
 export interface Part {
   readonly commands: MachineCommands;
   readonly trajectory: Trajectory;
-  /** What of the plot still follows its end: a way to rest ends in the middle of the drawing. */
+  /** Time of the plot after the end of this stretch: a path to rest ends in the middle of the drawing. */
   readonly afterS: number;
-  /** What is drawn next after its end, by another part of the same stream; left out: nothing. */
+  /** What the next part of the same stream draws after this one; left out: nothing. */
   readonly next?: Place | null;
 }
 
-/** Of the parts left behind, these are remembered: a plan, the way to rest in it, and a change of heights. */
+/** Number of past parts to remember: a plan, the path to rest in it, and a change of heights. */
 const LEFT_COUNT = 3;
 
-/** `P`: what a driver keeps of each part besides. */
+/** `P`: what a driver stores with each part. */
 export class RunProgress<P extends Part = Part> {
   latest: PlotProgress | null = null;
   /** The first place that is still to be drawn. */
@@ -39,9 +39,9 @@ export class RunProgress<P extends Part = Part> {
   private part: P | null = null;
   private firstTrajectory: Trajectory | null = null;
   private times: PlaceTimes | null = null;
-  /** Of the parts that are over. */
+  /** Underruns of the parts that are over. */
   private doneS = 0;
-  /** Of the part that plays. */
+  /** Underruns of the current part. */
   private partS = 0;
   private partStartS = 0;
   private readonly motion: MotionState = {
@@ -57,8 +57,8 @@ export class RunProgress<P extends Part = Part> {
   };
 
   /**
-   * What will be streamed are parts of this plan, which is the one that the page has. `from`: what lies before it
-   * was drawn by an earlier run.
+   * What will be streamed are parts of this plan, the one that the page has. `from`: an earlier run drew
+   * everything before it.
    */
   isPartOf(whole: Trajectory, times: PlaceTimes, from: Place | null): void {
     this.firstTrajectory = whole;
@@ -66,7 +66,7 @@ export class RunProgress<P extends Part = Part> {
     if (from) this.doneS = times.timeOf(from) ?? 0;
   }
 
-  /** A part that will be streamed; the first of all is the plan that the page has too, where that was not told. */
+  /** A part that will be streamed. The first part of all is the page's plan too, unless another was reported. */
   add(part: P): void {
     if (!this.firstTrajectory) {
       this.firstTrajectory = part.trajectory;
@@ -75,7 +75,7 @@ export class RunProgress<P extends Part = Part> {
     this.parts.push(part);
   }
 
-  /** Parts long left behind are forgotten. */
+  /** Older parts are forgotten. */
   knows(commands: MachineCommands): boolean {
     return this.parts.some((part) => part.commands === commands);
   }
@@ -86,7 +86,7 @@ export class RunProgress<P extends Part = Part> {
     return found;
   }
 
-  /** Where the board is now. */
+  /** Current position of the board. */
   update(at: { readonly stream: MachineCommands; readonly planS: number }): PlotProgress {
     const part = this.partOf(at.stream);
     if (part !== this.part) this.enter(part, at.stream.planS[0]);
@@ -110,7 +110,7 @@ export class RunProgress<P extends Part = Part> {
     return this.latest;
   }
 
-  /** While held: it goes on from another place. Null while the plan's times are not known. */
+  /** While held: the plot resumes from another place. Null while the plan's times are unknown. */
   movedTo(place: Place, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
     const doneS = this.times?.timeOf(place) ?? null;
     if (doneS === null || !this.firstTrajectory) return null;
@@ -130,11 +130,11 @@ export class RunProgress<P extends Part = Part> {
     this.partS = 0;
     this.partStartS = startS;
     this.part = part;
-    // What has been left is never played again; but the board may not have got as far as it seems.
+    // A part that was left is never played again. The board may be less far than it seems.
     this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - LEFT_COUNT));
   }
 
-  /** The same place's time in the first plan. */
+  /** The time of the same place in the first plan. */
   private firstPlanS({ trajectory, afterS }: Part, planS: number, now: MotionState): number {
     if (!this.firstTrajectory || trajectory === this.firstTrajectory) return planS;
     const timeS = now.stroke >= 0 ? this.times!.timeOf(now) : null;

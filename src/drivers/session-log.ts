@@ -1,4 +1,4 @@
-/** Log of the communication, newest last: a ring buffer of fixed size, so that memory use does not grow. */
+/** Log of the communication, newest last: a ring buffer of fixed size. */
 import type { Clock } from "./transport.js";
 
 export type LogDirection = "sent" | "received" | "note";

@@ -1,19 +1,18 @@
 /**
- * Where a plot really stopped that was broken off: the journal is up to half a second old, but a board that kept
- * its counters tells where the pen stands, and whether it is down.
+ * Where an interrupted plot really stopped: the journal is up to half a second old, but a board that kept its
+ * counters reports the pen's position, and whether it is down.
  *
- *    journal ──drawn since──┐         pen down: on a stroke, so the plot goes on from that very point
- *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: on the way to a stroke, which is the next to be drawn, or on the
- *                         (x, y)       way home, after the last stroke and before a change of pens
+ *    journal ──drawn since──┐         pen down: on a stroke, so the plot resumes from exactly that point
+ *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: travelling to a stroke, which is drawn next, or going home,
+ *                         (x, y)       after the last stroke or before a change of pens
  *
- * The first place that fits counts, looking on from the journal's: what is drawn twice does less harm than what
- * is not drawn at all.
+ * The first match after the journal's place counts: a part drawn twice does less harm than a missing one.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { strokeLengthMm } from "./place-on-drawing.js";
 import type { Place } from "./trajectory.js";
 
-/** Rounded corners, fitted curves and whole steps, mm. */
+/** Tolerance for rounded corners, merged blocks and whole steps, mm. */
 const NEAR_MM = 0.08;
 
 /** So near to a stroke's start the pen may have begun to come down, mm (see `pen-flight.ts`), and rounding. */
@@ -28,8 +27,8 @@ export interface PenPlace {
 }
 
 /**
- * `aheadMm`: how far the pen can have come since, with all travels. `stops`: the strokes before which it walks home.
- * Where nothing fits, the journal's place; where all is drawn, the end of the last stroke.
+ * `aheadMm`: how far the pen can have moved since, including travel. `stops`: the strokes before which it goes home.
+ * If nothing matches, the journal's place; if everything is drawn, the end of the last stroke.
  */
 export function stoppedPlace(
   strokes: StrokeSet,
@@ -73,9 +72,9 @@ export function stoppedPlace(
 }
 
 /**
- * The same where the server ended and the board lived on: it has played all that it was given, so it stopped behind what
- * was sent at the last entry, and a place where the line crossed itself before that is not meant. Null with the pen up,
- * and where nothing fits: then not everything that was sent has arrived.
+ * The same after the server ended while the board kept running: the board has played everything it received, so it
+ * stopped after what was sent at the last entry. An earlier place where the line crosses itself is excluded. Null if the
+ * pen is up, or if nothing matches because not everything that was sent has arrived.
  */
 export function placeBehindSent(
   strokes: StrokeSet,
@@ -90,7 +89,7 @@ export function placeBehindSent(
   return found === fromHere ? null : found;
 }
 
-/** mm along a stroke where it passes a point for the first time after `fromMm`; null where it does not. */
+/** mm along a stroke where it first passes a point after `fromMm`; null if it does not. */
 function alongOf(
   { xy, offsets }: StrokeSet,
   stroke: number,

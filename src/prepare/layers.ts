@@ -12,6 +12,8 @@ const MAX_LAYERS = 65_535;
 export interface FileLayer extends StrokeLayer {
   /** How many colours its lines have; `color` is the one with the greatest length of line. */
   readonly colorCount: number;
+  /** How wide the file draws its lines, the mean by length, in mm on the file's page; 0: the file does not say. */
+  readonly strokeWidthMm: number;
 }
 
 export interface LayerTable {
@@ -28,10 +30,18 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
     mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(paths, shape), 0) : 0;
 
   const inksOfKey: (Map<number, number> | undefined)[] = new Array(keyCount);
-  const { group, stroke, fill } = paths;
+  /** Length times width, of the lines that have a width; and their length. */
+  const areas = new Float64Array(keyCount);
+  const lengths = new Float64Array(keyCount);
+  const { group, stroke, fill, strokeWidth } = paths;
   let runMm = 0;
   for (let shape = 0; shape < paths.count; shape++) {
-    runMm += Math.max(lengthOf(paths, shape), DOT_MM);
+    const shapeMm = Math.max(lengthOf(paths, shape), DOT_MM);
+    runMm += shapeMm;
+    if (strokeWidth[shape] > 0) {
+      areas[keyOf(shape)] += shapeMm * strokeWidth[shape];
+      lengths[keyOf(shape)] += shapeMm;
+    }
     // Most shapes have the same layer and ink as the next one: a run of them is added once.
     const next = shape + 1;
     const isAlike =
@@ -51,7 +61,8 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   for (let key = 0; key < keyCount; key++) {
     const inks = inksOfKey[key];
     if (!inks) continue;
-    if (layers.length < MAX_LAYERS) layers.push(layerOf(drawing, mode, key, inks));
+    if (layers.length < MAX_LAYERS)
+      layers.push(layerOf(drawing, mode, key, inks, areas[key] / Math.max(lengths[key], 1e-9)));
     indexOfKey[key] = layers.length - 1;
   }
   const ofShape = new Uint16Array(paths.count);
@@ -118,9 +129,10 @@ function layerOf(
   mode: LayerMode,
   key: number,
   inks: ReadonlyMap<number, number>,
+  strokeWidthMm: number,
 ): FileLayer {
   const [[ink]] = [...inks].sort(([, a], [, b]) => b - a);
-  const look = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size };
+  const look = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size, strokeWidthMm };
   if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...look };
   if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], ...look };
   return { id: "all", name: "All strokes", ...look };

@@ -6,7 +6,7 @@
  */
 import { z } from "zod";
 import { ERROR_CODES } from "../errors.js";
-import { jobSchema } from "./job.js";
+import { jobPlaceSchema, jobSchema } from "./job.js";
 import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { nameSchema } from "./name.js";
 import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
@@ -22,8 +22,14 @@ export const newJobSchema = z
     plotterId: z.string().max(100).optional(),
     /** Number of jobs to create. */
     copies: z.int().min(1).max(100).optional(),
+    /** Where to start; left out: at the beginning. When started, the job is held there until it is resumed. */
+    from: jobPlaceSchema.optional(),
   })
-  .refine(hasOneDrawing, ONE_DRAWING);
+  .refine(hasOneDrawing, ONE_DRAWING)
+  .refine(({ from, copies = 1 }) => from === undefined || copies === 1, {
+    path: ["copies"],
+    message: "a job that starts in the middle has one copy",
+  });
 export type NewJob = z.infer<typeof newJobSchema>;
 
 export const jobPatchSchema = z

@@ -70,7 +70,7 @@ export const jobSchema = z.object({
   remainingS: z.number().nullable(),
   /** What is happening or what went wrong, for the user; null if there is nothing to report. */
   message: z.string().nullable(),
-  /** Where it resumes when held, interrupted or cancelled; null if it starts at the beginning, or is plotting. */
+  /** Where it starts, or resumes when held, interrupted or cancelled; null if at the beginning, or while plotting. */
   place: jobPlaceSchema.nullable().default(null),
   /** Percent of the set speeds, changed while plotting. */
   speedPct: z.number().default(100),

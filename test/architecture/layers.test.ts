@@ -6,7 +6,7 @@ import { describe, expect, it } from "vitest";
 
 const ROOT = path.join(import.meta.dirname, "..", "..");
 
-/** What each folder of src may import, besides itself. The keys are every folder that there is. */
+/** What each folder of src may import, besides itself. The keys are all existing folders. */
 const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   geometry: ["units", "errors"],
   drawing: ["geometry", "units", "errors"],
@@ -114,10 +114,10 @@ const betweenFolders = (imports: readonly Import[]): Import[] =>
 /** "src/plan/corner" → "plan"; "src/units" → "units". */
 const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
 
-/** "web/queue/jobs.tsx" → "web/queue"; what lies in web itself is a folder of its own. */
+/** "web/queue/jobs.tsx" → "web/queue"; web itself counts as a folder of its own. */
 const folderOf = (file: string): string => file.split("/").slice(0, 2).join("/");
 
-/** The imports of one search that close a circle, as a readable chain; empty when there is none. */
+/** The imports of one search that form a cycle, as a readable chain; empty if there is none. */
 function findCycle(imports: readonly Import[]): string[] {
   const next = new Map<string, string[]>();
   for (const { from, to } of imports) {
@@ -145,7 +145,7 @@ function findCycle(imports: readonly Import[]): string[] {
 describe("the layers of src", () => {
   const inside = importsIn("src").filter(({ to }) => to.startsWith("src/"));
 
-  it("are the folders that the rule knows", () => {
+  it("are the folders in the rule's table", () => {
     const folders = readdirSync(path.join(ROOT, "src"), { withFileTypes: true })
       .filter((entry) => entry.isDirectory())
       .map((entry) => entry.name);
@@ -162,7 +162,7 @@ describe("the layers of src", () => {
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("have no circles among their files", () => {
+  it("have no cycles among their files", () => {
     expect(findCycle(inside)).toEqual([]);
   });
 
@@ -190,7 +190,7 @@ describe("server and web", () => {
 
   it("never import each other, nor a test", () => {
     const wrong = [...importsIn("server"), ...importsIn("web")].filter(({ from, to }) => {
-      // It configures the build, and is no part of the page.
+      // It configures the build, and is not part of the page.
       if (from === "web/vite.config.ts") return false;
       const other = from.startsWith("web/") ? "server/" : "web/";
       return to.startsWith(other) || to.startsWith("test/") || to.startsWith("scripts/");
@@ -243,11 +243,11 @@ describe("the folders of server", () => {
 describe("the folders of web", () => {
   const inside = importsIn("web").filter(({ to }) => to.startsWith("web/"));
 
-  it("have no circles among their files", () => {
+  it("have no cycles among their files", () => {
     expect(findCycle(inside)).toEqual([]);
   });
 
-  it("have no circles among themselves", () => {
+  it("have no cycles among themselves", () => {
     const between = inside
       .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
       .filter(({ from, to }) => from !== to);
@@ -255,7 +255,8 @@ describe("the folders of web", () => {
   });
 
   it("leave requests to the server's implementation of the backend", () => {
-    // The service worker and its helpers fetch the page's own files; the build's configuration is no part of the page.
+    // The service worker and its helpers fetch the page's own files; the build configuration is not part of
+    // the page.
     const others = sourceFiles("web").filter(
       (file) => !/^web\/(backend\/server|pwa)\//.test(file) && file !== "web/vite.config.ts",
     );
@@ -331,11 +332,11 @@ describe("the seams", () => {
     expect(wrong).toEqual([]);
   });
 
-  it("leave no circle among the files of server", () => {
+  it("have no cycle among the files of server", () => {
     expect(findCycle(importsIn("server").filter(({ to }) => to.startsWith("server/")))).toEqual([]);
   });
 
-  it("would find a command that is elsewhere", () => {
+  it("would find a command elsewhere", () => {
     const texts = ["EM,0,0", "SP,1,", "QS", "S2,", "plan", "S", "SVG", "Esc"];
     expect(texts.filter((text) => EBB_COMMAND.test(text))).toEqual(["EM,0,0", "SP,1,", "QS", "S2,"]);
     const lines = [
@@ -376,8 +377,8 @@ describe("the folders of src", () => {
   });
 });
 
-describe("the search for circles", () => {
-  it("finds one that is there", () => {
+describe("the search for cycles", () => {
+  it("finds an existing one", () => {
     const circle = [
       { from: "src/a.ts", to: "src/b" },
       { from: "src/b.ts", to: "src/c" },

@@ -8,7 +8,7 @@ import { libraryReference, type LibraryReference } from "../../scripts/library-r
 const ROOT = path.join(import.meta.dirname, "..", "..");
 const read = (file: string): string => readFileSync(path.join(ROOT, file), "utf8");
 
-/** The names in an entry's `export { … } from` lists, and those that it declares itself. */
+/** The names in an entry's `export { … } from` lists, and its own declarations. */
 function exportedNames(file: string): string[] {
   const source = ts.createSourceFile(file, read(file), ts.ScriptTarget.ES2022, true);
   return source.statements.flatMap((statement) => {
@@ -45,11 +45,11 @@ describe("docs/library.md", () => {
     },
   );
 
-  it("stays short enough: at most 50 public names", () => {
+  it("has at most 50 public names", () => {
     expect(exportedNames("src/index.ts").length).toBeLessThanOrEqual(50);
   });
 
-  it("has no barrel that exports what nobody listed", () => {
+  it("has no barrel that exports unlisted names", () => {
     expect(read("src/index.ts")).not.toMatch(/^export \*/m);
   });
 });
@@ -70,7 +70,7 @@ describe("docs/library-reference.md", () => {
     expect(reference.withoutDocs.filter((name) => names.includes(name))).toEqual([]);
   });
 
-  it("describes the fields of public types, but for the second of a pair such as x and y", () => {
+  it("describes the fields of public types, except the second of a pair such as x and y", () => {
     const second = /\.([vaj]?y|\w+Y|\w+YMm|heightMm|paperHeightMm|steps2|acc2)$/;
     expect(reference.withoutDocs.filter((name) => !second.test(name))).toEqual([]);
   });

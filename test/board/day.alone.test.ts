@@ -18,7 +18,7 @@ function heapBytes(): number {
   return process.memoryUsage().heapUsed;
 }
 
-/** Out and back, and the pen up at the end: a pause there is no starving. */
+/** Out and back, ending with the pen up: a pause there is not an underrun. */
 const round = (): StreamRow[] => [
   ...Array.from({ length: ROUND_S / MOVE_S }, (_, i) => {
     const steps = i % 2 === 0 ? ([900 + i, -700] as const) : ([-899 - i, 700] as const);
@@ -27,7 +27,7 @@ const round = (): StreamRow[] => [
   { line: "SP,1,100", durationS: 0.1 },
 ];
 
-it("a day of streaming costs no memory, loses no step and starves the board never", async () => {
+it("a day of streaming leaks no memory, loses no step and has no underrun", async () => {
   const clock = new ManualClock();
   const board = new VirtualBoard({ clock, firmware: "2.8.1", recordLine: false });
   const session = new BoardSession(board.transport(), { clock, logLines: 5_000 });

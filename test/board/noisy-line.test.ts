@@ -1,4 +1,7 @@
-/** Lines that no command asked for come in mid-plot: the plot goes on without a pause and ends where it should. */
+/**
+ * Lines that belong to no command arrive in mid-plot: the plot continues without a pause and ends where it
+ * should.
+ */
 import { describe, expect, it } from "vitest";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { plotting, seeded } from "../support/live-plot.js";

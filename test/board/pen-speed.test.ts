@@ -1,4 +1,7 @@
-/** The pen's servo goes as fast as the settings say, by hand and in plots, and has arrived when the carriage starts. */
+/**
+ * The pen's servo moves as fast as the settings ask, by hand and in plots, and has arrived when the carriage
+ * starts.
+ */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../src/index.js";
@@ -15,7 +18,7 @@ const MACHINES = ["axidraw-v3", "nextdraw-8511"];
 const WAITING: PenSettings = { ...DEFAULT_PEN, overlap: "off" };
 const GENTLE: PenSettings = { ...WAITING, liftMs: 60, dropMs: 90, liftPctPerS: 150, dropPctPerS: 20 };
 const WAY_PCT = GENTLE.upPct - GENTLE.downPct;
-/** A servo moves by frames. */
+/** A servo moves in frames. */
 const FRAME_S = 0.024;
 
 async function driverOf(machine: string, pen: PenSettings) {
@@ -26,14 +29,14 @@ async function driverOf(machine: string, pen: PenSettings) {
   return { world, driver, settings, board: virtualBoardOf(driver) };
 }
 
-/** A board just switched on may hold its pen anywhere. */
+/** After power-on the pen may be at any height. */
 async function atTop(world: ManualClock, driver: PlotterDriver): Promise<void> {
   await world.run(driver.pen({ up: true }));
   await world.advance(5);
 }
 
 describe.each(MACHINES)("the pen of %s", (machine) => {
-  it("is lowered by hand as gently as it is set, and lifted at its own rate", async () => {
+  it("is lowered by hand as gently as configured, and lifted at the lifting rate", async () => {
     const { world, driver, board } = await driverOf(machine, GENTLE);
     await atTop(world, driver);
     for (const [up, ratePctPerS] of [
@@ -43,7 +46,7 @@ describe.each(MACHINES)("the pen of %s", (machine) => {
       const fromPct = board.state().penPct;
       const startS = world.nowS();
       const moved = driver.pen({ up });
-      // In small steps: each command waits for the answer to the one before.
+      // In small steps: each command waits for the reply to the one before.
       for (let i = 0; i < 40; i++) await world.advance((0.01 * WAY_PCT) / ratePctPerS);
       const wayPct = Math.abs(board.state().penPct - fromPct);
       const elapsedS = world.nowS() - startS;

@@ -1,7 +1,7 @@
 /**
- * The samples × every generation of firmware × every mode, three plots in a row each without homing. The whole of
- * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix, and test:full), or one firmware version. Otherwise
- * a part in which each sample, and each firmware in each mode, comes at least once.
+ * The samples × every generation of firmware × every mode, three plots in a row each without homing. All of
+ * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix, and test:full), or one firmware version.
+ * Otherwise a part in which each sample, and each firmware in each mode, occurs at least once.
  */
 import { afterAll, describe, expect, it } from "vitest";
 import {
@@ -19,7 +19,7 @@ import { IS_FULL } from "../support/full-run.js";
 
 const asked = process.env["PLOTWRIGHT_MATRIX"] ?? (IS_FULL ? "all" : undefined);
 const isWhole = asked !== undefined;
-/** The quick ones stand in where any sample will do. */
+/** The quick ones are used where any sample will do. */
 const QUICK: readonly Sample[] = ["hello-paper", "three-colour-hills"];
 const rows: MatrixRow[] = [];
 
@@ -35,7 +35,7 @@ const combinations = FIRMWARE.flatMap((firmware, f) => {
 });
 
 describe("a sample plotted three times in a row", () => {
-  it.each(combinations)("is $sample, true to the step on firmware $firmware in $mode", (combination) => {
+  it.each(combinations)("is $sample, exact to the step on firmware $firmware in $mode", (combination) => {
     const { sample, firmware, mode } = combination;
     const row = plotOften(sample, firmware, mode);
     rows.push(row);
@@ -55,6 +55,6 @@ describe("a sample plotted three times in a row", () => {
 });
 
 afterAll(() => {
-  // The table of docs/ebb.md, for whoever runs the whole.
+  // The table of docs/ebb.md, printed by a full run.
   if (isWhole) process.stdout.write(`\n${worstTable(rows)}\n`);
 });

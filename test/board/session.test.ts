@@ -12,17 +12,17 @@ function newSession(answer?: (line: string) => string | null) {
   return { clock, line, session: new BoardSession(line, { clock }) };
 }
 
-/** What became of a promise, as a value. */
+/** The outcome of a promise, as a value. */
 const outcome = (promise: Promise<unknown>): Promise<unknown> =>
   promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
 
-describe("who is there", () => {
-  it("reads the firmware from the answer to V", async () => {
+describe("identifying the board", () => {
+  it("reads the firmware from the reply to V", async () => {
     const { session } = newSession(() => VERSION_281);
     expect(await session.identify()).toMatchObject({ firmware: "2.8.1" });
   });
 
-  it("brings a 3.x board that was left in its other syntax back to the plain one", async () => {
+  it("switches a 3.x board that was left in its other syntax back to the legacy one", async () => {
     const { line, session } = newSession((command) =>
       command === "V" ? "V,EBBv13_and_above EB Firmware Version 3.0.3\n" : "CUOK\r\n",
     );
@@ -30,7 +30,7 @@ describe("who is there", () => {
     expect(line.written).toEqual(["V", "CU,10,0"]);
   });
 
-  it("asks again when the remains of an earlier conversation spoil the first answer", async () => {
+  it("asks again if the remains of an earlier conversation spoil the first reply", async () => {
     let asked = 0;
     const { clock, session } = newSession(() =>
       ++asked === 1 ? "!8 Err: Unknown command '1,:312C'\r\n" : VERSION_281,
@@ -38,13 +38,13 @@ describe("who is there", () => {
     expect((await clock.run(session.identify())).firmware).toBe("2.8.1");
   });
 
-  it("says within 3 s that nothing answers", async () => {
+  it("reports within 3 s that nothing answers", async () => {
     const { clock, session } = newSession();
     const identified = outcome(clock.run(session.identify(), 3));
     expect(await identified).toMatch(/^board-timeout: Nothing answers on this port/);
   });
 
-  it("names what another device said", async () => {
+  it("quotes the reply of another device", async () => {
     const { clock, session } = newSession(() => "Grbl 1.1h ['$' for help]\r\n");
     expect(await outcome(clock.run(session.identify(), 3))).toMatch(/^no-board: .*Grbl 1\.1h/);
   });
@@ -54,7 +54,7 @@ describe("who is there", () => {
     ["its own error", "!4\r\n", /It said: .*"!4"/],
     ["the command itself", "V\r\nERROR\r\n", /It said: .*"V", "ERROR"/],
     ["bytes without an end", "\x81\x7e", /choose another device\.$/],
-  ])("takes a device that answers %s, as a modem may, for no plotter", async (_, reply, words) => {
+  ])("does not take a device that answers %s, as a modem may, for a plotter", async (_, reply, words) => {
     const { clock, session } = newSession(() => reply);
     const said = await outcome(clock.run(session.identify(), 3));
     expect(said).toMatch(/^no-board: Something answers on this port, but it is not an EiBotBoard/);
@@ -62,15 +62,15 @@ describe("who is there", () => {
   });
 });
 
-describe("answers and the commands they belong to", () => {
-  it("gives each of many commands under way its own answer", async () => {
+describe("matching replies to commands", () => {
+  it("gives each of many pending commands its own reply", async () => {
     const { line, session } = newSession();
     const all = [session.send("SM,10,5,5"), session.query("QS"), session.send("SP,1"), session.query("QG")];
     line.say("OK\r\n-12,34\n\rOK\r\nOK\r\n3E\r\n");
     expect(await Promise.all(all)).toEqual([undefined, "-12,34", undefined, "3E"]);
   });
 
-  it("does not mind where the line cuts its bytes", async () => {
+  it("accepts bytes split anywhere", async () => {
     const reply = "OK\r\n7,-8\n\rOK\r\nQM,0,0,0,0\n\rOK\r\n";
     await fc.assert(
       fc.asyncProperty(
@@ -100,7 +100,7 @@ describe("answers and the commands they belong to", () => {
     ]);
   });
 
-  it("does not take a surplus-parameter error, which comes after the OK, for the next command's answer", async () => {
+  it("does not take a surplus-parameter error, which comes after the OK, for the next command's reply", async () => {
     const { line, session } = newSession();
     const next = session.send("SP,1");
     line.say("OK\r\n");
@@ -111,7 +111,7 @@ describe("answers and the commands they belong to", () => {
     expect(session.strayCount).toBe(1);
   });
 
-  it("goes on over a lost OK when a later value proves that it was lost", async () => {
+  it("continues after a lost OK when a later value proves that it was lost", async () => {
     const { line, session } = newSession();
     const all = [session.send("LT,1"), session.send("LT,2"), session.query("QM"), session.send("LT,3")];
     line.say("OK\r\nQM,0,0,0,0\n\rOK\r\n");
@@ -119,7 +119,7 @@ describe("answers and the commands they belong to", () => {
     expect(session.lostReplyCount).toBe(1);
   });
 
-  it("says of a lost value that it was lost, and gives the others theirs", async () => {
+  it("reports a lost value, and gives the other queries theirs", async () => {
     const { line, session } = newSession();
     const lost: (string | undefined)[] = [];
     session.write([{ line: "QG", onReply: (error) => lost.push(error?.message) }]);
@@ -129,7 +129,7 @@ describe("answers and the commands they belong to", () => {
     expect(lost).toEqual([expect.stringContaining("reply to QG was lost")]);
   });
 
-  it("asks again for a value that was lost", async () => {
+  it("repeats a query whose value was lost", async () => {
     const { line, session } = newSession();
     const value = session.query("QG");
     const after = session.query("QS");
@@ -140,7 +140,7 @@ describe("answers and the commands they belong to", () => {
     expect(line.written).toEqual(["QG", "QS", "QG"]);
   });
 
-  it("ignores garbage between answers, and counts it", async () => {
+  it("ignores garbage between replies, and counts it", async () => {
     const { line, session } = newSession();
     const all = [session.send("SP,1"), session.query("QS")];
     line.say("\x80\xff?x\r\nOK\r\n#garbage\r\n3,4\n\rOK\r\n");
@@ -149,9 +149,9 @@ describe("answers and the commands they belong to", () => {
   });
 });
 
-describe("a reply that nobody asked for", () => {
+describe("an unsolicited reply", () => {
   const VERSION = "EBBv13_and_above EB Firmware Version 2.8.1\r\n";
-  /** A session that has said who it is, and the answers that it gives to what is asked from then on. */
+  /** An identified session, and the replies that it assigns to later queries. */
   async function identified() {
     const rig = newSession();
     rig.line.answerWith((line) => (line === "V" ? VERSION : null));
@@ -168,11 +168,11 @@ describe("a reply that nobody asked for", () => {
     return { ...rig, answers, ask };
   }
 
-  it("an OK too many shifts the answers to no question", async () => {
+  it("a surplus OK does not shift the replies of later queries", async () => {
     const { line, answers, ask } = await identified();
     ask("LT,1", "LT,2", "QG", "QS", "QC", "LT,3");
     line.say("OK\r\nOK\r\nOK\r\n1E\r\n12,34\n\rOK\r\n394,300\r\nOK\r\n");
-    // Which of them is one too many nobody knows before the answer to V: what was asked before is not believed.
+    // Until the reply to V arrives, any of them may be the surplus one: earlier replies are not trusted.
     expect(line.written.slice(-2)).toEqual(["LT,3", "V"]);
     line.say(`OK\r\n${VERSION}`);
     ask("QS", "QC");
@@ -183,7 +183,7 @@ describe("a reply that nobody asked for", () => {
     ]);
   });
 
-  it("a value too many is given to no other question", async () => {
+  it("a surplus value is not given to another query", async () => {
     const { line, answers, ask } = await identified();
     ask("QS", "QC");
     line.say("7,8\n\r12,34\n\rOK\r\n394,300\r\nOK\r\n");
@@ -194,23 +194,23 @@ describe("a reply that nobody asked for", () => {
     expect(answers[answers.length - 1]).toBe("QC: 394,301");
   });
 
-  it("step counters are no reading of the supply where they cannot be one", async () => {
+  it("step counters are not taken for a supply reading if they cannot be one", async () => {
     const { line, answers, ask } = await identified();
     ask("QC");
     line.say("-12,34\n\rOK\r\n2000,5\n\r");
     expect(answers).toEqual([]);
   });
 
-  it("lost values hold up the commands behind them by no more than an answer", async () => {
+  it("lost values delay the commands behind them by at most one reply", async () => {
     const { line, answers, ask } = await identified();
     ask("QG", "QS", "QC", "LT,3", "LT,4");
-    // Of all three questions nothing came; V is asked for at the first OK that fits nothing.
+    // All three replies were lost; V is sent at the first OK that does not fit.
     line.say("OK\r\n");
     line.say(`OK\r\n${VERSION}`);
     expect(answers).toEqual(["QG: lost", "QS: lost", "QC: lost", "LT,3: ", "LT,4: "]);
   });
 
-  it("noise with a number behind an exclamation mark is no error of the board", async () => {
+  it("noise with a number after an exclamation mark is not an error of the board", async () => {
     const { line, answers, ask } = await identified();
     ask("LT,1", "LT,2");
     line.say("x!37\r\n#!5~\r\nOK\r\nz!8 Err: Unknown command\r\n");
@@ -219,7 +219,7 @@ describe("a reply that nobody asked for", () => {
 });
 
 describe("a board that fails", () => {
-  it("is found silent after the session's patience, and everything that waits is told so", async () => {
+  it("is detected as silent after the session's patience, and everything that waits is rejected", async () => {
     const { clock, session } = newSession();
     const all = [outcome(session.send("SP,1")), outcome(session.query("QS"))];
     const faults: string[] = [];
@@ -235,7 +235,7 @@ describe("a board that fails", () => {
     expect(await outcome(session.send("SP,0"))).toMatch(/^board-timeout/);
   });
 
-  it("is given the time that the motion ahead of a command takes", async () => {
+  it("is given the time that the motion before a command takes", async () => {
     const { clock, line, session } = newSession();
     const move = session.send("SM,5000,0,0", 5);
     await clock.advance(6);
@@ -244,7 +244,7 @@ describe("a board that fails", () => {
     await move;
   });
 
-  it("is told apart from a host that slept: what has come meanwhile is read first", async () => {
+  it("is distinguished from a host that slept: replies that arrived meanwhile are read first", async () => {
     const { clock, line, session } = newSession();
     const move = session.send("SP,1");
     await clock.sleep(60);
@@ -253,7 +253,7 @@ describe("a board that fails", () => {
     expect(session.failure).toBeNull();
   });
 
-  it("rejects everything at once when the line is lost", async () => {
+  it("rejects everything at once when the connection is lost", async () => {
     const { line, session } = newSession();
     const waiting = outcome(session.query("QS"));
     line.lose(new Error("gone"));
@@ -263,7 +263,7 @@ describe("a board that fails", () => {
 });
 
 describe("the log", () => {
-  it("holds what was said, in order, and forgets the oldest beyond its size", async () => {
+  it("holds the communication, in order, and drops the oldest entries beyond its size", async () => {
     const clock = new ManualClock();
     const line = new ScriptedLine(() => "OK\r\n");
     const session = new BoardSession(line, { clock, logLines: 4 });

@@ -58,7 +58,7 @@ describe("a stream on a healthy host", () => {
     ["2.4.4", { poll: { lines: ["QM"], everyS: 0.25 } }],
     ["2.8.1", SHALLOW],
     ["3.0.3", DEEP],
-  ])("ends where it was predicted, without a gap, on firmware %s", async (firmware, options) => {
+  ])("ends where predicted, without a gap, on firmware %s", async (firmware, options) => {
     const rig = await newRig(firmware);
     const rows = [PEN_DOWN, ...wavyRows(400, 20), PEN_UP, ...wavyRows(50, 40, 1)];
     const { streamer, report } = await play(rig, makeStream(rows), options);
@@ -81,7 +81,7 @@ describe("a stream on a healthy host", () => {
     expect(mostS).toBeGreaterThan(0.25);
   });
 
-  it("leaves a deep queue room, so that a stop is read at once", async () => {
+  it("leaves room in a deep queue, so that a stop is read at once", async () => {
     const rig = await newRig("3.0.3");
     await rig.world.run(rig.session.send("CU,4,32"));
     const streamer = new Streamer(rig.session, { clock: rig.world, ...DEEP });
@@ -93,7 +93,7 @@ describe("a stream on a healthy host", () => {
     await played;
   });
 
-  it("asks nothing more when it has ended, and leaves no timer, wherever its last question was", async () => {
+  it("sends no more queries after its end, and leaves no timer, wherever the last query was", async () => {
     for (let count = 20; count < 60; count++) {
       const rig = await newRig("2.8.1", { answerDelayS: 0.02 });
       await play(rig, makeStream(wavyRows(count, 20)), SHALLOW);
@@ -104,12 +104,12 @@ describe("a stream on a healthy host", () => {
     }
   });
 
-  it("reports a place that keeps up with the pen", async () => {
+  it("reports a position that keeps up with the pen", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = streamer.play(makeStream(wavyRows(200, 25)));
     await rig.world.advance(2);
-    // 2 s in: a millisecond or two for the line.
+    // 2 s in: a millisecond or two for the connection.
     expect(streamer.place().planS).toBeCloseTo(2, 2);
     expect(streamer.place().commandIndex).toBe(79);
     await rig.world.run(played);
@@ -169,7 +169,7 @@ describe("a host that stops for 150 ms every second", () => {
     expect(streamer.underrunCount).toBe(0);
   });
 
-  it("starves the board when it waits for acknowledgements instead, and knows it", async () => {
+  it("has underruns if it waits for acknowledgements instead, and counts them", async () => {
     const rig = await newRig();
     const stopStalling = rig.host.stallRegularly(1, 0.15);
     const { streamer, report } = await play(rig, makeStream(rows), { pacing: "acks" });
@@ -181,15 +181,15 @@ describe("a host that stops for 150 ms every second", () => {
   });
 });
 
-describe("a board whose seconds are not ours", () => {
+describe("a board whose clock differs from the host's", () => {
   it.each([
     ["slower by 0.2 %, queue of 1", "2.8.1", SHALLOW, 0.998],
     ["faster by 0.2 %, queue of 1", "2.8.1", SHALLOW, 1.002],
     ["slower by 0.2 %, deep queue", "3.0.3", DEEP, 0.998],
     ["faster by 0.2 %, deep queue", "3.0.3", DEEP, 1.002],
-  ])("is followed for minutes: %s", async (_, firmware, options, speed) => {
+  ])("is tracked for minutes: %s", async (_, firmware, options, speed) => {
     const rig = await newRig(firmware, { speed });
-    // Mostly long commands: with two of them in flight, the acknowledgements alone tell nothing.
+    // Mostly long commands: with two of them in flight, the acknowledgements alone give no information.
     const { report, streamer } = await play(rig, makeStream(wavyRows(1_000, 200)), options);
     expect(report.exact).toBe(true);
     expect(rig.board.statistics().underrunCount).toBe(0);
@@ -198,7 +198,7 @@ describe("a board whose seconds are not ours", () => {
 });
 
 describe("cutting and replacing", () => {
-  it("ends early at a cut, and says where the board stands", async () => {
+  it("ends early at a cut, and reports the board's position", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = streamer.play(makeStream(wavyRows(500, 20)));
@@ -214,7 +214,7 @@ describe("cutting and replacing", () => {
     expect(cut.planS).toBeLessThan(1.35);
   });
 
-  it("goes over to another stream without a gap", async () => {
+  it("switches to another stream without a gap", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const first = makeStream(wavyRows(500, 20));
@@ -228,7 +228,7 @@ describe("cutting and replacing", () => {
     expect(rig.board.statistics().underrunCount).toBe(0);
   });
 
-  it("goes over at a command that is still to come, and refuses one that has gone", async () => {
+  it("switches at a command that is still to come, and refuses one that was sent", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const first = makeStream(wavyRows(500, 20));
@@ -242,7 +242,7 @@ describe("cutting and replacing", () => {
     expect(rig.board.statistics().underrunCount).toBe(0);
   });
 
-  it("tells the fraction done and the time left while it plays", async () => {
+  it("reports the fraction done and the time left while it plays", async () => {
     const rig = await newRig();
     const stream = makeStream(wavyRows(100, 20));
     const seen: StreamProgress[] = [];
@@ -257,7 +257,7 @@ describe("cutting and replacing", () => {
     expect(seen.at(-1)!.fraction).toBeGreaterThan(0.9);
   });
 
-  it("stops at a cancellation, with the board at rest and its place known", async () => {
+  it("stops at a cancellation, with the board at rest and its position known", async () => {
     const rig = await newRig();
     const cancel = { aborted: false };
     const seen: number[] = [];
@@ -282,7 +282,7 @@ describe("a board that fails in mid-stream", () => {
     expect(await refused).toMatch(/^board-error: The board refused SM,0,1,1/);
   });
 
-  it("is noticed silent within 3 s", async () => {
+  it("is detected as silent within 3 s", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = outcome(streamer.play(makeStream(wavyRows(500, 20))));
@@ -291,7 +291,7 @@ describe("a board that fails in mid-stream", () => {
     expect(await rig.world.run(played, 3)).toMatch(/^board-timeout/);
   });
 
-  it("is noticed gone at once", async () => {
+  it("is detected as gone at once", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = outcome(streamer.play(makeStream(wavyRows(500, 20))));
@@ -300,7 +300,7 @@ describe("a board that fails in mid-stream", () => {
     expect(await rig.world.run(played, 0.1)).toMatch(/^disconnected/);
   });
 
-  it("does not mind lost answers, and counts them", async () => {
+  it("tolerates lost replies, and counts them", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = streamer.play(makeStream(wavyRows(500, 20)));
@@ -312,7 +312,7 @@ describe("a board that fails in mid-stream", () => {
     expect(rig.board.statistics().underrunCount).toBe(0);
   });
 
-  it("is told by its counters that it did something else than was said", async () => {
+  it("is detected by its counters if it moved differently from its commands", async () => {
     const rig = await newRig();
     const streamer = new Streamer(rig.session, { clock: rig.world, ...SHALLOW });
     const played = streamer.play(makeStream(wavyRows(100, 20)));

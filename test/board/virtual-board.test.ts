@@ -4,7 +4,7 @@ import { ManualClock } from "../support/manual-clock.js";
 
 const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
 
-/** A board with its byte side in text. */
+/** A board with text instead of bytes. */
 function boardWith(options: Partial<VirtualBoardOptions> = {}) {
   const clock = new ManualClock();
   const board = new VirtualBoard({ clock, ...options });
@@ -60,7 +60,7 @@ describe("the virtual board's bytes", () => {
     expect(boardWith({ firmware }).ask(line)).toBe(reply);
   });
 
-  it("answers in one named line each once future syntax is on", () => {
+  it("answers with one named line each in future syntax", () => {
     const { ask } = boardWith({ firmware: "3.0.3" });
     expect(ask("CU,10,1")).toBe("\n");
     expect(ask("SP,1,0")).toBe("SP\n");
@@ -71,13 +71,13 @@ describe("the virtual board's bytes", () => {
     expect(ask("QS")).toBe("0,0\n\rOK\r\n");
   });
 
-  it("reports surplus parameters after having run the command", () => {
+  it("reports surplus parameters after running the command", () => {
     const { ask, board } = boardWith({ speed: Infinity });
     expect(ask("SM,1,1,1,0,0")).toBe("OK\r\n!7 Err: Extra parameter\r\n");
     expect(board.state()).toMatchObject({ steps1: 1, steps2: 1 });
   });
 
-  it("takes CR, LF and CR LF for one end of line and drops other control bytes", () => {
+  it("takes CR, LF and CR LF as one end of line and drops other control bytes", () => {
     const { board, take } = boardWith();
     board.receive(ascii("QP\r\nQP\nQ\x01P\rQX\x08P\r"));
     expect(take()).toBe("1\n\rOK\r\n".repeat(4));
@@ -109,7 +109,7 @@ describe("the virtual board's bytes", () => {
 });
 
 describe("the virtual board's queue", () => {
-  it("holds back the OK of a move until the one in front of it has begun", async () => {
+  it("delays the OK of a move until the one before it has begun", async () => {
     const { clock, board, take } = boardWith({ firmware: "2.8.1" });
     board.receive(ascii("SM,100,80,0\rSM,100,80,0\rSM,100,80,0\rQS\r"));
     expect(take()).toBe("OK\r\nOK\r\n");
@@ -119,7 +119,7 @@ describe("the virtual board's queue", () => {
     expect(take()).toMatch(/^OK\r\n(80|81),0\n\rOK\r\n$/);
   });
 
-  it("stops reading while its parser is blocked, and says when it reads again", async () => {
+  it("stops reading while its parser is blocked, and reports when it reads again", async () => {
     const { clock, board } = boardWith({ inputBytes: 64 });
     let drained = 0;
     board.onDrain(() => drained++);
@@ -138,7 +138,7 @@ describe("the virtual board's queue", () => {
     expect(take()).toBe("OK\r\n".repeat(33));
   });
 
-  it("drops what runs and waits at ES, and keeps the true position", async () => {
+  it("drops running and waiting orders at ES, and keeps the true position", async () => {
     const { clock, board, ask, take } = boardWith({ firmware: "3.0.3" });
     ask("CU,4,32");
     board.receive(ascii("LT,25000,85899346,0,85899346,0\rLT,25000,85899346,0,85899346,0\r"));
@@ -168,7 +168,7 @@ describe("the virtual board's queue", () => {
     expect(ask("QS")).toBe("10,0\n\rOK\r\n");
   });
 
-  it("zeroes its counters in the middle of a move and goes on", async () => {
+  it("zeroes its counters in the middle of a move and continues", async () => {
     const { clock, ask } = boardWith({ firmware: "2.8.1" });
     ask("SM,1000,1000,-1000");
     await clock.advance(0.5);
@@ -177,7 +177,7 @@ describe("the virtual board's queue", () => {
     expect(ask("QS")).toMatch(/^501,-501\n\rOK\r\n$/);
   });
 
-  it("clears the counters with EM when that order's turn comes", async () => {
+  it("clears the counters with EM when its turn comes", async () => {
     const { clock, ask } = boardWith({ firmware: "2.8.1" });
     ask("SM,100,100,100");
     ask("EM,1,1");
@@ -262,14 +262,14 @@ describe("the virtual board's pen", () => {
 });
 
 describe("the virtual board's faults", () => {
-  it("loses as many replies as it is told to", () => {
+  it("loses as many replies as requested", () => {
     const { ask, board } = boardWith();
     board.loseReplies(1);
     expect(ask("QP")).toBe("");
     expect(ask("QP")).toBe("1\n\rOK\r\n");
   });
 
-  it("does what it is told in silence while it is mute", () => {
+  it("executes commands in silence while it is mute", () => {
     const { ask, board } = boardWith({ speed: Infinity });
     board.setMute(true);
     expect(ask("SM,10,5,5")).toBe("");
@@ -277,7 +277,7 @@ describe("the virtual board's faults", () => {
     expect(ask("QS")).toBe("5,5\n\rOK\r\n");
   });
 
-  it("answers while its motion is frozen, and goes on where it stood", async () => {
+  it("answers while its motion is frozen, and continues where it stopped", async () => {
     const { ask, board, clock } = boardWith();
     ask("SM,1000,100,100");
     await clock.advance(0.501);
@@ -294,7 +294,7 @@ describe("the virtual board's faults", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
   });
 
-  it("begins what came while it was frozen from the moment it goes on, and loses it to ES", async () => {
+  it("begins orders received while frozen when it is unfrozen, and drops them at ES", async () => {
     const { ask, board, clock } = boardWith();
     board.setFrozen(true);
     ask("SM,1000,100,100");
@@ -325,7 +325,7 @@ describe("the virtual board's faults", () => {
     expect(ask("QS")).toBe("60,60\n\rOK\r\n");
   });
 
-  it.each(["R", "RB"])("keeps its name over %s, and nothing else that it was told", (reset) => {
+  it.each(["R", "RB"])("keeps its name over %s, but no other settings", (reset) => {
     const { ask } = boardWith({ firmware: "3.0.3" });
     for (const line of ["ST,easel", "SL,7,3", "SN,9", "CU,60,300", "EM,1,1"]) ask(line);
     ask(reset);
@@ -335,7 +335,7 @@ describe("the virtual board's faults", () => {
     expect(ask("QT")).toBe("easel\r\nOK\r\n");
   });
 
-  it("tells what supply it has", () => {
+  it("reports its supply", () => {
     const { ask, board } = boardWith({ firmware: "3.0.3" });
     board.setMotorVolts(5);
     const reading = Number(/^394,(\d+)/.exec(ask("QC"))![1]);
@@ -345,7 +345,7 @@ describe("the virtual board's faults", () => {
     expect(ask("QC")).toContain(`394,${reading}`);
   });
 
-  it("loses counters and line at a power failure", async () => {
+  it("loses its counters and the connection at a power failure", async () => {
     const { ask, board } = boardWith({ speed: Infinity });
     const transport = board.transport();
     const closed = new Promise<Error | undefined>((resolve) => transport.onClose(resolve));
@@ -356,14 +356,14 @@ describe("the virtual board's faults", () => {
     expect(ask("QS")).toBe("0,0\n\rOK\r\n");
   });
 
-  it("keeps its place when only the cable comes out", () => {
+  it("keeps its position if only the cable is unplugged", () => {
     const { ask, board } = boardWith({ speed: Infinity });
     ask("SM,10,5,5");
     board.unplug();
     expect(ask("QS")).toBe("5,5\n\rOK\r\n");
   });
 
-  it("counts the gap as an underrun when a slow line starves a moving pen, and only then", async () => {
+  it("counts the gap as an underrun only when a slow connection starves a moving pen", async () => {
     const fast = boardWith();
     fast.board.receive(ascii("SM,20,80,80\r".repeat(30)));
     await fast.clock.advance(2);
@@ -380,7 +380,7 @@ describe("the virtual board's faults", () => {
 });
 
 describe("the virtual board as a transport", () => {
-  it("takes a write when the system has room for it, and passes the bytes on as the board reads", async () => {
+  it("accepts a write when the system has room for it, and passes the bytes on as the board reads", async () => {
     const clock = new ManualClock();
     const board = new VirtualBoard({ clock, systemBytes: 100, inputBytes: 64 });
     const transport = board.transport();
@@ -399,7 +399,7 @@ describe("the virtual board as a transport", () => {
     expect(board.statistics().underrunCount).toBe(0);
   });
 
-  it("closes the line before when it is opened again", () => {
+  it("closes the previous connection when it is opened again", () => {
     const board = new VirtualBoard({ clock: new ManualClock() });
     let reason: Error | undefined;
     board.transport().onClose((error) => (reason = error));
@@ -407,7 +407,7 @@ describe("the virtual board as a transport", () => {
     expect(reason).toMatchObject({ code: "disconnected" });
   });
 
-  it("rejects a speed that is no speed", () => {
+  it("rejects an invalid speed", () => {
     expect(() => new VirtualBoard({ clock: new ManualClock(), speed: 0 })).toThrow(RangeError);
   });
 });

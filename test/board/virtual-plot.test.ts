@@ -1,6 +1,6 @@
 /**
- * Whole plots, compiled for every generation of firmware and played on the virtual board: what was predicted
- * is what happens, and what is drawn is the drawing.
+ * Whole plots, compiled for every generation of firmware and played on the virtual board: the result equals
+ * the prediction, and the drawn line equals the drawing.
  */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type Trajectory } from "../../src/index.js";
@@ -13,7 +13,7 @@ import { penMoveColumns } from "../../src/plan/pen-moves.js";
 const MACHINE = machineById("axidraw-v3");
 const FIRMWARE = ["2.4.4", "2.5.3", "2.6.5", "2.7.0", "2.8.1", "3.0.3"] as const;
 const MODES: readonly MotionMode[] = ["junction", "blend", "scurve"];
-/** What the planner may leave the polyline by when it takes blocks together, and one microstep. */
+/** The planner's tolerance for merging blocks, plus one microstep. */
 const FIT_MM = 0.02;
 const MICROSTEP_MM = 0.0125;
 
@@ -78,7 +78,7 @@ for (const mode of MODES) {
   const trajectory = plan(DRAWING, { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
 
   describe(`a plot in ${mode} mode`, () => {
-    it.each(FIRMWARE)("ends where it was predicted, three times in a row, on firmware %s", (firmware) => {
+    it.each(FIRMWARE)("ends where predicted, three times in a row, on firmware %s", (firmware) => {
       const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
       for (let plot = 0; plot < 3; plot++) {
         const stream = fast.compile(trajectory);
@@ -92,7 +92,7 @@ for (const mode of MODES) {
       expect(fast.board.statistics().underrunCount).toBe(0);
     });
 
-    it.each(FIRMWARE)("draws the drawing, and all of it, on firmware %s", (firmware) => {
+    it.each(FIRMWARE)("draws the whole drawing and nothing else on firmware %s", (firmware) => {
       const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
       fast.play(fast.compile(trajectory));
       const lines = fast.board.drawn().filter((line) => line.penDown);
@@ -119,7 +119,7 @@ for (const mode of MODES) {
       (firmware) => {
         const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
         fast.play(fast.compile(trajectory));
-        // One tick: where a count of steps ends is rounded to one.
+        // One tick: the end of a step-limited move is rounded to one.
         expect(fast.board.statistics().longestMotorWaitS).toBeLessThanOrEqual(1.0001 / 25_000);
       },
     );
@@ -127,7 +127,7 @@ for (const mode of MODES) {
     if (mode === "junction") return;
 
     it.each([
-      // Slices of constant speed: no promise, but not absurd.
+      // Slices of constant speed: not guaranteed, but within reason.
       ["2.4.4", 10],
       ["2.5.3", 5],
       ["2.6.5", 5],
@@ -171,9 +171,9 @@ function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
   };
 }
 
-describe("a motor that turns back where two pieces of the plan meet", () => {
-  it.each(["2.5.3", "2.8.1", "3.0.3"])("is stopped there, and does not jump on firmware %s", (firmware) => {
-    // Motor speeds x + y and x − y: the one turns 3 ms before the second joint, the other just at it.
+describe("a motor that reverses where two pieces of the plan meet", () => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("stops there, and does not jump on firmware %s", (firmware) => {
+    // Motor speeds x + y and x − y: one reverses 3 ms before the second joint, the other exactly at it.
     const trajectory = runOf(0.078, [
       [-30.9, 23.1],
       [0.16, 0.15],

@@ -15,7 +15,7 @@ afterEach(async () => {
   for (const folder of folders.splice(0)) rmSync(folder, { recursive: true });
 });
 
-/** Opens the port; `ask` resolves once as many OKs have come as are waited for. */
+/** Opens the port; `ask` resolves once the expected number of OKs has arrived. */
 async function openPort(path: string) {
   const port = new SerialPort({ path, baudRate: 9600, autoOpen: false });
   await new Promise<void>((resolve, reject) => port.open((error) => (error ? reject(error) : resolve())));
@@ -55,7 +55,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
     expect(ptyBoard.board.statistics().moveCount).toBeGreaterThanOrEqual(count);
   });
 
-  it("is found at the path that the command line names, and leaves a picture", async () => {
+  it("is found at the path given on the command line, and saves a picture", async () => {
     const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
     folders.push(folder);
     const path = join(folder, "ebb");
@@ -90,7 +90,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
     expect(readFileSync(svg, "utf8")).toContain('<path d="M0 0L10 0"/>');
   });
 
-  it("takes faults typed at it, and comes back after the cable was out", async () => {
+  it("accepts faults typed to it, and comes back after the cable was unplugged", async () => {
     const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
     folders.push(folder);
     const path = join(folder, "ebb");

@@ -1,4 +1,4 @@
-/** Commands to the machine: never to a board that is not there, and always to the servo that this plotter has. */
+/** Commands to the machine: never to a missing board, and always to the servo of this plotter. */
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -11,7 +11,7 @@ import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { drawingOf, makeJob } from "../server/support/jobs.js";
 import { cli } from "./support.js";
 
-// Whatever is plugged into this computer is left alone.
+// Ignores any board connected to this computer.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
 
 const LIMIT_MS = 60_000;
@@ -35,7 +35,7 @@ describe("without a plotter", () => {
     ["walk", () => ["walk", "1", "1"]],
     ["frame", () => ["frame", file()]],
     ["test-patch", () => ["test-patch"]],
-  ] as const)("%s says so in one line, exit code 4", async (name, args) => {
+  ] as const)("%s reports it in one line, exit code 4", async (name, args) => {
     const where = name === "plot" ? [] : ["--data", data];
     const { code, out, err } = await cli(...args(), ...where);
     expect([code, out]).toEqual([4, ""]);
@@ -43,7 +43,7 @@ describe("without a plotter", () => {
   });
 
   it(
-    "the virtual board is taken when it is asked for",
+    "the virtual board is used on request",
     async () => {
       const virtual = ["--device", "virtual", "--virtual-speed", "100"];
       expect(await cli("pen", "up", "--data", data, ...virtual)).toEqual({ code: 0, out: "", err: "" });
@@ -86,7 +86,7 @@ describe("on a plotter whose servo is on another pin", () => {
   );
 
   it(
-    "hand commands move it when a server has stored the machine, or plotted on it last",
+    "hand commands move it if a server has stored the machine, or plotted on it last",
     async () => {
       const store = Store.open(data);
       store.savePlotter({ id: "main", name: null, device: "auto", machine: "nextdraw-2234" });
@@ -109,7 +109,7 @@ describe("on a plotter whose servo is on another pin", () => {
   );
 
   it(
-    "nothing is moved while it can't be known which plotter it is",
+    "nothing moves while the plotter is ambiguous",
     async () => {
       const server = Store.open(data);
       const before = penPct();

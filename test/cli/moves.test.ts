@@ -30,7 +30,7 @@ const place = async () => {
 };
 
 describe("moves by hand from the command line", () => {
-  it("end exactly where they were asked to, and know the place from the command before", async () => {
+  it("end exactly where requested, and know the position from the command before", async () => {
     expect(await onBoard("jog", "20", "10.5")).toEqual(done);
     expect(await onBoard("jog", "-5", "-0.5", "--travel-speed", "50")).toEqual(done);
     expect(await place()).toEqual({ xMm: 15, yMm: 10, penUp: true, motorsOn: true });
@@ -54,7 +54,7 @@ describe("moves by hand from the command line", () => {
     expect(await onBoard("frame", file, "--no-fit", "--no-clip")).toEqual(done);
     const after = (await board.report()).statistics;
     expect(after.drawnMm).toBe(before.drawnMm);
-    // From where it stood to the corner at 10, 20, around 80 × 20 mm, and back.
+    // From its position to the corner at 10, 20, around 80 × 20 mm, and back.
     expect(after.travelMm - before.travelMm).toBeCloseTo(200 + 2 * Math.hypot(10, 20), 0);
   });
 
@@ -68,7 +68,7 @@ describe("moves by hand from the command line", () => {
   });
 });
 
-describe("a machine of one's own", () => {
+describe("a custom machine", () => {
   it("is taken from a file", async () => {
     const file = join(folder, "mine.json");
     writeFileSync(file, JSON.stringify(MINE));

@@ -33,7 +33,7 @@ afterEach(() => rmSync(dir, { recursive: true, force: true }));
 
 const stoppedClock: Clock = { nowS: () => 0, after: () => () => undefined };
 
-/** What the board says after a list of commands, each over as soon as it is sent. */
+/** The board's replies to a list of commands, each finished as soon as it is sent. */
 function replay(commands: string, firmware: string): VirtualBoard {
   const board = new VirtualBoard({ clock: stoppedClock, firmware, speed: Infinity, recordLine: false });
   const faults: string[] = [];
@@ -47,7 +47,7 @@ function replay(commands: string, firmware: string): VirtualBoard {
 }
 
 describe("plotwright plan", () => {
-  it("prints one JSON object with exactly the promised keys, and nothing else", async () => {
+  it("prints one JSON object with exactly the documented keys, and nothing else", async () => {
     for (const name of samples) {
       const { code, out, err } = await cli("plan", sample(name), "--json");
       expect([name, code, err]).toEqual([name, 0, ""]);
@@ -62,7 +62,7 @@ describe("plotwright plan", () => {
     }
   });
 
-  it("writes commands that take the board as long as the plan says, and bring it back home", async () => {
+  it("writes commands that take the board as long as planned, and bring it back home", async () => {
     const generations = ["2.5.3", "2.8.1", "3.0.3"];
     const dash = join(dir, "dash.svg");
     writeFileSync(
@@ -132,7 +132,7 @@ describe("plotwright plan", () => {
     }
   });
 
-  it("obeys the codes in layer names, but draws what is asked for by name", async () => {
+  it("applies the codes in layer names, but draws what is requested by name", async () => {
     const file = join(dir, "coded.svg");
     const layer = (name: string, y: number): string =>
       `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="M10 ${y}H110" stroke="#000"/></g>`;
@@ -151,7 +151,7 @@ describe("plotwright plan", () => {
     expect([off.strokes, off.durationS < 6]).toEqual([1, true]);
   });
 
-  it("draws only the layers that are named, and says which there are", async () => {
+  it("draws only the named layers, and lists them if a name is unknown", async () => {
     const file = join(dir, "layers.svg");
     writeFileSync(
       file,
@@ -191,7 +191,7 @@ describe("bad input on the command line", () => {
   const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
     `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
 
-  it("ends with 3 and one line that says what is wrong, for files that can't be plotted", async () => {
+  it("ends with 3 and one line that explains the fault, for files that can't be plotted", async () => {
     const files: Record<string, string> = {
       absent: join(dir, "absent.svg"),
       folder: dir,
@@ -219,7 +219,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("never lets entities grow, so that a bomb of them is a short text at most", async () => {
+  it("never expands entities, so a bomb of them is at most a short text", async () => {
     const entities = [..."bcdefghij"]
       .map((name, i) => `<!ENTITY ${name} "${`&${"abcdefghij"[i]};`.repeat(10)}">`)
       .join("");
@@ -230,7 +230,7 @@ describe("bad input on the command line", () => {
     else expect(err).toMatch(/^plotwright: .{15,}/);
   });
 
-  it("plots what is left when only parts of a file are broken, without NaN in it", async () => {
+  it("plots the rest if only parts of a file are broken, without NaN in it", async () => {
     const files = {
       "NaN coordinates": svg('<path d="M NaN NaN L 10 10"/><path d="M10 10h50"/>'),
       "huge coordinates": svg('<path d="M0 0L1e300 1e300"/><path d="M10 10h50"/>'),
@@ -246,7 +246,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("takes 100 000 nested groups and a 50 MB file, or says why not", async () => {
+  it("takes 100 000 nested groups and a 50 MB file, or explains why not", async () => {
     const nested = svg(`${"<g>".repeat(100_000)}<path d="M10 10h50"/>${"</g>".repeat(100_000)}`);
     const large = svg(`<path d="M10 10h50"/><!--${"x".repeat(50_000_000)}-->`);
     for (const text of [nested, large]) {
@@ -257,7 +257,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("ends with 2 for usage it does not know, and writes nothing", async () => {
+  it("ends with 2 for unknown usage, and writes nothing", async () => {
     const file = write("good.svg", svg('<path d="M10 10h50"/>'));
     const out = join(dir, "out.txt");
     for (const args of [
@@ -279,7 +279,7 @@ describe("bad input on the command line", () => {
     expect(existsSync(out)).toBe(false);
   });
 
-  it("prints help and version for those who ask, with 0", async () => {
+  it("prints help and version on request, with 0", async () => {
     expect(await cli("--version")).toEqual({ code: 0, out: "0.0.0\n", err: "" });
     const help = await cli("plan", "--help");
     expect(help.code).toBe(0);

@@ -34,7 +34,7 @@ function withoutKeyboard(): CaughtIo {
 
 describe("plotwright plot", () => {
   it(
-    "says when it begins and when it is done, and nothing with --quiet",
+    "reports when it begins and when it is done, and nothing with --quiet",
     async () => {
       expect((await plot(new CaughtIo(), file)).err).toMatch(
         /^Plotting a\.svg\.\nDone: a\.svg, after 00:00:\d\d\.\n$/,
@@ -45,7 +45,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "waits for Enter between two plots, or so long as it is told",
+    "waits for Enter between two plots, or for the given time",
     async () => {
       const io = new CaughtIo();
       const plotted = plot(io, file, "-");
@@ -63,7 +63,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "does not begin over a plot that was cut short, unless it is told to forget it",
+    "does not begin after an interrupted plot, unless asked to restart",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       const cutShort = (): void => {
@@ -73,27 +73,27 @@ describe("plotwright plot", () => {
       };
       cutShort();
       const refused = await plot(new CaughtIo(), file);
-      expect(refused.err).toMatch(/plot of b\.svg was cut short at 40 %.*plot --resume/);
+      expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
       expect([refused.code, record.find()?.progress]).toEqual([5, 0.4]);
       const resumed = await plot(withoutKeyboard(), "--resume");
-      expect(resumed.err).toMatch(/^Going on with b\.svg\.\nDone: b\.svg/);
+      expect(resumed.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
       expect([resumed.code, record.find()]).toEqual([0, null]);
       expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
       cutShort();
-      expect((await plot(new CaughtIo(), file, "--anew")).code).toBe(0);
+      expect((await plot(new CaughtIo(), file, "--restart")).code).toBe(0);
     },
     LIMIT_MS,
   );
 
   it(
-    "with a keyboard, a plot that is resumed waits for Enter",
+    "with a keyboard, a resumed plot waits for Enter",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
       record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
       const io = new CaughtIo();
       const plotted = plot(io, "--resume");
-      await expect.poll(() => io.errText).toMatch(/lost its place.*Enter goes on/);
+      await expect.poll(() => io.errText).toMatch(/lost its position.*Enter resumes/);
       expect(io.errText).not.toMatch(/Done/);
       io.line();
       expect((await plotted).code).toBe(0);
@@ -101,7 +101,7 @@ describe("plotwright plot", () => {
     LIMIT_MS,
   );
 
-  it("names the server that may have the plotter", async () => {
+  it("names the server that may use the plotter", async () => {
     const taken = new PlotwrightError("busy", "Another program has it.");
     vi.stubGlobal("fetch", () => Promise.resolve(new Response("{}")));
     expect((await serverHint(taken)) as Error).toMatchObject({
@@ -138,7 +138,7 @@ describe("plotwright add and queue", () => {
         expect((await cli("queue", ...at)).out.trimEnd().split("\n").length).toBe(4);
         writeFileSync(file, "hello");
         const refused = await cli("add", file, ...at);
-        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/did not take it/) });
+        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/refused it/) });
       } finally {
         await server.close();
       }

@@ -16,7 +16,7 @@ import { CaughtIo, cliWith } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
 vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
-// Whatever is plugged into this computer is left alone.
+// Ignores any board connected to this computer.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
 
 const LIMIT_MS = 120_000;
@@ -39,7 +39,7 @@ afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** What the test adds, so that a line touches nothing outside its folder and takes no real time. */
+/** Added by the test, so that a line touches nothing outside its folder and takes no real time. */
 function additionsOf(command: string): string[] {
   const data = ["--data", join(folder, "data")];
   const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
@@ -66,9 +66,9 @@ function additionsOf(command: string): string[] {
   }
 }
 
-/** Those that go on until somebody ends them. */
+/** Commands that run until the user ends them. */
 const READY: Readonly<Record<string, RegExp>> = { serve: /plotwright is at/, board: /plotter/ };
-/** As systemctl says that something does not run. */
+/** As systemctl reports that a service does not run. */
 const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3 };
 
 /** A value for each option that takes one and has no default or choices. */

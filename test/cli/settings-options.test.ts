@@ -15,11 +15,11 @@ function settingsOf(...args: string[]): PlotSettings {
 }
 
 describe("the settings' options", () => {
-  it("leave every default alone when none is given", () => {
+  it("change no default if none is given", () => {
     expect(settingsOf()).toEqual(DEFAULT_PLOT_SETTINGS);
   });
 
-  it("put each value where it belongs", () => {
+  it("put each value in its place", () => {
     const settings = settingsOf(
       ...["--machine", "axidraw-se-a3", "--paper", "a3", "--margin", "0", "--no-fit", "--rotate", "-90"],
       ...["--speed", "35.5", "--accel", "400", "--corner", "0.1", "--travel-speed", "200"],
@@ -58,7 +58,7 @@ describe("the settings' options", () => {
     });
   });
 
-  it("take a paper's own size as it is said, wide or high", () => {
+  it("take a custom paper size as it is written, wide or high", () => {
     expect(settingsOf("--paper", "300x200").prepare.landscape).toBe(true);
     expect(settingsOf("--paper", "200x300.5").prepare).toMatchObject({
       paper: { widthMm: 200, heightMm: 300.5 },
@@ -90,7 +90,7 @@ describe("the settings' options", () => {
     expect(motion).toMatchObject({ mode: "scurve", draw: { jerkMmPerS3: 9_000 } });
   });
 
-  it("lay flags over the file of --config, and the file over the defaults", () => {
+  it("apply flags over the file of --config, and the file over the defaults", () => {
     const dir = mkdtempSync(join(tmpdir(), "plotwright-config-"));
     const file = join(dir, "pen.json");
     writeFileSync(file, JSON.stringify({ pen: { upPct: 75 }, motion: { draw: { speedMmPerS: 20 } } }));
@@ -110,12 +110,12 @@ describe("the settings' options", () => {
     expect(() => settingsOf("--config", file)).toThrow(/there is no such file or folder/);
   });
 
-  it("let the last of two opposite ones win", () => {
+  it("use the last of two opposite ones", () => {
     expect(settingsOf("--fit", "--no-fit").prepare.fit).toBe(false);
     expect(settingsOf("--no-fit", "--fit").prepare.fit).toBe(true);
   });
 
-  it("name the flag when a value makes no sense", () => {
+  it("name the flag if a value is invalid", () => {
     for (const args of [
       ["--speed", "fast"],
       ["--speed", ""],

@@ -1,4 +1,4 @@
-/** Runs the command line in this process, with its output caught. */
+/** Runs the command line in this process, and captures its output. */
 import { runCli } from "../../server/cli/program.js";
 import type { CliIo } from "../../server/cli/io.js";
 

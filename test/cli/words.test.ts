@@ -1,4 +1,4 @@
-/** What people type: a word that is no command, and lengths with units. */
+/** What people type: a word that is not a command, and lengths with units. */
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -8,13 +8,13 @@ import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { cli } from "./support.js";
 
-describe("a word that is no command", () => {
+describe("a word that is not a command", () => {
   it.each([
     ["pln", "x.svg", /There is no command pln\. The commands are serve, plan, plot, /],
     ["recover", "", /There is no command recover\. The commands are /],
     ["x.svg", "", /There is no command x\.svg\. To plot a drawing: plotwright plot x\.svg$/],
     ["9381", "", /To choose the port: plotwright --port 9381, or npm start -- --port 9381/],
-  ])("%s %s is named, with what may be meant", async (word, more, message) => {
+  ])("%s %s is named, with a suggestion", async (word, more, message) => {
     const { code, out, err } = await cli(...[word, more].filter((one) => one !== ""));
     expect([code, out]).toEqual([2, ""]);
     expect(err.trim()).toMatch(message);
@@ -30,13 +30,13 @@ describe("a word that is no command", () => {
       ["plan", "my", "drawing.svg"],
       /^plotwright: plan takes 1 at most, got 2\. .* names with blanks need quotes/,
     ],
-  ])("%j has a word too many", async (args, message) => {
+  ])("%j has a surplus word", async (args, message) => {
     const { code, err } = await cli(...args);
     expect(code).toBe(2);
     expect(err).toMatch(message);
   });
 
-  it("leaves options and help as they are", async () => {
+  it("leaves options and help unchanged", async () => {
     expect(await cli("--version")).toMatchObject({ code: 0, out: "0.0.0\n" });
     expect((await cli("help")).code).toBe(0);
     expect((await cli("--nonsense")).err).toMatch(/unknown option/);

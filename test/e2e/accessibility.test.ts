@@ -1,4 +1,7 @@
-/** The page under axe's rules (WCAG 2.2 A and AA), in each state that looks different, light and dark, desk and phone. */
+/**
+ * The page under axe's rules (WCAG 2.2 A and AA), in each state that looks different, light and dark, on
+ * desktop and phone.
+ */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { seriousFindings } from "../support/axe.js";
@@ -50,18 +53,18 @@ async function openPage(look: Look = DESK): Promise<Page> {
   return page;
 }
 
-/** Opens every folded group of settings, so that what is in it is looked at too. */
+/** Opens every collapsed group of settings, so that its content is checked too. */
 async function unfold(page: Page): Promise<void> {
   const folded = page.locator("button[aria-expanded=false]:visible");
   while ((await folded.count()) > 0) await folded.first().click();
-  // Where a phone's bar covers no other half of a control than on the first visit.
+  // Where a phone's bar covers half of no other control, except on the first visit.
   await page.evaluate(() => window.scrollTo(0, 0));
 }
 
 describe("someone without a mouse", () => {
-  it("reaches every control by Tab, and each says what it is", async () => {
+  it("reaches every control by Tab, and each has a name", async () => {
     const page = await openPage();
-    // From the top, not from where the sample was pressed.
+    // From the top, not from where the sample was clicked.
     await page.reload();
     await waitForPlan(page);
     const names = new Set<string>();
@@ -88,7 +91,7 @@ describe("someone without a mouse", () => {
 });
 
 describe("the About sheet", () => {
-  it("is opened from the sheet of keys, and shows the licences of what is built in", async () => {
+  it("is opened from the list of shortcuts, and shows the licences of the bundled parts", async () => {
     const page = await openPage();
     await page.keyboard.press("?");
     await page.getByRole("button", { name: "About plotwright" }).click();
@@ -111,7 +114,7 @@ describe("axe finds nothing serious, light and dark", () => {
   });
 
   it.each([DESK, PHONE])(
-    "with a sample on the paper, every group of settings unfolded, $name",
+    "with a sample on the paper and every group of settings open, $name",
     async (look) => {
       const page = await openPage(look);
       await unfold(page);
@@ -123,7 +126,7 @@ describe("axe finds nothing serious, light and dark", () => {
     },
   );
 
-  it("with a file that can't be read, a queue, a plot under way, and the question before cancelling", async () => {
+  it("with a file that cannot be read, a queue, a running plot, and the question before cancelling", async () => {
     const page = await openPage();
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await queuePanel(page)
@@ -147,11 +150,11 @@ describe("axe finds nothing serious, light and dark", () => {
   });
 });
 
-describe("axe finds nothing serious on a phone, light and dark, and nothing is wider than it", () => {
-  // The passing states show every panel once; the full run adds the others, and dark colours.
+describe("axe finds nothing serious on a phone, light and dark, and nothing overflows its width", () => {
+  // The temporary states show every panel once; the full run adds the others, and dark colours.
   const lasting = IS_FULL ? PAGE_STATES : [];
   const groups = [
-    ["those that leave nothing behind", PAGE_STATES.filter(({ isPassing }) => isPassing)] as const,
+    ["states that leave nothing behind", PAGE_STATES.filter(({ isPassing }) => isPassing)] as const,
     ...lasting.filter(({ isPassing }) => !isPassing).map((state) => [state.name, [state]] as const),
   ];
 

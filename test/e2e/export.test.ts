@@ -1,4 +1,4 @@
-/** Saving what will be plotted: each file, read back, is the plot. */
+/** Saving what will be plotted: each file, read back, equals the plot. */
 import { text as textOf } from "node:stream/consumers";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import {
@@ -20,7 +20,7 @@ const SVG = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.
   width="200mm" height="150mm" viewBox="0 0 200 150" fill="none" stroke="#0000e0">
   <g inkscape:groupmode="layer" inkscape:label="sea" id="sea"><path d="M20 20C60 0 100 60 150 30"/><path d="M20 50H150L20 60"/></g>
   <g inkscape:groupmode="layer" inkscape:label="sun" id="sun" stroke="#e00000"><circle cx="100" cy="100" r="30"/></g></svg>`;
-/** The file as it stands: nothing fitted, joined, cut or put in another order. */
+/** The file unchanged: nothing fitted, joined, clipped or reordered. */
 const AS_IT_IS: PrepareSettings = {
   ...DEFAULT_PREPARE,
   marginMm: 0,
@@ -65,7 +65,7 @@ function expectSameStrokes(back: StrokeSet): void {
 }
 
 describe("saving", () => {
-  it("writes an SVG that draws the same strokes in the same order, its layers' settings in their names", async () => {
+  it("writes an SVG that draws the same strokes in the same order, with the layers' settings in their names", async () => {
     const { name, text } = await saved("Prepared drawing as SVG");
     expect(name).toBe("beach.svg");
     expectSameStrokes(prepare(importSvg(text), AS_IT_IS).strokes);
@@ -118,7 +118,7 @@ describe("saving", () => {
     },
   );
 
-  it("is of the paper as it is set now, not as it was", async () => {
+  it("uses the current paper, not an earlier one", async () => {
     await test.group("Paper");
     await test.page.getByRole("radio", { name: "True size" }).check();
     await test.planned();
@@ -129,7 +129,7 @@ describe("saving", () => {
     for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - now.xy[k])).toBeLessThan(1e-3);
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

@@ -61,7 +61,7 @@ async function drawnShare(): Promise<number> {
   return drawn / (drawn + left);
 }
 
-/** What the page says and shows is as far as the job is. */
+/** The page's text and picture match the job's progress. */
 async function expectPartlyDrawn(state: string): Promise<void> {
   const job = await theJob();
   const share = Math.round(job.progress * 100);
@@ -110,7 +110,7 @@ describe("a plot whose server was killed", () => {
   });
 
   it(
-    "stands there when it is taken up again and held, after a reload too",
+    "is shown at its position at once, on a page that is opened then",
     { timeout: PATIENCE_MS },
     async () => {
       const { id } = await theJob();
@@ -121,4 +121,14 @@ describe("a plot whose server was killed", () => {
       await expectPartlyDrawn("Paused");
     },
   );
+
+  it("is shown there when it is resumed and held, after a reload too", { timeout: PATIENCE_MS }, async () => {
+    const { id } = await theJob();
+    await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await expectPartlyDrawn("Paused");
+    await page.reload();
+    await waitForPlan(page);
+    await expectPartlyDrawn("Paused");
+  });
 });

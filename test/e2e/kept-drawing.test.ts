@@ -1,4 +1,4 @@
-/** A drawing stays on the paper through a reload, with what was set for it; another one begins afresh. */
+/** A drawing and its settings survive a reload; another drawing starts fresh. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { dropFile, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
@@ -11,7 +11,7 @@ const MIXED = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://ww
   <g inkscape:groupmode="layer" inkscape:label="1-black" id="black"><path stroke="#000000" d="M10 10H190"/></g>
   <g inkscape:groupmode="layer" inkscape:label="2-blue" id="blue"><path stroke="#800080" d="M10 140H60"/>
   ${Array.from({ length: 44 }, (_, k) => `<path stroke="#0000e0" d="M10 ${20 + 2 * k}H60"/>`).join("")}</g></svg>`;
-/** Over a megabyte: kept as it was read, not as text. */
+/** Over a megabyte: stored as it was read, not as text. */
 const LARGE = `<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60">
   <!--${"x".repeat(1_200_000)}--><path fill="none" stroke="#000" d="M10 10H80V50"/></svg>`;
 
@@ -28,7 +28,7 @@ const copies = () => plotBar(test.page).getByLabel("Copies", { exact: true });
 
 describe("a layer of two colours", () => {
   it(
-    "is told as such, and has the pen of the colour that most of it has, with a stop before it",
+    "is reported, and gets the pen of its most frequent colour, with a stop before it",
     async () => {
       const { page } = test;
       await test.drop("mixed", MIXED);
@@ -49,12 +49,12 @@ describe("a layer of two colours", () => {
 
 describe("after a reload", () => {
   it(
-    "the drawing lies on the paper again, with the settings of its layers",
+    "the drawing is on the paper again, with the settings of its layers",
     async () => {
       const { page } = test;
       await page.getByRole("checkbox", { name: "Draw 1-black" }).uncheck();
       await test.planned();
-      // Settings are kept a moment after the last change.
+      // Settings are stored shortly after the last change.
       await page.waitForFunction(() =>
         localStorage.getItem("plotwright.page.v1")?.includes('"hiddenLayers":["black"]'),
       );
@@ -73,7 +73,7 @@ describe("after a reload", () => {
   );
 
   it(
-    "a large one does, too",
+    "so is a large one",
     async () => {
       const { page } = test;
       await test.drop("large", LARGE);
@@ -85,7 +85,7 @@ describe("after a reload", () => {
   );
 
   it(
-    "a file that can't be read does not, but the drawing before it",
+    "a file that cannot be read is not, but the drawing before it is",
     async () => {
       const { page } = test;
       await dropFile(page, "torn.svg", MIXED.slice(0, 300));
@@ -100,7 +100,7 @@ describe("after a reload", () => {
 
 describe("another drawing", () => {
   it(
-    "begins with one copy",
+    "starts with one copy",
     async () => {
       await copies().fill("3");
       await copies().press("Enter");
@@ -112,7 +112,7 @@ describe("another drawing", () => {
     LIMIT_MS,
   );
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

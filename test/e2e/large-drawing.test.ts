@@ -1,9 +1,9 @@
-/** A drawing too large to be drawn in one go: what is seen of it, from afar and from near, is all of it in the end. */
+/** A drawing too large to be drawn in one go: the view is complete in the end, both from afar and close up. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { colorCounts, waitForPicture } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
-/** Waves beside each other, in short pieces and closer than the pen is wide: where one is missing, paper shows. */
+/** Waves side by side, in short pieces and closer than the pen is wide: where one is missing, paper shows. */
 const LINES = 800;
 const POINTS = 221;
 const wave = (line: number): string =>
@@ -20,7 +20,7 @@ let middle: { x: number; y: number };
 
 const canvas = () => test.page.getByRole("img", { name: "Preview", exact: true });
 const allDrawn = () => waitForPicture(test.page);
-/** What is asked of the page between is still to be drawn in the end: else there would be nothing to wait for. */
+/** Requests made in between must still be pending at the end: otherwise there would be nothing to wait for. */
 async function outdated(ask: () => Promise<void>): Promise<void> {
   await canvas().evaluate((element) => {
     const busy = new Promise<void>((resolve) => {
@@ -35,7 +35,7 @@ async function outdated(ask: () => Promise<void>): Promise<void> {
   await test.page.evaluate(() => (window as unknown as { busy: Promise<void> }).busy);
 }
 
-/** How many pixels of the preview within `reach` px of the drawing's middle are as bright as paper. */
+/** Number of pixels of the preview within `reach` px of the drawing's middle that are as bright as paper. */
 async function paperPixels(reach: number): Promise<number> {
   const box = (await canvas().boundingBox())!;
   const clip = { x: middle.x - reach, y: middle.y - reach, width: 2 * reach, height: 2 * reach };
@@ -46,22 +46,22 @@ async function paperPixels(reach: number): Promise<number> {
 
 beforeAll(async () => {
   test = await PageTest.open("large-drawing");
-  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.look("Ink");
   await test.drop("waves", SVG);
   const box = (await canvas().boundingBox())!;
   // Between rulers, tools and legend, as stage.ts lays the paper out.
-  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 80) / 2 };
+  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };
 });
 
 afterAll(async () => test.close());
 
 describe("a large drawing", () => {
-  it("is all there once it is drawn", async () => {
+  it("is complete once it is drawn", async () => {
     await allDrawn();
     expect(await paperPixels(80)).toBe(0);
   });
 
-  it("is all there after it has been zoomed and panned", async () => {
+  it("is complete after zooming and panning", async () => {
     const { mouse, keyboard } = test.page;
     await mouse.move(middle.x, middle.y);
     await outdated(async () => {
@@ -70,14 +70,14 @@ describe("a large drawing", () => {
       await keyboard.up("Control");
       await mouse.wheel(0, 60);
     });
-    // Off the paper, so that nothing is told about the stroke under the pointer.
+    // Off the paper, so that no tooltip for a stroke appears.
     await mouse.move(700, 20);
     await allDrawn();
     expect(await paperPixels(200)).toBe(0);
     expect(test.complaints).toEqual([]);
   });
 
-  it("is all there in another size of window, and back at the whole paper", async () => {
+  it("is complete after the window is resized, and back at the whole paper", async () => {
     await test.page.setViewportSize({ width: 1300, height: 800 });
     await test.page.getByRole("button", { name: "Whole paper" }).click();
     await test.page.setViewportSize({ width: 1440, height: 900 });

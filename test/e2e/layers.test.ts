@@ -1,4 +1,4 @@
-/** Layers and pens on the page: what is set there reaches the plan, the job and the board. */
+/** Layers and pens on the page: their settings reach the plan, the job and the board. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { VirtualBoard } from "../../src/index.js";
@@ -8,7 +8,7 @@ import { chooseSample, colorCounts, dropFile, plotBar } from "../support/page-ac
 import { PageTest } from "../support/page-test.js";
 import { ascii } from "../support/virtual-plots.js";
 
-/** One line of 100 mm in each layer, 20 mm apart: a line's y tells its layer. */
+/** One line of 100 mm in each layer, 20 mm apart: a line's y identifies its layer. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
   width="200mm" height="150mm" viewBox="0 0 200 150" fill="none">
   <g inkscape:groupmode="layer" inkscape:label="sea" id="sea"><path stroke="#0000e0" d="M40 20H140"/></g>
@@ -33,20 +33,20 @@ beforeAll(async () => {
 
 afterAll(async () => test.close());
 
-/** Names of the layers from the top down; words for screen readers stand before them on lines of their own. */
+/** Names of the layers from the top down. Words for screen readers are on separate lines before them. */
 const namesOn = async (page: Page): Promise<string[]> =>
   (await page.locator(".layer-list .layer-name").allInnerTexts()).map((name) => name.split("\n").at(-1)!);
 const rowNames = (): Promise<string[]> => namesOn(test.page);
 const planTime = (): Promise<string> => test.page.locator(".plot-time-value").innerText();
 const details = (name: string) => test.page.getByRole("button", { name: `Settings of ${name}` });
 
-/** The layers in the order in which a job's own file and settings draw them. */
+/** The layers in the order in which a job's file and settings draw them. */
 async function drawnOrder(job: Job): Promise<string[]> {
   const { xy, offsets } = await test.strokesOf(job);
   return Array.from({ length: offsets.length - 1 }, (_, i) => LAYER_AT[Math.round(xy[2 * offsets[i] + 1])]);
 }
 
-/** The lines that the board has drawn, by all that the server sent to it, played once more on a board of our own. */
+/** The lines that the board has drawn: everything that the server sent to it, replayed on a board of the test. */
 async function plottedOrder(): Promise<string[]> {
   const { plotters } = (await (await fetch(`${test.server.url}/api/v1/state`)).json()) as {
     plotters: { id: string }[];
@@ -68,13 +68,13 @@ async function plottedOrder(): Promise<string[]> {
 }
 
 describe("layers on the page", () => {
-  it("are listed in the order of drawing, those that a % switches off too", async () => {
+  it("are listed in drawing order, including those that a % switches off", async () => {
     expect(await rowNames()).toEqual(["sea", "sand", "guides", "sun"]);
     expect(await test.page.getByLabel("Draw guides").isChecked()).toBe(false);
     expect(await drawnOrder(await test.queue())).toEqual(["sea", "sand", "sun"]);
   });
 
-  it("are switched on and off, whatever their names say", async () => {
+  it("are switched on and off, whatever their names contain", async () => {
     await test.page.getByLabel("Draw guides").check();
     await test.page.getByLabel("Draw sea").uncheck();
     expect(await drawnOrder(await test.queue())).toEqual(["sand", "guides", "sun"]);
@@ -83,7 +83,7 @@ describe("layers on the page", () => {
     expect(await drawnOrder(await test.queue())).toEqual(["sea", "sand", "sun"]);
   });
 
-  it("are put in order by dragging", async () => {
+  it("are reordered by dragging", async () => {
     const from = (await test.page.getByRole("button", { name: /^Drag sun/ }).boundingBox())!;
     const to = (await test.page.getByRole("button", { name: /^Drag sea/ }).boundingBox())!;
     await test.page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
@@ -95,8 +95,8 @@ describe("layers on the page", () => {
     expect(await drawnOrder(await test.queue())).toEqual(["sun", "sea", "sand"]);
   });
 
-  it("are put in order by keys, and back by undo", async () => {
-    // Not the one that was dragged: one that is moved on soon after is one step of undo.
+  it("are reordered by keys, and restored by undo", async () => {
+    // Not the dragged one: moving it again soon after belongs to the same undo step.
     await test.page.getByRole("button", { name: /^Drag sea/ }).focus();
     await test.page.keyboard.press("ArrowUp");
     await test.planned();
@@ -106,7 +106,7 @@ describe("layers on the page", () => {
     expect(await rowNames()).toEqual(["sun", "sea", "sand", "guides"]);
   });
 
-  it("have speeds and heights of their own, with what their names ask for as a beginning", async () => {
+  it("have their own speeds and heights, initialised from their names", async () => {
     const before = await planTime();
     await details("sand").click();
     const speed = test.page.locator(".layer-details").getByLabel("Speed", { exact: true });
@@ -136,7 +136,7 @@ describe("layers on the page", () => {
 });
 
 describe("pens on the page", () => {
-  it("are made of the drawing's colours with one press, and stop the plot between them", async () => {
+  it("are made of the drawing's colours with one click, and stop the plot between them", async () => {
     await test.page.getByRole("button", { name: "A pen for each colour" }).click();
     await test.planned();
     expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual([
@@ -156,7 +156,7 @@ describe("pens on the page", () => {
   it("show the drawing in their own colours and widths", async () => {
     await test.page.getByRole("button", { name: "Settings of the pen Red" }).click();
     await test.field("Line width").fill("4");
-    await test.page.getByLabel("Colour by").selectOption("pen");
+    await test.look("Pen");
     await test.page.getByLabel("Colour: Red").fill("#00c000");
     await test.drawn();
     const counts = await colorCounts(test.page.getByRole("img", { name: "Preview", exact: true }));
@@ -166,12 +166,12 @@ describe("pens on the page", () => {
         return own > Math.max(...others) + 60 ? sum + count : sum;
       }, 0);
     const [blue, green] = [ofChannel(0), ofChannel(8)];
-    // As long as each other, the one 4 mm wide and the other 0.4.
+    // Equally long, one 4 mm wide and the other 0.4.
     expect(blue).toBeGreaterThan(100);
     expect(green).toBeGreaterThan(4 * blue);
   });
 
-  it("that sit askew are put right in the job, while the page shows what lands on paper", async () => {
+  it("that are offset are corrected in the job, while the page shows what lands on paper", async () => {
     await test.field("Draws too far right by").fill("1.5");
     await test.field("Draws too far down by").fill("-0.5");
     const { xy } = await test.strokesOf(await test.queue());
@@ -179,7 +179,7 @@ describe("pens on the page", () => {
     await test.page.getByRole("button", { name: "Settings of the pen Red" }).click();
   });
 
-  it("are given to layers one by one, with a stop by hand where one is wanted", async () => {
+  it("are assigned to layers one by one, with a stop by hand where set", async () => {
     await test.page.getByLabel("Pen for sand").selectOption({ label: "Blue" });
     await test.planned();
     expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual(["Stop: put in Blue"]);
@@ -194,7 +194,7 @@ describe("pens on the page", () => {
     await details("sand").click();
   });
 
-  it("come back with a preset, order and all", async () => {
+  it("are restored by a preset, including their order", async () => {
     const kept = (await test.queue()).settings;
     await test.group("Presets");
     await test.field("Name of this preset").fill("Beach");
@@ -208,7 +208,7 @@ describe("pens on the page", () => {
     await test.group("Presets", false);
   });
 
-  it("draw a mark for alignment, each as a job of its own", async () => {
+  it("draw an alignment mark, each as its own job", async () => {
     await test.page.getByRole("button", { name: "Settings of the pen Red" }).click();
     await test.page.getByLabel("Corner of the mark").selectOption({ label: "Bottom right" });
     await test.page.getByRole("button", { name: "Plot alignment mark with this pen" }).click();
@@ -221,7 +221,7 @@ describe("pens on the page", () => {
     await test.page.getByRole("button", { name: "Settings of the pen Red" }).click();
   });
 
-  it("are waited for while plotting, and the board draws the layers in the wanted order", async () => {
+  it("are waited for while plotting, and the board draws the layers in the chosen order", async () => {
     await plotBar(test.page).getByRole("button", { name: "Plot", exact: true }).click();
     const held = await waitForJob((job) => job.wait !== null);
     expect([held.state, held.wait]).toMatchObject(["paused", { penName: "Blue" }]);
@@ -231,12 +231,12 @@ describe("pens on the page", () => {
     expect((await plottedOrder()).slice(-3)).toEqual(["sun", "sea", "sand"]);
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });
 
-/** Throws, with what the jobs are, when none comes to be what is waited for. */
+/** Throws, listing the jobs, if none reaches the expected state. */
 async function waitForJob(isIt: (job: Job) => boolean): Promise<Job> {
   for (let tries = 0; tries < 600; tries++) {
     const found = (await test.jobs()).find(isIt);
@@ -248,7 +248,7 @@ async function waitForJob(isIt: (job: Job) => boolean): Promise<Job> {
 }
 
 describe("layers on a phone", () => {
-  it("are put in order by finger, and nothing is too small for one", async () => {
+  it("are reordered by finger, and nothing is too small for one", async () => {
     const context = await test.browser.newContext({
       viewport: { width: 390, height: 844 },
       hasTouch: true,

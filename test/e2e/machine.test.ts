@@ -47,7 +47,7 @@ async function plotter(): Promise<Plotter> {
   return snapshotSchema.parse(state).plotters[0];
 }
 
-/** Presses, and waits until the server has answered with the plotter where it then stands. */
+/** Clicks, and waits until the server has answered with the plotter's new position. */
 async function move(
   press: () => Promise<void>,
   route = "",
@@ -79,7 +79,7 @@ describe("moving by hand", () => {
     close(await move(() => page.keyboard.press("ArrowRight")), 20, 11);
   });
 
-  it("walks to a place, and calls it home", async () => {
+  it("moves to a position, and makes it home", async () => {
     await page.getByLabel("From home, right").fill("50");
     await page.getByLabel("From home, down").fill("30");
     close(await move(() => button("Walk there").click()), 50, 30);
@@ -95,13 +95,13 @@ describe("moving by hand", () => {
     }
   });
 
-  it("nudges the pen to a height that the settings keep", async () => {
+  it("moves the pen to a height that the settings store", async () => {
     await move(() => button("Height down: a little higher").click());
     expect((await plotter()).penUp).toBe(false);
     await move(() => button("Pen up", machinePanel()).click());
   });
 
-  it("is held off while a job has the plotter", async () => {
+  it("is disabled while a job uses the plotter", async () => {
     await dropFile(page, "lines.svg", ruledSheet());
     await page.getByText("lines").first().waitFor();
     await waitForPlan(page);
@@ -136,7 +136,7 @@ describe("setting a plotter up", () => {
   const wizard = (): Locator => page.getByRole("dialog", { name: "Set up a plotter" });
   const press = (name: string): Promise<void> => button(name, wizard()).click();
 
-  it("makes a profile of which way it went, what a square measured, and how far the pen goes", async () => {
+  it("makes a profile from the direction it moved, the measured square, and the pen's range", async () => {
     await button("Set up a plotter…", machinePanel()).click();
     await wizard().getByLabel("Most like").selectOption("axidraw-v3");
     await press("Next");
@@ -164,7 +164,8 @@ describe("setting a plotter up", () => {
     const { machines } = machineListSchema.parse(await (await fetch(`${server.url}/api/v1/machines`)).json());
     const made = machines.filter(({ builtIn }) => !builtIn);
     expect(made).toHaveLength(1);
-    // Told to go right it went away, told to come nearer it went left: the axes are swapped, and both run backwards.
+    // Asked to go right it went away, asked to come nearer it went left: the axes are swapped and both are
+    // reversed.
     expect(made[0]).toMatchObject({
       id: "old-friend",
       name: "Old Friend",
@@ -198,7 +199,7 @@ describe("setting a plotter up", () => {
 });
 
 describe("machines as files", () => {
-  it("are read, edited and kept", async () => {
+  it("are read, edited and stored", async () => {
     await button("Machines…", machinePanel()).click();
     const sheet = page.getByRole("dialog", { name: "Machines" });
     const profile = {

@@ -1,17 +1,23 @@
-/** The drawing on the paper: by hand, by numbers, by keys. What counts is where the queued job would draw. */
+/**
+ * Placing the drawing on the paper: by hand, by numbers, by keys. The check is where the queued job would
+ * draw.
+ */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { PageTest } from "../support/page-test.js";
 
-/** 60 × 40 mm: a cross from corner to corner, which no frame hides, and a dash at the left that tells a mirrored one. */
+/**
+ * 60 × 40 mm: a cross from corner to corner, which no frame hides, and a dash at the left that shows
+ * mirroring.
+ */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
-  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#e00000"/></svg>`;
+  <path d="M0 0L60 40M60 0L0 40M6 20H16" fill="none" stroke="#000"/></svg>`;
 
 let test: PageTest;
 
 beforeAll(async () => {
   test = await PageTest.open("placing");
   await test.drop("flag", SVG);
-  await test.page.getByLabel("Colour by").selectOption("ink");
+  await test.look("Ink");
   await test.group("Paper");
 });
 
@@ -24,9 +30,9 @@ interface Box {
   readonly bottom: number;
 }
 
-/** The box on the screen, CSS px of the page, of the canvas' pixels that are that bright: "paper" or "ink". */
+/** The bounding box, in CSS px of the page, of the canvas pixels of that brightness: "paper" or "ink". */
 async function onScreen(what: "paper" | "ink"): Promise<Box> {
-  // Off the paper, so that nothing is told about the stroke under the pointer.
+  // Off the paper, so that no tooltip for a stroke appears.
   await test.page.mouse.move(700, 20);
   await test.drawn();
   const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
@@ -49,7 +55,7 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
         const x = (i / 4) % width;
         const y = Math.floor(i / 4 / width);
         // Rulers stand at two edges, tools and legend at a third.
-        if (x < 26 || y < 26 || y > bitmap.height - 100) continue;
+        if (x < 26 || y < 26 || y > bitmap.height - 112) continue;
         const isIt = isPaper
           ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
           : Math.max(data[i], data[i + 1], data[i + 2]) < 90;
@@ -71,11 +77,11 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
   };
 }
 
-/** CSS px a mm, by the paper's own width. */
+/** CSS px per mm, from the paper's width. */
 let scale = 0;
 let corner: [number, number] = [0, 0];
 
-/** A place of the paper on the screen. */
+/** A point of the paper, in screen coordinates. */
 const at = (xMm: number, yMm: number): [number, number] => [corner[0] + xMm * scale, corner[1] + yMm * scale];
 
 async function drag(from: [number, number], to: [number, number], isFree = false): Promise<void> {
@@ -101,7 +107,7 @@ async function placeAt(x: number, y: number, width: number, angle = 0): Promise<
   await type("From the top", y);
   await type("Width", width);
   await type("Rotate", angle);
-  // Anew each time: what is told above the paper makes it smaller.
+  // Computed each time, because messages above the paper make it smaller.
   const { left, top, right } = await onScreen("paper");
   scale = (right - left) / 297;
   corner = [left, top];
@@ -111,7 +117,7 @@ const rounded = (values: object): number[] =>
   Object.values(values).map((mm: number) => Math.round(mm * 100) / 100);
 
 describe("placing the drawing", () => {
-  it("puts handles round it at the press of a button, without moving it", async () => {
+  it("puts handles round it at the click of a button, without moving it", async () => {
     const before = await test.queuedBox();
     await test.page.getByRole("button", { name: "Place the drawing by hand" }).click();
     await test.field("From the left").waitFor();
@@ -119,7 +125,7 @@ describe("placing the drawing", () => {
     for (const [k, mm] of Object.values(after).entries()) expect(mm).toBeCloseTo(Object.values(before)[k], 1);
   });
 
-  it("goes where the numbers say, at the size they say", async () => {
+  it("moves to the entered position and size", async () => {
     await placeAt(50, 60, 90);
     expect(rounded(await test.queuedBox())).toEqual([50, 60, 140, 120]);
     await type("Height", 30);
@@ -153,12 +159,12 @@ describe("placing the drawing", () => {
     await placeAt(50, 60, 90);
     const [x, y] = at(95, 60);
     await drag([x, y - 30], at(150, 91));
-    // 90 × 60 about (95, 90), a quarter turned.
+    // 90 × 60 about (95, 90), turned by 90°.
     expect(rounded(await test.queuedBox())).toEqual([65, 45, 125, 135]);
     expect(await test.field("Rotate").inputValue()).toBe("90");
   });
 
-  it("is drawn to a margin, to the hundredth", async () => {
+  it("is scaled to a margin, to the hundredth", async () => {
     await placeAt(18, 60, 90);
     await drag(at(70, 80), at(68, 95));
     expect(rounded(await test.queuedBox())[0]).toBe(15);
@@ -173,7 +179,7 @@ describe("placing the drawing", () => {
     expect(rounded(await test.queuedBox())).toEqual([52, 69, 142, 129]);
   });
 
-  it("fills four margins of one's own, stands in the middle, and is mirrored", async () => {
+  it("fills four custom margins, is centred, and is mirrored", async () => {
     await test.page.getByText("Each margin by itself").click();
     await type("Left", 40);
     await type("Top", 20);
@@ -194,20 +200,20 @@ describe("placing the drawing", () => {
       number,
     ];
     expect([middle, level].map((mm) => Math.round(mm))).toEqual([161, 105]);
-    // The dash, alone at the height of the middle, was at the left.
+    // The dash, alone at mid-height, was at the left.
     const dash = xs.filter((x, k) => Math.abs(ys[k] - level) < 0.01 && Math.abs(x - middle) > 1);
     expect(dash.length).toBe(2);
     for (const x of dash) expect(x).toBeGreaterThan(middle);
   });
 
-  it("comes back to the place before with undo", async () => {
+  it("returns to the previous position with undo", async () => {
     const before = await test.queuedBox();
     await type("From the left", 77);
     await test.page.getByRole("button", { name: "Undo" }).click();
     expect(rounded(await test.queuedBox())).toEqual(rounded(before));
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

@@ -1,4 +1,7 @@
-/** The strokes' pixels, in Chromium: in one part and in many, near and far, by the card's language and by our own code. */
+/**
+ * The strokes' pixels in Chromium: in one part and in many, near and far, by the graphics card and by our own
+ * code.
+ */
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { build } from "vite";
@@ -11,7 +14,7 @@ import { launchBrowser } from "../support/browser.js";
 import type * as PageCode from "../support/renderers-page.js";
 import type { RendererName, SentScene } from "../support/renderers-page.js";
 
-/** Crossing waves of two layers: every pixel of their middle is drawn over many times. */
+/** Crossing waves of two layers: every pixel of their middle is drawn many times. */
 const waves = (): StrokeSet => {
   const strokes = Array.from({ length: 24 }, (_, s) =>
     Array.from({ length: 160 }, (_, i) => {
@@ -48,13 +51,11 @@ const WHOLE: Frame = {
 };
 const FRAMES: readonly (readonly [string, Frame])[] = [
   ["coloured by speed", WHOLE],
-  [
-    "half drawn, with the moves of the pen that is up",
-    { ...WHOLE, colorBy: "order", showTravel: true, untilS: totalS / 2 },
-  ],
+  ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "order", showTravel: true, untilS: totalS / 2 }],
   ["in pens of different widths", { ...WHOLE, colorBy: "pen", layerWidthsMm: [0.3, 1.2] }],
+  ["in lines thin enough for a dense drawing", { ...WHOLE, lineMm: 0.1, lineGapMm: 0.3 }],
   [
-    "from near, on a fine screen",
+    "close up, on a fine screen",
     {
       ...WHOLE,
       ratio: 2,
@@ -109,7 +110,7 @@ describe.each(["gl", "soft"] as const)("the picture by the %s renderer", (name) 
 });
 
 describe("without a graphics card", () => {
-  it.each(FRAMES)("a picture %s is the card's", async (_what, frame) => {
+  it.each(FRAMES)("a picture %s equals the card's", async (_what, frame) => {
     const [gl, soft] = [await pixelsOf("gl", frame, 1e9), await pixelsOf("soft", frame, 1e9)];
     expect(soft).toHaveLength(gl.length);
     const apart = Array.from(gl, (value, i) => Math.abs(value - soft[i]));
@@ -117,7 +118,7 @@ describe("without a graphics card", () => {
     expect(apart.filter((d) => d > 24).length / apart.length).toBeLessThan(0.002);
   });
 
-  it("what lies outside a view leaves the view as it is in a wider one", async () => {
+  it("content outside a view does not change the view", async () => {
     const near: Frame = {
       ...WHOLE,
       width: 120,

@@ -1,4 +1,4 @@
-/** What of a file is not drawn: said on the page, and shown on the paper where it is. */
+/** What of a file is not drawn: listed on the page, and marked on the paper. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import {
@@ -39,7 +39,7 @@ async function markedPixels(page: Page): Promise<number> {
 }
 
 describe("the report", () => {
-  it("names what is not drawn, and what can be done about it", async () => {
+  it("names what is not drawn, and what the user can do about it", async () => {
     await test.page.locator(".report li").first().waitFor();
     const notes = await test.page.locator(".report li").allInnerTexts();
     expect(notes.join("\n")).toMatch(/1 picture is not drawn[^\n]*Trace/);
@@ -47,7 +47,7 @@ describe("the report", () => {
     for (const note of notes) expect(note).toMatch(/\.\s/);
   });
 
-  it("shows on the paper where it is, and takes it away with the next press", async () => {
+  it("shows its place on the paper, and hides it with the next click", async () => {
     const before = await markedPixels(test.page);
     const show = test.page
       .locator(".report li", { hasText: "picture" })
@@ -55,18 +55,18 @@ describe("the report", () => {
     await show.click();
     expect(await show.getAttribute("aria-pressed")).toBe("true");
     const marked = (await markedPixels(test.page)) - before;
-    // 60 × 60 mm of a paper that is shown at 2 px a mm and more.
+    // 60 × 60 mm of a paper shown at 2 px per mm or more.
     expect(marked).toBeGreaterThan(10_000);
     await show.click();
     expect(Math.abs((await markedPixels(test.page)) - before)).toBeLessThan(50);
   });
 
-  it("is gone with a drawing that is drawn whole", async () => {
+  it("is absent for a drawing that is drawn completely", async () => {
     await test.drop("ring", SVG.replace(/<(image|rect|linearGradient)[\s\S]*?(?=<\/svg>)/, ""));
     expect(await test.page.locator(".report").count()).toBe(0);
   });
 
-  it("works with a finger on a phone, with the paper in sight", async () => {
+  it("works with a finger on a phone, with the paper in view", async () => {
     const context = await test.browser.newContext({
       viewport: { width: 390, height: 844 },
       hasTouch: true,
@@ -88,7 +88,7 @@ describe("the report", () => {
     await context.close();
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

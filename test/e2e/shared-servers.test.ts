@@ -1,4 +1,7 @@
-/** The queue that servers share, on the page: a job that waits for a model, and a plotter whose model nobody has named. */
+/**
+ * The queue that servers share, on the page: a job that waits for a model, and a plotter without a known
+ * model.
+ */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { SharedDatabase } from "../server/support/shared-servers.js";
 import { PageTest } from "../support/page-test.js";
@@ -15,19 +18,19 @@ afterAll(async () => {
   await database.close();
 });
 
-describe("a drawing put in the servers' queue for any plotter of a model", () => {
-  it("waits, with the plotter that is left out beside it, and goes there with one press", async () => {
+describe("a drawing put in the shared queue for any plotter of a model", () => {
+  it("waits, shows the plotter that is left out, and is moved there with one click", async () => {
     const { page } = test;
     await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
     await page.getByRole("radio", { name: "Servers" }).check();
     await page.getByRole("button", { name: /^Put .* there$/ }).click();
     const row = page.getByRole("listitem").filter({ hasText: "for any AxiDraw V3" });
-    await row.getByText(/is left out: nobody has said what model it is/).waitFor();
+    await row.getByText(/is left out: its model is not set/).waitFor();
     expect(await test.jobs()).toEqual([]);
     await row.getByRole("button", { name: /^Its model: AxiDraw V3/ }).click();
     await row.getByText("taken", { exact: false }).waitFor();
     await row.getByText(/is left out/).waitFor({ state: "detached" });
-    // It is taken first, then planned, then in the queue.
+    // It is claimed first, then planned, then in the queue.
     await expect
       .poll(async () => (await test.jobs()).map(({ state }) => state), { timeout: 30_000 })
       .toEqual(["queued"]);

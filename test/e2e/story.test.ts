@@ -1,4 +1,7 @@
-/** The main job, end to end: open the page, drop a drawing, see it, plot it, find it again after a restart. */
+/**
+ * The main use, end to end: open the page, drop a drawing, preview it, plot it, find it again after a
+ * restart.
+ */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
@@ -50,7 +53,7 @@ afterAll(async () => {
   data.remove();
 });
 
-/** The colours in the preview that only a drawing's lines can have, and how many pixels of each. */
+/** Preview colours that only a drawing's lines can have, and the number of pixels of each. */
 async function inked(target: Page): Promise<[color: number, count: number][]> {
   const counts = await colorCounts(target.getByRole("img", { name: "Preview" }));
   return [...counts].filter(([color]) => saturation(rgbFromNumber(color)) > 60);
@@ -59,7 +62,7 @@ async function inked(target: Page): Promise<[color: number, count: number][]> {
 const pixelCount = (colors: readonly [number, number][]): number =>
   colors.reduce((sum, [, count]) => sum + count, 0);
 
-/** From now on the page notes what its progress bar says, each time that it says something else. */
+/** From now on the page records each change of its progress bar. */
 async function noteShares(): Promise<void> {
   await page.evaluate(() => {
     const shares: number[] = [];
@@ -74,7 +77,7 @@ async function noteShares(): Promise<void> {
 }
 
 describe("a newcomer with a drawing", () => {
-  it("finds an empty sheet with nothing to plot, and is told that no plotter is plugged in", async () => {
+  it("finds an empty sheet with nothing to plot, and a note that no plotter is plugged in", async () => {
     await page.getByText("Drop a drawing here").waitFor();
     await page
       .getByText(/Virtual board/)
@@ -86,7 +89,7 @@ describe("a newcomer with a drawing", () => {
     }
   });
 
-  it("lays a sample on it with one click, ready to plot", async () => {
+  it("puts a sample on it with one click, ready to plot", async () => {
     await chooseSample(page);
     await plotBar(page)
       .getByRole("button", { name: "Plot", exact: true })
@@ -95,7 +98,7 @@ describe("a newcomer with a drawing", () => {
     expect(pixelCount(await inked(page))).toBeGreaterThan(2_000);
   });
 
-  it("drops a file and sees how long it takes, how far, and how many pen lifts", async () => {
+  it("drops a file and sees its time, distance and number of pen lifts", async () => {
     await dropFile(page, SAMPLE, readFileSync(path.join(ROOT, "samples", SAMPLE), "utf8"));
     await page.getByText(SAMPLE.replace(".svg", "")).first().waitFor();
     await waitForPlan(page);
@@ -117,11 +120,11 @@ describe("a newcomer with a drawing", () => {
       ([color]) => distanceToMix(rgbFromNumber(color), [255, 255, 255], inks) > 24,
     );
     expect(pixelCount(strangers) / pixelCount(drawn)).toBeLessThan(0.02);
-    // The comparison can fail: a green is no colour of the legend.
+    // The comparison can fail: a green is not a colour of the legend.
     expect(distanceToMix(rgbFromHex("#2ecc40"), [255, 255, 255], inks)).toBeGreaterThan(24);
   });
 
-  it("adds it to the queue, starts it, and watches it come to 100 %", async () => {
+  it("adds it to the queue, starts it, and watches it reach 100 %", async () => {
     await noteShares();
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await queuePanel(page)
@@ -138,7 +141,7 @@ describe("a newcomer with a drawing", () => {
     expect(jobs.map(({ state, progress: share }) => [state, share])).toEqual([["done", 1]]);
   });
 
-  it("finds it in the history after the server was started anew", async () => {
+  it("finds it in the history after a restart of the server", async () => {
     await page.goto("about:blank");
     await server.stop();
     server = await startServerProcess({ dataDir: data.path });
@@ -156,7 +159,7 @@ describe("a newcomer with a drawing", () => {
     await phone.context().close();
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(complaints).toEqual([]);
   });
 });

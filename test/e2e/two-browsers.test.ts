@@ -1,4 +1,7 @@
-/** Several browsers on one server at once: the same picture, one operator, watchers, and one that loses its network. */
+/**
+ * Several browsers on one server at once: the same view, one operator, watchers, and one that loses its
+ * network.
+ */
 import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { launchBrowser } from "../support/browser.js";
@@ -16,7 +19,7 @@ import {
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("two-browsers");
-/** Small, so that three pages that draw it in software leave time for what is measured. */
+/** Small, so that three pages drawing it in software leave time for the measurement. */
 const VIEWPORT = { width: 900, height: 600 };
 let browser: Browser;
 let server: ServerProcess;
@@ -59,7 +62,7 @@ const pages = (): readonly Page[] => [anna, ben, watcher];
 const plotButton = (page: Page): Locator =>
   plotBar(page).getByRole("button", { name: "Add to queue", exact: true });
 
-/** From now on each page notes when its queue first said what. */
+/** From now on each page records when its queue first showed each text. */
 async function noteQueue(page: Page): Promise<void> {
   await page.evaluate(() => {
     const seen = new Map<string, number>();
@@ -94,7 +97,7 @@ describe("two browsers and a watcher", () => {
       await page.waitForFunction(
         () => Number(document.querySelector("[role=progressbar]")?.getAttribute("aria-valuenow")) >= 12,
         undefined,
-        // An eighth of a minute and a half, longer where the computer is busy.
+        // An eighth of 90 s, or longer on a busy computer.
         { timeout: 90_000 },
       );
     }
@@ -109,7 +112,8 @@ describe("two browsers and a watcher", () => {
       console.log(
         `${shared.length} changes seen by both: apart by ${medianMs.toFixed(0)} ms (median), ${apartMs.at(-1)!.toFixed(0)} ms (most)`,
       );
-      // Far above the printed figure of an idle computer: three pages drawn in software take turns on a busy one.
+      // Far above the usual figure of an idle computer: three pages drawn in software take turns on a busy
+      // one.
       expect(medianMs).toBeLessThan(1000);
     }
   });
@@ -166,7 +170,7 @@ describe("two browsers and a watcher", () => {
     await plotButton(ben).and(ben.locator(":enabled")).waitFor();
   });
 
-  it("one that was offline comes back to what has become of the plot", async () => {
+  it("one that was offline catches up with the plot", async () => {
     await anna.context().setOffline(true);
     await anna.getByText("server can’t be reached").first().waitFor();
     await queuePanel(anna)

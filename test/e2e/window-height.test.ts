@@ -1,4 +1,4 @@
-/** On a desk's screen the page is as high as the window and stays where it is; its columns scroll by themselves. */
+/** On a desktop screen the page is as high as the window and does not scroll; its columns scroll separately. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { nextFrames, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
@@ -8,7 +8,7 @@ const SIZES = [
   { width: 1920, height: 1080 },
   { width: 1024, height: 768 },
 ];
-/** The left column's groups, folded ones too. */
+/** The left column's groups, including collapsed ones. */
 const GROUPS = ".column-setup .group-head";
 
 let test: PageTest;
@@ -19,7 +19,7 @@ beforeAll(async () => {
 
 afterAll(async () => test.close());
 
-/** How high the document is, and how far it is scrolled, px. */
+/** Height of the document and its scroll position, px. */
 const documentPx = (): Promise<{ height: number; scrolled: number }> =>
   test.page.evaluate(() => ({
     height: document.documentElement.scrollHeight,
@@ -27,14 +27,14 @@ const documentPx = (): Promise<{ height: number; scrolled: number }> =>
   }));
 
 describe.each(SIZES)("a window of $width × $height", (size) => {
-  it("holds the whole page, with all groups of settings open, also after wheeling past a column's end", async () => {
+  it("holds the whole page with all groups of settings open, also after scrolling past a column's end", async () => {
     const { page } = test;
     await page.setViewportSize(size);
     expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
     const folded = page.locator(`${GROUPS}[aria-expanded=false]`);
     while ((await folded.count()) > 0) await folded.first().click();
     expect(await page.locator(GROUPS).count()).toBeGreaterThan(8);
-    // The parts that are fetched when they are first shown.
+    // The parts that are loaded when they are first shown.
     await page.getByRole("button", { name: "Prepared drawing as SVG" }).waitFor();
     for (const column of [".column-setup", ".column-run"]) {
       const box = (await page.locator(column).boundingBox())!;

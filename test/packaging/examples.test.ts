@@ -1,6 +1,6 @@
 /**
- * Every TypeScript example of the documents is type-checked and run against the built package.
- * `// → text` at the end of a line says what that line prints.
+ * Every TypeScript example of the documents is type-checked and run against the built package. `// → text` at
+ * the end of a line is its expected output.
  */
 import { spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -63,15 +63,15 @@ const runNode = (script: string, ...args: string[]) =>
   });
 
 describe("the examples of the documents", () => {
-  it("are there", () => {
+  it("exist", () => {
     expect(examples.length).toBeGreaterThan(0);
   });
 
-  it("have right types", () => {
+  it("have correct types", () => {
     expect(runNode("typescript/bin/tsc", "-p", ".").stdout).toBe("");
   });
 
-  it.each(examples)("$name runs and prints what it says", ({ file, code }) => {
+  it.each(examples)("$name runs and prints the expected output", ({ file, code }) => {
     const { status, stdout, stderr } = runNode("tsx/dist/cli.mjs", file);
     expect(stderr).toBe("");
     expect(status).toBe(0);

@@ -47,7 +47,7 @@ afterAll(() => rmSync(folder, { recursive: true, force: true }));
 describe("the installed package", () => {
   const installed = path.join(app, "node_modules", "plotwright");
 
-  it("holds the built product and nothing else", () => {
+  it("has the built product and nothing else", () => {
     expect(readdirSync(installed).sort()).toEqual(
       [
         ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md"],
@@ -77,7 +77,7 @@ describe("the installed package", () => {
     }
   });
 
-  it("has every file that a link of its README leads to", () => {
+  it("has every file that its README links to", () => {
     const readme = readFileSync(path.join(installed, "README.md"), "utf8");
     const links = [...readme.matchAll(/\]\(([^)#]+)[^)]*\)/g)].map((match) => match[1] ?? "");
     const own = links.filter((link) => !/^https?:/.test(link));
@@ -85,7 +85,7 @@ describe("the installed package", () => {
     expect(own.filter((link) => !existsSync(path.join(installed, link)))).toEqual([]);
   });
 
-  it("tells its version by npx plotwright --version", () => {
+  it("prints its version by npx plotwright --version", () => {
     const { version } = JSON.parse(readFileSync(path.join(ROOT, "package.json"), "utf8")) as {
       version: string;
     };
@@ -104,7 +104,7 @@ describe("the installed package", () => {
     expect(report.durationS).toBeGreaterThan(10);
   });
 
-  it("says about the virtual board what npx plotwright info asks", () => {
+  it("answers npx plotwright info about the virtual board", () => {
     expect(succeed("npx", ["--no-install", "plotwright", "info", "--device", "virtual"], app)).toMatch(
       /EBB|firmware/i,
     );

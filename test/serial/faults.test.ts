@@ -1,4 +1,4 @@
-/** What can happen to a board in mid-plot, over a real pseudo-terminal: each fault ends in a named state within 3 s. */
+/** Faults of a board during a plot, over a real pseudo-terminal: each ends in a defined state within 3 s. */
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
@@ -16,7 +16,7 @@ const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
 const WITHIN_S = 3;
 const clock = wakefulClock({ countsWork: true });
 
-/** What is opened is closed when its own test ends: other tests run beside it. */
+/** Everything opened here is closed when its own test ends, because other tests run beside it. */
 function closeAfter<T extends { close(): Promise<void> }>({ onTestFinished }: TestContext, thing: T): T {
   onTestFinished(() => thing.close());
   return thing;
@@ -27,11 +27,11 @@ interface Plot {
   readonly driver: PlotterDriver;
   readonly run: LivePlotRun;
   readonly journal: JournalEntry[];
-  /** How `finished` ended, and seconds in which this process was run until then. */
+  /** How `finished` ended, and the seconds for which this process ran until then. */
   ended(): Promise<{ outcome: string; afterS: number }>;
 }
 
-/** A plot at real speed whose pen is just drawing. */
+/** A plot at real speed that is drawing a line. */
 async function drawing(test: TestContext, firmware = "2.8.1"): Promise<Plot> {
   const board = closeAfter(test, await PtyBoard.open({ firmware }));
   const driver = closeAfter(test, new PlotterDriver({ device: board.path }));
@@ -59,8 +59,8 @@ const state = (driver: PlotterDriver, is: (state: PlotterState) => boolean): Pro
   });
 
 // They mostly wait for the board, so some run side by side.
-describe.concurrent("in the middle of a plot", () => {
-  it("an unplugged board ends it as disconnected, with the place in the journal", async (test) => {
+describe.concurrent("in mid-plot", () => {
+  it("an unplugged board ends the plot as disconnected, with the position in the journal", async (test) => {
     const { board, driver, journal, ended } = await drawing(test);
     board.tell({ type: "unplug" });
     const { outcome, afterS } = await ended();
@@ -70,7 +70,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
-  it("a board whose power fails for a moment ends it as disconnected, with the place in the journal", async (test) => {
+  it("a board whose power fails briefly ends the plot as disconnected, with the position in the journal", async (test) => {
     const { board, driver, journal, ended } = await drawing(test);
     board.tell({ type: "reset" });
     const { outcome, afterS } = await ended();
@@ -81,7 +81,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
-  it("a board that falls silent ends it as timed out, and is used again when it answers", async (test) => {
+  it("a silent board ends the plot with a time-out, and is used again when it answers", async (test) => {
     const { board, driver, ended } = await drawing(test);
     board.tell({ type: "mute", mute: true });
     const { outcome, afterS } = await ended();
@@ -90,12 +90,12 @@ describe.concurrent("in the middle of a plot", () => {
     expect(driver.state.connection).toBe("fault");
     board.tell({ type: "mute", mute: false });
     const idle = await state(driver, ({ connection }) => connection === "idle");
-    // It never lost its counters: the plot can go on from its place.
+    // It never lost its counters: the plot can resume from its position.
     expect(idle.xMm).not.toBeNull();
   });
 
   it.for(["2.8.1", "3.0.3"])(
-    "a board of firmware %s whose motion never ends is a fault that says so",
+    "a board of firmware %s whose motion never ends is a fault with its own message",
     async (firmware, test) => {
       const { board, driver, journal, ended } = await drawing(test, firmware);
       board.tell({ type: "frozen", frozen: true });
@@ -110,7 +110,7 @@ describe.concurrent("in the middle of a plot", () => {
     },
   );
 
-  it("a board that stands blocked is cancelled at once all the same", async (test) => {
+  it("a blocked board can still be cancelled at once", async (test) => {
     const { board, driver, run, ended } = await drawing(test);
     board.tell({ type: "frozen", frozen: true });
     void run.cancel().catch(() => undefined);
@@ -119,7 +119,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect(driver.state.connection).not.toBe("busy");
   });
 
-  it("a board that another program puts into its other syntax goes on, or is a fault that says so", async (test) => {
+  it("a board that another program switched to its other syntax continues, or is a fault with its own message", async (test) => {
     const { board, run, ended } = await drawing(test, "3.0.3");
     board.tell({ type: "send", line: "CU,10,1\r" });
     await run.change({ speedPct: 200 });
@@ -127,7 +127,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("a supply too low for the motors, as that of USB alone, ends it and is named", async (test) => {
+  it("a supply too low for the motors, as from USB alone, ends the plot and is named", async (test) => {
     const { board, driver, ended } = await drawing(test);
     board.tell({ type: "volts", volts: 5 });
     const { outcome, afterS } = await ended();
@@ -137,7 +137,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect(await state(driver, ({ connection }) => connection === "idle")).toMatchObject({ xMm: null });
   });
 
-  it("motors without power end it as a board error that names the supply", async (test) => {
+  it("motors without power end the plot with a board error that names the supply", async (test) => {
     const { board, driver, ended } = await drawing(test);
     board.tell({ type: "volts", volts: 0 });
     const { outcome, afterS } = await ended();
@@ -146,7 +146,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
   });
 
-  it("the board's button holds it", async (test) => {
+  it("the board's button holds the plot", async (test) => {
     const { board, run } = await drawing(test, "3.0.3");
     const held = new Promise<boolean>((resolve) => run.onHeld(resolve));
     const from = clock.nowS();
@@ -159,10 +159,10 @@ describe.concurrent("in the middle of a plot", () => {
   });
 
   it.for([
-    ["garbage on the line", { type: "garbage", bytes: [0xff, 0x21, 13, 0x80, 0x41, 13, 10] }],
-    ["lost answers", { type: "lose", count: 2 }],
-    ["a slow line", { type: "slow", bytesPerS: 4_000 }],
-  ] as const)("%s does not disturb it: the motors end where they should", async ([, fault], test) => {
+    ["garbage on the connection", { type: "garbage", bytes: [0xff, 0x21, 13, 0x80, 0x41, 13, 10] }],
+    ["lost replies", { type: "lose", count: 2 }],
+    ["a slow connection", { type: "slow", bytesPerS: 4_000 }],
+  ] as const)("%s does not disturb the plot: the motors end where they should", async ([, fault], test) => {
     const { board, run, ended } = await drawing(test);
     board.tell(fault);
     await run.change({ speedPct: 200 });
@@ -170,7 +170,7 @@ describe.concurrent("in the middle of a plot", () => {
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("a board moved by another program is noticed by its counters", async (test) => {
+  it("a board moved by another program is detected by its counters", async (test) => {
     const { board, run, ended } = await drawing(test);
     board.tell({ type: "send", line: "CS\r" });
     void run.cancel().catch(() => undefined);
@@ -189,14 +189,14 @@ describe.concurrent("when connecting", () => {
     return driver.state;
   };
 
-  it("a device that is not there is absent", async (test) => {
+  it("a missing device is reported as absent", async (test) => {
     expect(await connected(test, "/dev/no-such-plotter")).toMatchObject({
       connection: "absent",
       message: expect.stringContaining("plug the plotter in"),
     });
   });
 
-  it("a board in use by another program is a fault that says so", async (test) => {
+  it("a board in use by another program is a fault with its own message", async (test) => {
     const { board, run } = await drawing(test);
     expect(await connected(test, board.path)).toMatchObject({
       connection: "fault",
@@ -205,10 +205,10 @@ describe.concurrent("when connecting", () => {
     await run.cancel();
   });
 
-  it("a silent board is a fault that says what to check", async (test) => {
+  it("a silent board is a fault with advice what to check", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "mute", mute: true });
-    // Its answer to us says that it has heard.
+    // Its reply shows that it has received the command.
     await board.report();
     expect(await connected(test, board.path)).toMatchObject({
       connection: "fault",
@@ -216,7 +216,7 @@ describe.concurrent("when connecting", () => {
     });
   });
 
-  it("a board without motor supply is a fault within 3 s that says where to look", async (test) => {
+  it("a board without motor supply is a fault within 3 s with advice what to check", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "volts", volts: 5 });
     await board.report();
@@ -228,10 +228,10 @@ describe.concurrent("when connecting", () => {
     expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
   });
 
-  it("a port that this account may not open is a fault that names group and udev rule", async (test) => {
+  it("a port without permission is a fault that names the group and the udev rule", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     chmodSync(board.path, 0);
-    // Root may open everything: then somebody else tries.
+    // Root may open everything: then another account tries.
     const child = fork(fileURLToPath(new URL("../support/connect-child.ts", import.meta.url)), [board.path], {
       execArgv: ["--import", "tsx"],
       ...(process.getuid?.() === 0 ? { uid: 65_534, gid: 65_534 } : {}),
@@ -244,7 +244,7 @@ describe.concurrent("when connecting", () => {
     await once(child, "exit");
   });
 
-  it("another machine that answers is no plotter, and says so", async (test) => {
+  it("another device that answers is reported as not being a plotter", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "foreign", answer: "Grbl 1.1h ['$' for help]\r\nok\r\n" });
     await board.report();
@@ -254,7 +254,7 @@ describe.concurrent("when connecting", () => {
     });
   });
 
-  it("a board in its other reply syntax is simply used", async (test) => {
+  it("a board in its other reply syntax is used normally", async (test) => {
     const board = closeAfter(test, await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true }));
     expect(await connected(test, board.path)).toMatchObject({ connection: "idle", firmware: "3.0.3" });
   });

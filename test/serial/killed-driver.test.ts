@@ -1,6 +1,6 @@
 /**
- * kill -9 of a plotting process, over a real pseudo-terminal, while it draws a line that crosses itself again and again:
- * the counters fit several places of the line. PLOTWRIGHT_FAULTS=20, or the full run: 20 instants.
+ * kill -9 of a plotting process, over a real pseudo-terminal, while it draws a line that crosses itself many
+ * times: the counters match several places of the line. PLOTWRIGHT_FAULTS=20, or the full run: 20 times.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -18,7 +18,7 @@ import { countFor } from "../support/full-run.js";
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
 
-/** Loops of some 25 mm, each over the one before. */
+/** Loops of about 25 mm, each overlapping the one before. */
 const LOOPS = Array.from({ length: 900 }, (_, i) => [
   30 + 0.008 * i + 4 * Math.cos(i / 9),
   30 + 0.01 * i + 4 * Math.sin(i / 9),
@@ -26,11 +26,11 @@ const LOOPS = Array.from({ length: 900 }, (_, i) => [
 const STROKES = strokesOf(LOOPS);
 const EARLIEST_S = 1.5;
 const LATEST_S = 6;
-/** Missing or doubled: the steps' rounding, and the place within the tolerance of a crossing. */
+/** Missing or doubled: rounding to steps, and the place within the tolerance of a crossing. */
 const MOST_MM = 0.3;
 
 describe.each(FIRMWARES)("a plot on firmware %s that is killed on a line that crosses itself", (firmware) => {
-  it("goes on from the place where the board ended", { timeout: 60_000 + 40_000 * COUNT }, async () => {
+  it("resumes from the place where the board stopped", { timeout: 60_000 + 40_000 * COUNT }, async () => {
     const random = seeded(17);
     const { mode } = DEFAULT_PLOT_SETTINGS.motion;
     const { world, board, run } = await plotting(mode, STROKES, firmware);
@@ -45,7 +45,7 @@ describe.each(FIRMWARES)("a plot on firmware %s that is killed on a line that cr
   });
 });
 
-/** mm that are on the paper in the end. */
+/** mm on the paper at the end. */
 async function killedAfter(firmware: string, afterS: number): Promise<number> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
   const driver = new PlotterDriver({ device: board.path });

@@ -1,6 +1,6 @@
 /**
- * kill -9 of the server in mid-plot, again and again, over a pseudo-terminal: the board lives on with what it had,
- * and the job goes on from where it had come to.
+ * Repeated kill -9 of the server in mid-plot, over a pseudo-terminal: the board plays what it had received,
+ * and the job resumes from there.
  */
 import { once } from "node:events";
 import { afterEach, expect, it } from "vitest";
@@ -13,8 +13,8 @@ import { countFor } from "../support/full-run.js";
 const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 50, 4);
 const KILLS_PER_PLOT = 10;
 const SPEED = 10;
-/** Reports of progress (one in 60 ms) after which the server is killed, at most. */
-/** Nothing is drawn in this time without the user's word. */
+/** Max number of progress reports (one in 60 ms) before the server is killed. */
+/** Nothing is drawn during this time unless the user asks. */
 const STILL_MS = 300;
 const MOST_REPORTS = 12;
 
@@ -29,7 +29,7 @@ afterEach(async () => {
   for (const step of undo.splice(0).reverse()) await step();
 });
 
-/** The same instants in every run: a linear congruential generator. */
+/** The same times in every run: a linear congruential generator. */
 let random = 7;
 const below = (limit: number): number => {
   random = (random * 1_103_515_245 + 12_345) % 2 ** 31;
@@ -46,7 +46,7 @@ const jobOf = async (server: ServerProcess, id: string): Promise<Job> =>
     .jobs.find((job) => job.id === id)!;
 const drawnMm = async (board: PtyBoard): Promise<number> => (await board.report()).statistics.drawnMm;
 
-/** Of all rows: what is not drawn between the ends, at its widest, and how much is drawn more than once. */
+/** Over all rows: the widest gap between the ends, and the length drawn more than once. */
 function rowsOf(report: BoardReport, from: number): { count: number; gapMm: number; doubledMm: number } {
   const rows = new Map<number, [number, number][]>();
   for (const { xy } of report.drawn.slice(from).filter(({ penDown, xy }) => penDown && xy.length > 2)) {
@@ -71,7 +71,7 @@ function rowsOf(report: BoardReport, from: number): { count: number; gapMm: numb
 }
 
 it(
-  "loses no stroke, draws nothing twice, and nothing without the user's word",
+  "loses no stroke, draws nothing twice, and nothing unless the user asks",
   { timeout: 60_000 + 20_000 * KILL_COUNT },
   async () => {
     const data = temporaryFolder("killed");
@@ -105,11 +105,11 @@ it(
         server = await start();
         events = await EventStream.open(server.url);
         const { state } = await jobOf(server, id);
-        // Killed in the moment after its end.
+        // Killed just after its end.
         if (state === "done") break;
         expect(state).toBe("interrupted");
         await post(server, `/jobs/${id}/recover`);
-        // The server finds its board, which plays what it had and lifts the pen.
+        // The server finds its board, which plays what it had received and lifts the pen.
         await events.find("job", ({ job }) => job.state === "paused");
         await expect
           .poll(async () => (await board.report()).state, { timeout: 20_000 })
@@ -126,7 +126,7 @@ it(
       const { count, gapMm, doubledMm } = rowsOf(report, linesBefore);
       expect(count).toBe(ROWS);
       expect(gapMm).toBeLessThan(0.02);
-      // The journal's half second would be 25 mm a kill: the board's own counters know better.
+      // The journal's half second would be 25 mm per kill: the board's own counters are more accurate.
       expect(doubledMm).toBeLessThan(0.1 * (KILLS_PER_PLOT + 1));
     }
   },

@@ -1,6 +1,6 @@
 /**
- * Many browsers and scripts at once while the plotter draws at real speed: 50 event streams and 20 requests a
- * second cost the pen nothing.
+ * Many browsers and scripts at once while the plotter draws at real speed: 50 event streams and 20 requests
+ * per second do not slow the pen.
  */
 import { afterEach, expect, it } from "vitest";
 import { jobSchema } from "../../src/schema/index.js";
@@ -14,9 +14,9 @@ const REQUESTS_PER_S = 20;
 const MOST_AT_ONCE = 4;
 const LEAST_PLOT_S = IS_FULL ? 20 : 5;
 
-/** One dense curve of some 1000 mm. */
+/** One dense curve of about 1000 mm. */
 const CHORD_COUNT = 3_000;
-/** How much of the curve is drawn. */
+/** The part of the curve that is drawn. */
 const SHARE = IS_FULL ? 1 : 0.3;
 const CURVE = Array.from({ length: SHARE * CHORD_COUNT + 1 }, (_, i) => {
   const t = (i / CHORD_COUNT) * 1.35 * Math.PI;
@@ -29,7 +29,7 @@ afterEach(async () => {
   for (const step of undo.splice(0).reverse()) await step();
 });
 
-/** Reads a stream of events as bytes, as most of what a browser does with them is not ours. */
+/** Reads an event stream as bytes, because most of a browser's work with them is not ours. */
 async function countBytes(url: string, signal: AbortSignal): Promise<{ bytes: number }> {
   const counted = { bytes: 0 };
   const { body } = await fetch(`${url}/api/v1/events`, { signal });
@@ -75,7 +75,7 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
   };
   const from = Date.now();
   const asking = setInterval(() => {
-    // A busy computer lets some beats out: what they would have asked is asked with the next ones.
+    // A busy computer skips some beats: their requests are sent with the next ones.
     const due = ((Date.now() - from) / 1_000) * REQUESTS_PER_S;
     for (let more = 0; more < MOST_AT_ONCE && answers.length < due; more++) {
       answers.push(ask(paths[answers.length % paths.length]));

@@ -1,6 +1,7 @@
 /**
- * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the line, the whole drawing is on the paper
- * in the end, once. PLOTWRIGHT_FAULTS=20, or the full run: so many random instants of each, on both firmwares.
+ * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the connection, the whole drawing is
+ * on the paper at the end, once. PLOTWRIGHT_FAULTS=20, or the full run: that many random times of each, on
+ * both firmware versions.
  */
 import { describe, expect, it } from "vitest";
 import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
@@ -13,9 +14,9 @@ const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
 const EARLIEST_S = 0.3;
 const LATEST_S = 7;
 
-/** Not drawn in one piece, and drawn twice in all. */
+/** Max mm missing in one piece, and max mm drawn twice in total. */
 const MOST_MM = 0.05;
-/** Beside the drawing: a rounded corner. */
+/** Max distance from the drawing: a rounded corner. */
 const MOST_AWAY_MM = 0.1;
 const MOST_SLEPT_S = 1;
 const MOST_TRIES = 3;
@@ -25,7 +26,7 @@ const GARBAGE_BYTES = 300;
 const FAULTS: readonly Fault[] = [
   { name: "nothing", happen: () => undefined },
   {
-    name: "bytes lost while the line is mute",
+    name: "bytes lost while the connection is mute",
     happen: async (board, random) => {
       board.tell({ type: "deaf", deaf: true, afterBytes: Math.floor(60 * random()) });
       await waitS(6);
@@ -37,7 +38,7 @@ const FAULTS: readonly Fault[] = [
     happen: (board) => board.tell({ type: "garbage", bytes: [...Buffer.from("OK\r\n")] }),
   },
   {
-    name: "the cable pulled",
+    name: "an unplugged cable",
     happen: async (board) => {
       board.tell({ type: "unplug" });
       await waitS(2);
@@ -61,7 +62,7 @@ const FAULTS: readonly Fault[] = [
   },
 ];
 
-/** Plots again where the machine had so little time that the board seemed to have died. */
+/** Repeats the plot if the machine was so busy that the board seemed to be dead. */
 async function undisturbed(plot: () => Promise<FaultyPlotResult>): Promise<FaultyPlotResult> {
   for (let tries = 1; ; tries++) {
     const result = await plot();
@@ -69,13 +70,13 @@ async function undisturbed(plot: () => Promise<FaultyPlotResult>): Promise<Fault
   }
 }
 /**
- * Firmware before 3 draws what it has got behind the refused command, since its parser stands blocked: on a curve that
- * is beside the stroke, and drawn again.
+ * Firmware before 3 draws the commands that it received after the refused one, because its parser is blocked.
+ * On a curve these lie beside the stroke, and the stroke is drawn again.
  */
 const REFUSAL: Fault = { name: "a refused command", happen: (board) => board.tell({ type: "refuse" }) };
 const WINDOW_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * 0.45;
 
-/** These cost the place: home is set anew, and the line goes on from where the board surely was. */
+/** These lose the position: home is set again, and the plot resumes from where the board certainly was. */
 const LOST_PLACES: readonly Fault[] = [
   {
     name: "the motors' supply off",
@@ -88,10 +89,10 @@ const LOST_PLACES: readonly Fault[] = [
   { name: "a restart of the board", happen: (board) => board.tell({ type: "restart" }) },
 ];
 
-/** mm in the longest time between two readings of the supply, and in what the board has got. */
+/** mm drawn in the longest time between two readings of the supply, and by the commands that the board holds. */
 const SUPPLY_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * (0.25 + 0.45 + 0.45);
 
-// Mostly they wait for the board, so some go side by side.
+// They mostly wait, so some run side by side.
 describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
   it.each(FAULTS)(
     "$name leaves no gap and draws nothing twice",
@@ -113,7 +114,7 @@ describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
   );
 
   it(
-    "a refused command leaves no gap, and draws nothing twice that can be stopped",
+    "a refused command leaves no gap, and draws twice only what cannot be stopped",
     { timeout: 60_000 + 60_000 * COUNT },
     async () => {
       const random = seeded(3_000_017);
@@ -132,7 +133,7 @@ describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
   );
 
   it.each(LOST_PLACES)(
-    "$name leaves no gap, and draws no more twice than since the last good reading",
+    "$name leaves no gap, and draws twice at most what follows the last good reading",
     { timeout: 60_000 + 60_000 * COUNT },
     async (fault) => {
       const random = seeded(2_000_003 * (1 + LOST_PLACES.indexOf(fault)));

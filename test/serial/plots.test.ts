@@ -1,6 +1,6 @@
 /**
  * Whole drawings through serialport and a real pseudo-terminal to a board in another process: what the board
- * says it has drawn is compared with the file.
+ * reports as drawn is compared with the file.
  */
 import { readFileSync } from "node:fs";
 import { afterEach, describe, expect, it } from "vitest";
@@ -13,7 +13,7 @@ import { farthest, SegmentGrid } from "../support/segment-grid.js";
 
 const SPEED = 150;
 const SAMPLES = ["hello-paper", "harmonograph", "three-colour-hills"];
-/** As fine as the settings allow: what the file says, for our purpose. */
+/** As fine as the settings allow: this stands in for the file itself. */
 const FINE = { ...DEFAULT_PLOT_SETTINGS.prepare, flattenMm: 0.001, joinMm: 0, order: "none" as const };
 
 const sample = (name: string): string =>
@@ -40,7 +40,7 @@ function* drawnPoints(report: BoardReport): Iterable<readonly [number, number]> 
   }
 }
 
-/** What is promised: the corner deviation, the merge's tolerance and one microstep. */
+/** The guaranteed tolerance: corner deviation, merge tolerance and one microstep. */
 const MAX_OFF_MM = 0.025 + 0.02 + 1 / 80;
 
 const open: { close(): Promise<void> }[] = [];
@@ -49,7 +49,7 @@ afterEach(async () => {
 });
 
 describe("a drawing on a board behind a pseudo-terminal", () => {
-  it.each(SAMPLES)("%s is drawn as the file says, and the motors end where they should", async (name) => {
+  it.each(SAMPLES)("%s matches the file, and the motors end where they should", async (name) => {
     const board = await PtyBoard.open({ speed: SPEED });
     open.push(board);
     const driver = new PlotterDriver({ device: board.path, virtualSpeed: SPEED });
@@ -63,7 +63,7 @@ describe("a drawing on a board behind a pseudo-terminal", () => {
     const run = await driver.plot(planner, settings);
     expect(await run.finished).toEqual({ kind: "done" });
 
-    // `finished` has compared the board's step counters with the prediction; home is the last place of it.
+    // `finished` has compared the board's step counters with the prediction; the last position is home.
     const report = await board.report();
     expect([report.state.steps1, report.state.steps2]).toEqual([0, 0]);
     expect(report.state.penUp).toBe(true);

@@ -24,7 +24,7 @@ describe("a serial port", () => {
     expect(await session.query("QS")).toBe("0,0");
   });
 
-  it("brings back a board that answers in its other syntax", async () => {
+  it("restores a board that answers in its other syntax", async () => {
     const board = keep(await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true }));
     const session = keep(new BoardSession(await openSerial(board.path), { clock: nodeClock }));
     expect((await session.identify()).firmware).toBe("3.0.3");
@@ -32,7 +32,7 @@ describe("a serial port", () => {
     expect(session.log.text()).toContain("> CU,10,0");
   });
 
-  it("is told lost when the cable comes out, with what to do", async () => {
+  it("reports an unplugged cable as lost, with advice", async () => {
     const board = keep(await PtyBoard.open());
     const session = keep(new BoardSession(await openSerial(board.path), { clock: nodeClock }));
     await session.identify();
@@ -47,11 +47,11 @@ describe("a serial port", () => {
     expect(await outcome(openSerial(board.path))).toContain(`busy: Another program is using ${board.path}:`);
   });
 
-  it("says of a path where nothing is how to find the right one", async () => {
+  it("explains how to find the right path if there is nothing at the given one", async () => {
     expect(await outcome(openSerial("/dev/no-such-port"))).toMatch(/^no-board: .*plotwright devices/);
   });
 
-  it("says of a file that is no port that it is none", async () => {
+  it("reports a file that is not a port", async () => {
     expect(await outcome(openSerial(import.meta.filename))).toMatch(/^no-board: .*cannot be opened/);
   });
 
@@ -60,7 +60,7 @@ describe("a serial port", () => {
     ["macOS", "Error: Resource busy, cannot open /dev/tty.usbmodem1", "busy", "Another program"],
     ["Windows", "Opening COM3: Access denied", "busy", "Another program"],
     ["Windows", "Opening COM9: File not found", "no-board", "no device"],
-  ])("puts what %s says (%s) into words to act on", (_, words, code, advice) => {
+  ])("turns %s (%s) into a message with advice", (_, words, code, advice) => {
     const error = openError("PORT", new Error(words));
     expect(error.code).toBe(code);
     expect(error.message).toContain(advice);

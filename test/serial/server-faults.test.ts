@@ -1,6 +1,6 @@
 /**
- * The board's faults as the user meets them: the server lives, the job is interrupted with words to act on within
- * 3 s, goes on from its place when the fault is mended, and can be cancelled at any time.
+ * The board's faults as the user sees them: the server survives, the job is interrupted with advice within 3
+ * s, resumes from its position when the fault is fixed, and can be cancelled at any time.
  */
 import { afterEach, describe, expect, it } from "vitest";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
@@ -21,7 +21,7 @@ afterEach(async () => {
   for (const step of undo.splice(0).reverse()) await step();
 });
 
-/** A server whose job is just drawing on a board of real speed. */
+/** A server whose job is drawing on a board at real speed. */
 async function drawing(firmware: string) {
   const data = temporaryFolder("faults");
   undo.push(data.remove);
@@ -37,7 +37,7 @@ async function drawing(firmware: string) {
     const response = await fetch(`${server.url}/api/v1/jobs/${id}/${action}`, { method: "POST" });
     expect([action, response.status, response.ok ? "" : await response.text()]).toEqual([action, 200, ""]);
   };
-  /** The next of the job's announcements in that state, of those from now on. */
+  /** The next event of the job in that state, from now on. */
   const reaches = async (state: Job["state"]): Promise<Job> => {
     const before = new Set(events.seen);
     const { job } = await events.find("job", (event) => !before.has(event) && event.job.state === state);
@@ -58,7 +58,7 @@ const FAULTS: readonly (readonly [
   mend: ToBoard,
 ])[] = [
   [
-    "stands still",
+    "stops moving",
     "3.0.3",
     { type: "frozen", frozen: true },
     /does not finish/,
@@ -76,7 +76,7 @@ const FAULTS: readonly (readonly [
 
 describe("a job whose board", () => {
   it.each(FAULTS)(
-    "%s (%s) is interrupted in time, taken up when that is mended, and cancelled",
+    "%s (%s) is interrupted in time, resumed after the fault is fixed, and cancelled",
     async (_, firmware, fault, words, mend) => {
       const { board, events, post, reaches, state } = await drawing(firmware);
       const interrupted = reaches("interrupted");
@@ -102,7 +102,7 @@ describe("a job whose board", () => {
     },
   );
 
-  it("stands still is cancelled in time, before anybody has noticed", async () => {
+  it("stops moving is cancelled in time, before the fault is detected", async () => {
     const { board, post, reaches, state } = await drawing("2.8.1");
     board.tell({ type: "frozen", frozen: true });
     const ended = Promise.race([reaches("cancelled"), reaches("interrupted")]);

@@ -1,6 +1,6 @@
 /**
- * What others may try while a plot runs. Each attempt is refused and written in the log, and the plot goes on:
- * nothing is asked of its run, and its progress still reaches the browsers.
+ * Attacks from others while a plot runs. Each attempt is refused and logged, and the plot continues: its run
+ * gets no request, and its progress still reaches the browsers.
  */
 import { readFileSync } from "node:fs";
 import { request as httpRequest } from "node:http";
@@ -37,7 +37,7 @@ let elapsedS: number;
 beforeEach(() => begin());
 afterEach(() => end());
 
-/** A server with a plot under way, and its operator's cookie. */
+/** A server with a running plot, and its operator's cookie. */
 async function begin(options: Parameters<typeof startApp>[0] = {}): Promise<void> {
   app = await startApp({ trustsLoopback: false, ...options });
   const paired = await fetch(`${app.url}${app.access.pairingPath("operate")}`);
@@ -60,7 +60,7 @@ async function end(): Promise<void> {
   await app.close();
 }
 
-/** Sent as it is: fetch would tidy paths up, and set some headers itself. */
+/** Sent unchanged: fetch would normalise paths, and set some headers itself. */
 function raw(
   path: string,
   {
@@ -81,7 +81,7 @@ function raw(
   });
 }
 
-/** Writes bytes, and gives back what came until the server closed the connection. */
+/** Writes bytes, and returns what came until the server closed the connection. */
 function overSocket(
   first: string,
   then: (write: (text: string) => void) => void = () => undefined,
@@ -107,7 +107,7 @@ async function plotGoesOn(): Promise<void> {
   run.progress({ progress: elapsedS / 100, elapsedS, remainingS: 9, planS: 1, xMm: 1, yMm: 1, penUp: false });
   await events.find("progress", (event) => event.elapsedS === elapsedS);
 }
-/** Refused with one of the statuses, each attempt with a line in the log. */
+/** Refused with one of the statuses, with a log line for each attempt. */
 async function refused(
   what: string,
   attempt: Promise<Answer>,
@@ -125,7 +125,7 @@ async function refused(
 }
 
 describe("while a plot runs", () => {
-  it("nobody without a token, or with a wrong one, changes or sees anything", async () => {
+  it("a client without a token, or with a wrong one, changes and sees nothing", async () => {
     const secrets: Record<string, string>[] = [
       {},
       { Cookie: "plotwright_session=" },
@@ -151,7 +151,7 @@ describe("while a plot runs", () => {
     await refused("pairing", raw("/pair?token=guess"));
   });
 
-  it("no page of another site does, with the operator's own cookie (CSRF), by whatever kind of request", async () => {
+  it("a page of another site changes nothing with the operator's own cookie (CSRF), by any kind of request", async () => {
     const forms = [
       { "Content-Type": "text/plain" },
       { "Content-Type": "application/x-www-form-urlencoded" },
@@ -182,7 +182,7 @@ describe("while a plot runs", () => {
     );
   });
 
-  it("no name of another site stands for this server (rebinding), on any path", async () => {
+  it("another site's name is refused (rebinding), on any path", async () => {
     for (const host of [
       "evil.example",
       "127.0.0.1.evil.example",
@@ -195,12 +195,12 @@ describe("while a plot runs", () => {
     }
   });
 
-  it("only its own name on the network does", async () => {
+  it("only the server's own name on the network is accepted", async () => {
     const headers = { Host: "plotwright-2.local:9080", Cookie: cookie };
     expect((await raw("/api/v1/state", { headers })).status).toBe(200);
   });
 
-  it("no WebSocket is opened, of another site or of none", async () => {
+  it("a WebSocket is not opened, with any origin or none", async () => {
     for (const origin of ["Origin: https://evil.example\r\n", ""]) {
       const lines = `GET /api/v1/events HTTP/1.1\r\nHost: 127.0.0.1\r\nCookie: ${cookie}\r\n${origin}Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n`;
       await refused(
@@ -231,7 +231,7 @@ describe("while a plot runs", () => {
     await refused("machine", raw("/api/v1/machines/..%2f..%2fserver", { ...machine, body: "{}" }), [404]);
   });
 
-  it("no upload is larger than allowed or takes for ever", async () => {
+  it("an upload is limited in size and time", async () => {
     const headers = { Cookie: cookie };
     const large = "x".repeat(3_100_000);
     await refused("file", raw("/api/v1/jobs?name=x", { method: "POST", headers, body: large }), [413]);
@@ -253,7 +253,7 @@ describe("while a plot runs", () => {
     await expect.poll(() => app.drawingsOnDisk()).toHaveLength(1);
   });
 
-  it("scripts in drawings and names come back as data only, under a policy that runs none", async () => {
+  it("scripts in drawings and names are returned as data only, under a policy that runs none", async () => {
     const evil = '"><script>alert(1)</script><img src=x onerror=alert(1)>';
     const drawing = `<svg xmlns="http://www.w3.org/2000/svg" onload="alert(1)"><script>alert(1)</script><g id="${"&lt;script&gt;"}"><path d="M0 0h10"/></g></svg>`;
     const settings = {
@@ -290,7 +290,7 @@ describe("while a plot runs", () => {
 });
 
 describe("a server with a certificate", () => {
-  it("speaks TLS, marks its cookies for it, and keeps foreign pages out as before", async () => {
+  it("speaks TLS, marks its cookies for it, and refuses foreign pages as before", async () => {
     await app.close();
     app = await startApp({ trustsLoopback: false, tls: TLS });
     const { port } = new URL(app.url);
@@ -318,11 +318,11 @@ describe("a server with a certificate", () => {
     const own = { Cookie: session, Origin: `https://127.0.0.1:${port}` };
     expect((await get("/api/v1/state", own)).status).toBe(200);
     expect((await get("/api/v1/state", { ...own, Origin: "https://evil.example" })).status).toBe(403);
-    // Without TLS nothing is said at all.
+    // Without TLS there is no such header.
     await expect(fetch(`http://127.0.0.1:${port}/api/v1/state`)).rejects.toThrow();
   });
 
-  it("says what is wrong with a certificate that can't be used", async () => {
+  it("explains what is wrong with a certificate that can't be used", async () => {
     const dataDir = mkdtempSync(join(tmpdir(), "plotwright-tls-"));
     const options = { port: 0, device: "virtual", dataDir };
     await expect(createServer({ ...options, tls: { cert: "x", key: "y" } })).rejects.toThrow(
@@ -333,7 +333,7 @@ describe("a server with a certificate", () => {
 });
 
 describe("pairing links", () => {
-  it("are shown on the server's own computer, with codes to point a camera at", async () => {
+  it("are shown on the server's own computer, with QR codes", async () => {
     await app.close();
     app = await startApp();
     const links = pairingSchema.parse(
@@ -345,7 +345,7 @@ describe("pairing links", () => {
     expect(links.operateQrSvg).not.toMatch(/script|onload/);
   });
 
-  it("are shown to no other device, though it may operate", async () => {
+  it("are shown to no other device, even one that may operate", async () => {
     await refused("pairing", raw("/api/v1/pairing", { method: "POST", headers: { Cookie: cookie } }));
   });
 });

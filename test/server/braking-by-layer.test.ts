@@ -1,4 +1,4 @@
-/** A stop in the middle of a stroke is made with the acceleration of that stroke's layer, whatever the others have. */
+/** A stop in the middle of a stroke uses the acceleration of that stroke's layer, whatever the others have. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, plan, stateAt, type Place, type StrokeSet, type Trajectory } from "../../src/index.js";
 import { comeToRest } from "../../src/internal.js";
@@ -46,7 +46,7 @@ describe("a stop in the middle of a stroke", () => {
   const { runs } = trajectory;
 
   it.each(SHAPES.map(({ layer }, stroke) => [stroke, LAYERS[layer]] as const))(
-    "uses the acceleration of stroke %i's layer (%s), all of it and no more",
+    "uses the full acceleration of stroke %i's layer (%s), and no more",
     (stroke, layer) => {
       const run = [...runs.stroke].indexOf(stroke);
       const lastBlock = runs.firstBlock[run + 1] - 1;
@@ -67,14 +67,14 @@ describe("a stop in the middle of a stroke", () => {
     },
   );
 
-  it("is as gentle as the plan on firmware that takes constant speeds only", () => {
+  it("is as gentle as the plan on firmware with constant speeds only", () => {
     const old = (place: Place | null) => brakingAt(settings, STROKES, place, "2.4.4").limits;
     const drawAccels = SHAPES.map((_, stroke) => old({ stroke, alongMm: 1 }).drawAccel);
     expect(drawAccels).toEqual([ACCEL.slow, ACCEL.slow, ACCEL.plain, ACCEL.plain, 500, 500]);
     expect(old(null).travelAccel).toBe(500);
   });
 
-  it("on the way between strokes uses that of travel", () => {
+  it("uses that of travel between strokes", () => {
     expect(brakingAt(settings, STROKES, null, "2.8.1").limits.travelAccel).toBe(MOTION.travel.accelMmPerS2);
     const travel = [...runs.stroke].findIndex((stroke, run) => stroke < 0 && run > 0);
     const tS = runs.startS[travel] + 0.1;

@@ -1,4 +1,7 @@
-/** The end of a server: what plots first, nothing that hangs holds up the rest, and no timer outlives it. */
+/**
+ * Shutting down a server: running plots come first, a part that hangs does not delay the rest, and no timer
+ * remains.
+ */
 import { once } from "node:events";
 import { connect } from "node:net";
 import { afterEach, describe, expect, it } from "vitest";
@@ -9,7 +12,7 @@ import { seeded } from "../support/live-plot.js";
 import { temporaryFolder } from "../support/server-process.js";
 import { EventStream } from "./support/event-stream.js";
 
-/** More than is plotted in all that the test does, though it does it slowly. */
+/** Longer than the test plots in total, because it plots slowly. */
 const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60" stroke="black">' +
   `${Array.from({ length: 500 }, (_, i) => `<path d="M5 ${5 + i / 10}h80"/>`).join("")}</svg>`;
@@ -20,7 +23,7 @@ afterEach(async () => {
 });
 
 describe("closing", () => {
-  it("begins with what plots, then goes from the latest part to the first", async () => {
+  it("begins with the running plot, then closes the parts from the latest to the first", async () => {
     const order: string[] = [];
     const closing = new Closing(() => undefined);
     for (const name of ["a", "b"]) closing.add(name, () => void order.push(name));
@@ -30,7 +33,7 @@ describe("closing", () => {
     expect(order).toEqual(["plots", "c", "b", "a"]);
   });
 
-  it("names what hangs or fails, and closes the rest all the same", async () => {
+  it("names what hangs or fails, and closes the rest anyway", async () => {
     const logged: string[] = [];
     const closing = new Closing((line) => logged.push(line), { partMs: 20, plotsMs: 20 });
     let isClosed = false;
@@ -57,7 +60,7 @@ describe("a server that is closed", () => {
     return { server, options, logged };
   }
 
-  it("does not wait for a connection that was refused and is left half open", async () => {
+  it("does not wait for a refused connection that is left half open", async () => {
     const { server, logged } = await start();
     for (const text of [
       "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\r\n",
@@ -77,7 +80,7 @@ describe("a server that is closed", () => {
     expect(logged.filter((line) => line.startsWith("closing"))).toEqual([]);
   });
 
-  it("at any instant of a plot, a hold or just after it leaves no timer, and the plot to be gone on with", async () => {
+  it("at any instant of a plot or a hold leaves no timer, and a plot that can be resumed", async () => {
     const timers = watchTimers();
     undo.push(() => timers.end());
     const { server: first, options, logged } = await start();
@@ -92,7 +95,7 @@ describe("a server that is closed", () => {
       const events = await EventStream.open(server.url);
       for (const action of ["pause", "resume", "pause", "resume"].slice(0, i % 5)) {
         await post(action);
-        // Somewhere within slowing down or setting out.
+        // While it slows down or starts moving.
         const count = events.seen.length + Math.floor(4 * random());
         await expect
           .poll(() => events.seen.length, { interval: 3, timeout: 300 })
@@ -113,7 +116,7 @@ describe("a server that is closed", () => {
   });
 });
 
-/** The timers that our own code has set and that are still to fire, each by where it was set. */
+/** The pending timers of our own code, each by where it was set. */
 function watchTimers(): { left(): string[]; end(): void } {
   const { setTimeout: set, clearTimeout: clear } = globalThis;
   const left = new Map<unknown, string>();

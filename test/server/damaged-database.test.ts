@@ -1,4 +1,7 @@
-/** A database that is emptied or damaged: no drawing is lost, jobs come back from the copy, and the user is told. */
+/**
+ * A database that is emptied or damaged: no drawing is lost, jobs are restored from the backup, and the user
+ * is told.
+ */
 import {
   copyFileSync,
   existsSync,
@@ -35,7 +38,7 @@ const inDir = (...names: string[]): string => join(dir, ...names);
 const databasePath = (): string => inDir("plotwright.db");
 const idsOf = (store: Store): string[] => store.jobs().map(({ id }) => id);
 
-/** Jobs with their drawings on disk; the copy of the database has all but the last `sinceCopy` of them. */
+/** Jobs with their drawings on disk; the backup of the database has all but the last `sinceCopy` of them. */
 async function fill(sinceCopy = 0): Promise<{ ids: string[]; close: () => void }> {
   const files = new DrawingFiles(dir, 1_000);
   const ids = Array.from({ length: JOB_COUNT }, (_, i) => `job-${i}`);
@@ -55,7 +58,7 @@ async function fill(sinceCopy = 0): Promise<{ ids: string[]; close: () => void }
   return { ids, close: () => undefined };
 }
 
-/** What each drawing holds that the server has anywhere. */
+/** The content of every drawing that the server has anywhere. */
 function drawings(): string[] {
   return ["drawings", "unclaimed-drawings"]
     .filter((folder) => existsSync(inDir(folder)))
@@ -63,7 +66,7 @@ function drawings(): string[] {
     .sort();
 }
 
-/** As a server starts; null: it refuses, in words. */
+/** As a server starts; null: it refuses, with an explanation. */
 async function start(): Promise<Store | null> {
   try {
     const store = Store.open(dir);
@@ -77,10 +80,10 @@ async function start(): Promise<Store | null> {
 }
 
 describe("a damaged database", () => {
-  it("never costs a drawing, whichever byte of it or of its log is wrong", async () => {
+  it("never loses a drawing, whichever byte of it or of its log is wrong", async () => {
     const random = seeded(20261122);
     const { ids, close } = await fill(4);
-    // As a killed server leaves it: part of it in the log.
+    // As a killed server leaves it: partly in the log.
     const names = readdirSync(dir).filter((name) => /^plotwright\.db(-wal|\.backup)?$/.test(name));
     expect(names).toHaveLength(3);
     const whole = new Map(names.map((name) => [name, readFileSync(inDir(name))]));
@@ -107,7 +110,7 @@ describe("a damaged database", () => {
     expect(repairCount).toBeGreaterThan(0);
   }, 120_000);
 
-  it("is replaced by its copy, is kept, and the user is told; drawings missing from the copy are set aside", async () => {
+  it("is replaced by its backup and set aside, and the user is told; drawings missing from the backup are set aside", async () => {
     const { ids, close } = await fill(2);
     close();
     const bytes = readFileSync(databasePath());
@@ -123,7 +126,7 @@ describe("a damaged database", () => {
     expect(drawings()).toHaveLength(JOB_COUNT);
   });
 
-  it("gets its drawings back when the user puts a good one in its place", async () => {
+  it("gets its drawings back when the user restores a good one", async () => {
     const { ids, close } = await fill(2);
     close();
     const good = inDir("good");
@@ -138,7 +141,7 @@ describe("a damaged database", () => {
     expect(readdirSync(inDir("drawings"))).toHaveLength(JOB_COUNT);
   });
 
-  it("is left as it is when there is no good copy, and the server says what to do", async () => {
+  it("is left unchanged if there is no good backup, and the server says what to do", async () => {
     await fill();
     for (const name of ["plotwright.db", "plotwright.db.backup"]) {
       writeFileSync(inDir(name), Buffer.alloc(20_000, name));
@@ -156,7 +159,7 @@ describe("a damaged database", () => {
 });
 
 describe("an emptied database", () => {
-  it.each(["emptied", "missing"])("comes back from its copy (%s)", async (how) => {
+  it.each(["emptied", "missing"])("is restored from its backup (%s)", async (how) => {
     const { ids } = await fill();
     if (how === "emptied") writeFileSync(databasePath(), "");
     else rmSync(databasePath());
@@ -168,7 +171,7 @@ describe("an emptied database", () => {
     expect(readdirSync(inDir("drawings"))).toHaveLength(JOB_COUNT);
   });
 
-  it("without a copy sets all drawings aside", async () => {
+  it("without a backup sets all drawings aside", async () => {
     await fill();
     writeFileSync(databasePath(), "");
     rmSync(inDir("plotwright.db.backup"));
@@ -176,7 +179,7 @@ describe("an emptied database", () => {
     expect(readdirSync(inDir("unclaimed-drawings"))).toHaveLength(JOB_COUNT);
   });
 
-  it("is told to the user by the server, once", async () => {
+  it("is reported to the user by the server, once", async () => {
     await fill();
     writeFileSync(databasePath(), "");
     for (const count of [1, 1]) {

@@ -1,4 +1,4 @@
-/** A disk that takes no more while a plot runs: the pen is stopped all the same, and nothing told is wrong. */
+/** A disk that fills up while a plot runs: the pen can still be stopped, and all reports are right. */
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Access } from "../../server/security/access.js";
 import { DISK_FULL, isDiskFault } from "../../server/storage/disk-fault.js";
@@ -46,7 +46,7 @@ describe("while the disk is full", () => {
     ["emergency-stop", "paused"],
     ["cancel", "cancelled"],
   ])(
-    "%s is answered, and the job is shown as it is",
+    "%s is answered, and the job's real state is shown",
     async (action, state) => {
       const events = await EventStream.open(app.url);
       fillDisk();
@@ -67,7 +67,7 @@ describe("while the disk is full", () => {
     LIMIT_MS,
   );
 
-  it("a paused plot goes on at the first try, with or without room", async () => {
+  it("a paused plot resumes at the first try, with or without space", async () => {
     fillDisk();
     await post("pause");
     expect((await post("resume")).status).toBe(200);
@@ -79,7 +79,7 @@ describe("while the disk is full", () => {
     expect([(await job()).state, stored().state]).toEqual(["plotting", "plotting"]);
   });
 
-  it("the plot's job says so, and its end is known", async () => {
+  it("the plot's job reports it, and its end is known", async () => {
     fillDisk();
     run.record({ place: { stroke: 0, alongMm: 3 } });
     expect((await job()).message).toBe(DISK_FULL);
@@ -87,7 +87,7 @@ describe("while the disk is full", () => {
     await expect.poll(async () => (await job()).state).toBe("done");
   });
 
-  it("what needs the disk is refused in words, and nothing moves", async () => {
+  it("requests that need the disk are refused with an explanation, and nothing moves", async () => {
     run.end({ kind: "cancelled" });
     await expect.poll(async () => (await job()).state).toBe("cancelled");
     const next = jobSchema.parse(await (await upload()).json());
@@ -104,7 +104,7 @@ describe("while the disk is full", () => {
     expect(app.drawingsOnDisk()).toHaveLength(2);
   });
 
-  it("a paired device is still known, and a turn may end", () => {
+  it("a paired device is still known, and an operator's turn may end", () => {
     const kept = new Map<string, unknown>();
     const store = { setting: (key: string) => kept.get(key), saveSetting: kept.set.bind(kept) };
     let at = Date.parse("2026-01-01T00:00:00Z");
@@ -119,7 +119,7 @@ describe("while the disk is full", () => {
 });
 
 describe("an error", () => {
-  it("is known as the disk's by what systems and SQLite say", () => {
+  it("is recognised as the disk's by the messages of systems and SQLite", () => {
     for (const code of ["ENOSPC", "EDQUOT", "EROFS"]) {
       expect(isDiskFault(Object.assign(new Error("x"), { code }))).toBe(true);
     }

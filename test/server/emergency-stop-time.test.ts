@@ -1,4 +1,7 @@
-/** How long the motors run on after an emergency stop: what the plotter's state says of it holds at any instant. */
+/**
+ * How long the motors keep running after an emergency stop: the time in the plotter's state holds at any
+ * instant.
+ */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -10,7 +13,7 @@ import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const LOOK_MS = 2;
 
-/** The longest that the motors ran on after a stop at some instants, and what was said of it, ms. */
+/** The longest time that the motors ran after a stop at several instants, and the reported maximum, ms. */
 async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: number; saidMs: number }> {
   const random = seeded(123_456_789);
   let [mostMs, saidMs] = [0, 0];
@@ -38,7 +41,7 @@ async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: 
 }
 
 describe("an emergency stop", { timeout: 60_000 }, () => {
-  it("takes what was sent ahead on firmware 2.8.1, so less where less is sent ahead", async () => {
+  it("takes as long as the motion sent ahead on firmware 2.8.1, so less if less is sent ahead", async () => {
     const usual = await stopMs("2.8.1", 300);
     expect(usual.saidMs).toBe(420);
     expect(usual.mostMs).toBeLessThanOrEqual(usual.saidMs);

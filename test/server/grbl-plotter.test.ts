@@ -1,4 +1,4 @@
-/** A plotter whose machine has a Grbl, virtual, on a clock that the test leads. */
+/** A plotter whose machine has a Grbl, virtual, on a manual clock. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
@@ -21,7 +21,7 @@ async function newPlotter() {
   const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
   await world.run(driver.start());
   const board = driver.virtualMachine;
-  if (!(board instanceof VirtualGrbl)) throw new TypeError("it is no virtual Grbl");
+  if (!(board instanceof VirtualGrbl)) throw new TypeError("it is not a virtual Grbl");
   const begin = async (strokes: StrokeSet = TWO_LINES, start = {}) =>
     world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, start));
   return { world, driver, board, begin };
@@ -44,7 +44,7 @@ const lengthMm = ({ xy, offsets }: StrokeSet): number => {
 };
 
 describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
-  it("says who it is, plots to the end, and is idle at home again", async () => {
+  it("identifies itself, plots to the end, and is idle at home again", async () => {
     const { world, driver, board, begin } = await newPlotter();
     expect(driver.state).toMatchObject({ kind: "virtual", connection: "idle", firmware: "Grbl 1.1h" });
     const run = await begin();
@@ -57,7 +57,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(driver.state).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
   });
 
-  it("takes as long as the preview says, and tells its progress on the way", async () => {
+  it("takes as long as the preview says, and reports its progress", async () => {
     const { world, begin } = await newPlotter();
     const { trajectory } = planJob({ strokes: DRAWING }, SETTINGS, GRBL);
     const run = await begin(DRAWING);
@@ -74,7 +74,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(seen.filter(({ atS, planS }) => Math.abs(atS - liftS - planS) > 0.3)).toEqual([]);
   });
 
-  it("comes to rest along the path, lifts the pen, and goes on where it stopped", async () => {
+  it("comes to rest along the path, lifts the pen, and resumes where it stopped", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const run = await begin(DRAWING);
     for (let i = 0; i < 8; i++) {
@@ -92,7 +92,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(board.state().lostCount).toBe(0);
   });
 
-  it("stops at once, and goes on from there", async () => {
+  it("stops at once, and resumes from there", async () => {
     const { world, board, driver, begin } = await newPlotter();
     const run = await begin(DRAWING);
     await world.advance(2.1);
@@ -116,7 +116,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(drawnMm(board)).toBeLessThan(lengthMm(DRAWING) / 2);
   });
 
-  it("takes new speeds when it goes on after a pause", async () => {
+  it("applies new speeds when it resumes after a pause", async () => {
     const { world, begin } = await newPlotter();
     const run = await begin(DRAWING);
     await world.advance(1.5);
@@ -126,7 +126,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 
-  it("moves by hand, sets home, switches its motors off, and answers what is typed", async () => {
+  it("moves by hand, sets home, switches its motors off, and answers typed lines", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(30, 20));
     expect(board.state()).toMatchObject({ xMm: 30, yMm: 20, penUp: true });
@@ -147,7 +147,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(driver.state).toMatchObject({ motorsOn: true, xMm: 1, yMm: 2 });
   });
 
-  it("stops a plot whose line the Grbl refuses, and says which", async () => {
+  it("stops a plot whose line the Grbl refuses, and names it", async () => {
     const { world, driver, board } = await newPlotter();
     const planner = new LocalPlanner(TWO_LINES);
     const plan = planner.plan.bind(planner);

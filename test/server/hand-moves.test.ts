@@ -1,4 +1,4 @@
-/** Moves by hand and machines of the user's own, over HTTP: the whole server on the virtual board. */
+/** Moves by hand and custom machines, over HTTP: the whole server on the virtual board. */
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -17,7 +17,7 @@ import {
 } from "../../src/schema/index.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100" stroke="black"><path d="M10 20H90M10 40H90M10 60H90"/></svg>`;
-/** Is still being plotted when all that a test asks meanwhile has been answered. */
+/** Long enough that it still plots when all requests of a test have been answered. */
 const LONG = SVG.replace(
   / d="[^"]*"/,
   ` d="${Array.from({ length: 400 }, (_, i) => `M10 ${10 + i / 5}H90`).join("")}"`,
@@ -65,7 +65,7 @@ const addJob = async (settings: unknown = DEFAULT_PLOT_SETTINGS, drawing = SVG):
   jobSchema.parse(await (await call("POST", "/jobs", { name: "lines", drawing, settings })).json());
 
 describe("moves by hand over HTTP", () => {
-  it("end exactly where they were asked to", async () => {
+  it("end exactly where requested", async () => {
     expect(await move("walk", { xMm: 40, yMm: 30 })).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
     expect(await move("jog", { dxMm: -10.5, dyMm: 5 })).toMatchObject({ xMm: 29.5, yMm: 35 });
     expect(await move("frame", { boxMm: { xMm: 5, yMm: 5, widthMm: 50, heightMm: 20 } })).toMatchObject({
@@ -85,7 +85,7 @@ describe("moves by hand over HTTP", () => {
     const { motion } = settings;
     await move("frame", { jobId: id, settings: { ...settings, motion } });
     const log = await (await call("GET", "/plotters/main/log")).text();
-    // The pen never came down, and the carriage is back.
+    // The pen was never lowered, and the carriage is back.
     expect(log).not.toMatch(/> SP,0/);
     expect(await move("home")).toMatchObject({ xMm: 0, yMm: 0 });
     expect(await fault(await call("POST", "/plotters/main/frame", { jobId: "none" }))).toMatchObject({
@@ -93,7 +93,7 @@ describe("moves by hand over HTTP", () => {
     });
   });
 
-  it("stay within the machine, that of the settings they are given", async () => {
+  it("stay within the machine of the given settings", async () => {
     const far = { xMm: 500, yMm: 10 };
     expect(await fault(await call("POST", "/plotters/main/walk", far))).toMatchObject({
       status: 422,
@@ -119,14 +119,14 @@ describe("moves by hand over HTTP", () => {
     ["servo", { pos: 0 }],
     ["command", { line: "V\rEM,0,0" }],
     ["walk", { xMm: 1, yMm: 1, settings: { machine: "typewriter" } }],
-  ])("answer a body that says nothing with 400: %s", async (name, body) => {
+  ])("answer an empty or invalid body with 400: %s", async (name, body) => {
     expect(await fault(await call("POST", `/plotters/main/${name}`, body))).toMatchObject({
       status: 400,
       code: "bad-setting",
     });
   });
 
-  it("are refused while a job is on the plotter, and by a plotter that is not there", async () => {
+  it("are refused while a job is on the plotter, and by a plotter that is absent", async () => {
     const { id } = await addJob(DEFAULT_PLOT_SETTINGS, LONG);
     expect((await call("POST", `/jobs/${id}/start`)).status).toBe(200);
     for (const [name, body] of [
@@ -157,7 +157,7 @@ describe("the board's console", () => {
     return response.ok ? commandAnswerSchema.parse(await response.json()) : fault(response);
   };
 
-  it("gives all lines that the board answers, errors too", async () => {
+  it("returns all lines that the board answers, errors too", async () => {
     expect(await say("QS")).toEqual({ replies: ["0,0", "OK"], note: null });
     expect(await say("qb")).toEqual({ replies: ["0", "OK"], note: null });
     expect(await say("V")).toMatchObject({ replies: ["EBBv13_and_above EB Firmware Version 2.8.1"] });
@@ -168,7 +168,7 @@ describe("the board's console", () => {
     expect(await move("home")).toMatchObject({ xMm: 0, yMm: 0 });
   });
 
-  it("knows what a line did to the place", async () => {
+  it("reports the effect of a line on the position", async () => {
     await move("walk", { xMm: 10, yMm: 0 });
     expect(await say("SM,100,80,80")).toMatchObject({ note: expect.stringContaining("read back") as string });
     const { xMm } = plotterSchema.parse(await (await call("GET", "/plotters/main")).json());
@@ -177,7 +177,7 @@ describe("the board's console", () => {
     expect(plotterSchema.parse(await (await call("GET", "/plotters/main")).json()).xMm).toBeNull();
   });
 
-  it("sends nothing after which nobody would understand the board any more", async () => {
+  it("sends no line after which the board could no longer be understood", async () => {
     for (const line of ["CU,1,0", "cu,10,1", "CU,4,0", "BL", "EM,1", "BL,1", "CU,01,0", "cu,4", "rb", "R"]) {
       expect(await say(line)).toMatchObject({
         status: 400,
@@ -188,10 +188,10 @@ describe("the board's console", () => {
   });
 });
 
-describe("machines of the user's own", () => {
+describe("custom machines", () => {
   const listed = async () => machineListSchema.parse(await (await call("GET", "/machines")).json()).machines;
 
-  it("are kept as files, listed with those that come with plotwright, and removed", async () => {
+  it("are stored as files, listed with the built-in ones, and removed", async () => {
     expect((await call("PUT", "/machines/mine", MINE)).status).toBe(200);
     expect(JSON.parse(readFileSync(join(dataDir, "machines/mine.json"), "utf8"))).toEqual(MINE);
     await server.close();
@@ -203,7 +203,7 @@ describe("machines of the user's own", () => {
     expect(await fault(await call("DELETE", "/machines/mine"))).toMatchObject({ status: 404 });
   });
 
-  it("go with the jobs that name them, which keep them when they are removed", async () => {
+  it("are copied into the jobs that name them, and stay there when they are removed", async () => {
     await call("PUT", "/machines/mine", MINE);
     const { id, settings } = await addJob({ ...DEFAULT_PLOT_SETTINGS, machine: "mine" });
     expect(settings.customMachine).toEqual(MINE);
@@ -212,7 +212,7 @@ describe("machines of the user's own", () => {
     await call("POST", `/jobs/${id}/cancel`);
   });
 
-  it("are refused when they cannot be, or would take the place of one that comes with plotwright", async () => {
+  it("are refused if they are invalid, or would replace a built-in one", async () => {
     const put = async (id: string, machine: unknown) => fault(await call("PUT", `/machines/${id}`, machine));
     expect(await put("axidraw-v3", { ...MINE, id: "axidraw-v3" })).toMatchObject({ status: 409 });
     expect(await put("other", MINE)).toMatchObject({
@@ -231,7 +231,7 @@ describe("machines of the user's own", () => {
     });
   });
 
-  it("in a file that is broken are named in the log and skipped", async () => {
+  it("in a broken file are named in the log and skipped", async () => {
     await server.close();
     mkdirSync(join(dataDir, "machines"), { recursive: true });
     writeFileSync(join(dataDir, "machines/broken.json"), "{");

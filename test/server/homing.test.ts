@@ -5,7 +5,7 @@ import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
-/** All inputs of the virtual board are its button: one switch for both axes, pressed beyond these places. */
+/** All inputs of the virtual board are its button: one switch for both axes, pressed beyond these positions. */
 const SWITCH_X_MM = -7.3;
 const SWITCH_Y_MM = -4.1;
 const HOMING = { port: "B", pin: 0, pressed: 0 } as const;
@@ -30,10 +30,10 @@ async function newPlotter(pressed: (x: number, y: number) => boolean) {
 }
 
 describe("a machine with switches", () => {
-  it("finds home by them, each axis by itself, and counts from there", async () => {
+  it("finds home with them, one axis at a time, and counts from there", async () => {
     let seen = { x: 0, y: 0 };
     const { world, driver, board } = await newPlotter((x, y) => {
-      // Home sets the counters to 0: the last place before that is where it stands.
+      // Home sets the counters to 0: the last position before that is where it is.
       if (x !== 0 || y !== 0) seen = { x, y };
       return x < SWITCH_X_MM || y < SWITCH_Y_MM;
     });
@@ -46,7 +46,7 @@ describe("a machine with switches", () => {
     expect(driver.state).toMatchObject({ xMm: 10, yMm: 5 });
   });
 
-  it("says so when no switch is met, or one stays pressed", async () => {
+  it("reports a switch that is not met, and one that stays pressed", async () => {
     const failure = async (pressed: boolean): Promise<string> => {
       const { world, driver } = await newPlotter(() => pressed);
       return world
@@ -54,7 +54,7 @@ describe("a machine with switches", () => {
         .then(() => "done")
         .catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
     };
-    expect(await failure(false)).toMatch(/^board-error: .* went 330 mm along x and met no switch/);
+    expect(await failure(false)).toMatch(/^board-error: .* moved 330 mm along x and met no switch/);
     expect(await failure(true)).toMatch(/^board-error: The switch of x \(B0\) stays pressed/);
   });
 });

@@ -40,7 +40,7 @@ async function fault(response: Response): Promise<{ status: number; code: string
 }
 
 describe("the HTTP interface", () => {
-  it("takes a job as JSON, shows it in the state, and gives its drawing back as plain text to be saved", async () => {
+  it("takes a job as JSON, shows it in the state, and returns its drawing as plain text to download", async () => {
     const job = await add('fern "<b>".svg');
     const state = snapshotSchema.parse(await (await call("GET", "/state")).json());
     expect(state.jobs).toEqual([job]);
@@ -107,7 +107,7 @@ describe("the HTTP interface", () => {
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
-  it("carries a job through start, pause, resume, cancel and requeue", async () => {
+  it("takes a job through start, pause, resume, cancel and requeue", async () => {
     const { id } = await add("fern");
     const act = async (name: string): Promise<Job> =>
       jobSchema.parse(await (await call("POST", `/jobs/${id}/${name}`)).json());
@@ -185,13 +185,13 @@ describe("the HTTP interface", () => {
     }
   });
 
-  it("keeps a connection for the next request longer than a busy computer stops a program for", async () => {
+  it("keeps a connection open longer than a busy computer may suspend a program", async () => {
     const { headers } = await call("GET", "/state");
     const [, keptS] = /timeout=(\d+)/.exec(headers.get("keep-alive") ?? "") ?? [];
     expect(Number(keptS)).toBeGreaterThanOrEqual(60);
   });
 
-  it("answers in one form to whatever it does not understand", async () => {
+  it("answers in one form to every invalid request", async () => {
     expect(await fault(await call("GET", "/nothing"))).toMatchObject({ status: 404, code: "not-found" });
     expect(await fault(await call("POST", "/jobs", { name: "x" }))).toMatchObject({ status: 400 });
     expect(await fault(await fetch(`${app.url}/api/v1/jobs`, { method: "POST" }))).toMatchObject({
@@ -209,7 +209,7 @@ describe("the HTTP interface", () => {
     expect(await fault(await call("GET", "/jobs/%ff"))).toMatchObject({ status: 400 });
   });
 
-  it("hides its own faults from the page and writes them in the log", async () => {
+  it("hides internal errors from the page and logs them", async () => {
     await app.close();
     app = await startApp({
       planning: { ...LED_PLANNING, measure: () => Promise.reject(new Error("secret path /home/x")) },
@@ -227,7 +227,7 @@ describe("the HTTP interface", () => {
     expect(app.logged.join("\n")).toMatch(/POST .*secret path/);
   });
 
-  it("refuses what planning refuses, with its words, and leaves queue and disk as they were", async () => {
+  it("refuses what planning refuses, with its message, and leaves queue and disk unchanged", async () => {
     await app.close();
     app = await startApp({
       planning: {
@@ -253,7 +253,7 @@ describe("the guard", () => {
       request.end();
     });
 
-  it("answers to addresses, localhost and given names only", async () => {
+  it("answers only to addresses, localhost and configured names", async () => {
     const { port } = new URL(app.url);
     for (const host of [
       `127.0.0.1:${port}`,
@@ -301,7 +301,7 @@ describe("the guard", () => {
     expect(app.plotter.asked).toEqual([]);
   });
 
-  it("sets a policy that lets in no foreign script, frame or form", async () => {
+  it("sets a policy that allows no foreign script, frame or form", async () => {
     const { headers } = await fetch(`${app.url}/api/v1/state`);
     const policy = headers.get("content-security-policy") ?? "";
     expect(policy).toContain("script-src 'self';");
@@ -312,7 +312,7 @@ describe("the guard", () => {
     expect(headers.get("x-powered-by")).toBeNull();
   });
 
-  it("refuses uploads over the limit, whole or streamed, and goes on serving", async () => {
+  it("refuses uploads over the limit, whole or streamed, and keeps serving", async () => {
     const large = "x".repeat(3_100_000);
     const file = await fetch(`${app.url}/api/v1/jobs`, { method: "POST", body: large });
     expect(await fault(file)).toMatchObject({ status: 413, code: "too-large" });
@@ -332,7 +332,7 @@ describe("the guard", () => {
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
-  it("survives an upload that breaks off, and keeps nothing of it", async () => {
+  it("survives an upload that is cut off, and stores nothing of it", async () => {
     const { port } = new URL(app.url);
     await new Promise<void>((resolve) => {
       const socket = connect(Number(port), "127.0.0.1", () => {

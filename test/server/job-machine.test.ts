@@ -20,7 +20,7 @@ const event: fc.Arbitrary<JobEvent> = fc.constantFrom<JobEvent>(
 );
 
 describe("a job", () => {
-  it("is in a known state, with times that fit it, after any events", () => {
+  it("is in a known state, with times that match it, after any events", () => {
     fc.assert(
       fc.property(fc.array(event, { maxLength: 30 }), (events) => {
         let job: Job = makeJob("a");
@@ -44,7 +44,7 @@ describe("a job", () => {
     );
   });
 
-  it("can be ended by cancelling from every state that is not an end, and queued again from every end", () => {
+  it("can be cancelled from every state that is not an end, and queued again from every end", () => {
     for (const state of JOB_STATES) {
       const isEnd = ENDED_STATES.includes(state);
       expect(TRANSITIONS.cancel.from.includes(state)).toBe(!isEnd);
@@ -52,13 +52,13 @@ describe("a job", () => {
     }
   });
 
-  it("says in words why an event can't happen", () => {
+  it("explains why an event can't happen", () => {
     expect(() => applyJobEvent(makeJob("a", { name: "Fern" }), { type: "hold" }, NOW)).toThrow(
       `"Fern" is queued, so it can't be paused now.`,
     );
   });
 
-  it("begins afresh when it is queued again", () => {
+  it("starts fresh when it is queued again", () => {
     const done = applyJobEvent(applyJobEvent(makeJob("a"), { type: "start" }, NOW), { type: "finish" }, NOW);
     const again = applyJobEvent({ ...done, elapsedS: 12, remainingS: 0 }, { type: "requeue" }, NOW);
     expect(again).toMatchObject({

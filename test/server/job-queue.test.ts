@@ -44,7 +44,7 @@ function openQueue(planning: Planning = LED_PLANNING, claims?: Claims): void {
     files: new DrawingFiles(dir, 1_000_000),
     planning,
     plotters: new Map([[plotter.id, plotter]]),
-    // What is announced is on disk already, unless it says that the disk takes nothing.
+    // What is announced is already on disk, unless the disk is reported as full.
     announce: (event) => {
       const isUnsaved = event.type === "job" && event.job.message?.includes(DISK_FULL) === true;
       if (event.type === "job" && !isUnsaved) expect(store.jobs()).toContainEqual(event.job);
@@ -62,7 +62,7 @@ const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resol
 const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state}`);
 
 describe("the queue", () => {
-  it("plots a job through progress and hold to its end, telling each step", async () => {
+  it("plots a job through progress and hold to its end, announcing each step", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -84,7 +84,7 @@ describe("the queue", () => {
     );
   });
 
-  it("tells what the failure was, keeps the rest of the queue, and can plot again", async () => {
+  it("reports the failure, keeps the rest of the queue, and can plot again", async () => {
     const first = await add("fern");
     await add("moss");
     await queue.start(first.id);
@@ -110,7 +110,7 @@ describe("the queue", () => {
     expect(queue.get(second.id).state).toBe("queued");
   });
 
-  it("gives up its claim on a job that servers share where the board goes before it begins", async () => {
+  it("releases its claim on a shared job if the board disappears before it begins", async () => {
     const asked: string[] = [];
     await queue.close();
     store.close();
@@ -125,7 +125,7 @@ describe("the queue", () => {
     const { id } = await add("fern");
     await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
     expect(asked).toEqual([`claim ${id}`, `release ${id}`]);
-    // Without a board nobody is asked at all.
+    // Without a board, no claim is made.
     await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
     expect(asked.length).toBe(2);
     expect(names()).toEqual(["fern queued"]);
@@ -168,7 +168,7 @@ describe("the queue", () => {
     expect(events).toEqual([]);
   });
 
-  it("marks what was plotting as interrupted after a restart, and keeps the others' order", async () => {
+  it("marks the running plot as interrupted after a restart, and keeps the others' order", async () => {
     const jobs = [await add("fern"), await add("moss"), await add("ivy")];
     queue.move(jobs[2].id, jobs[1].id);
     await queue.start(jobs[0].id);
@@ -179,7 +179,7 @@ describe("the queue", () => {
     expect(queue.get(jobs[0].id).message).toBe(SERVER_STOPPED);
   });
 
-  it("takes an interrupted job up where the journal says, held, and the place can be moved", async () => {
+  it("resumes an interrupted job at the journal's place, held, and the place can be moved", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();
@@ -205,6 +205,36 @@ describe("the queue", () => {
     run.end({ kind: "done" });
     await settled();
     expect(queue.get(id).state).toBe("done");
+  });
+
+  it("starts where it was told to, held there until it is resumed", async () => {
+    const from = { strokeIndex: 1, alongMm: 0 };
+    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern"), from };
+    const { id, place } = await queue.add(wanted);
+    expect(place).toEqual(from);
+    expect(queue.duplicate(id).place).toBe(null);
+    await queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    expect([run.asked, run.holdPlace]).toEqual([["pause"], { stroke: 1, alongMm: 0 }]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: from });
+    queue.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.requeue(id).place).toBe(null);
+  });
+
+  it("keeps the layout that the number of its first stroke means, and has that stroke", async () => {
+    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern") };
+    const { id } = await queue.add({ ...wanted, from: { strokeIndex: 1, alongMm: 0 } });
+    const { prepare, pen } = DEFAULT_PLOT_SETTINGS;
+    const moved = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, marginMm: 40 } };
+    await expect(queue.patch(id, { settings: moved })).rejects.toThrow("starts at stroke 2");
+    const lower = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 20 } };
+    expect((await queue.patch(id, { settings: lower })).place).toEqual({ strokeIndex: 1, alongMm: 0 });
+    const beyond = { ...wanted, drawing: drawingOf("moss"), from: { strokeIndex: 1e6, alongMm: 0 } };
+    await expect(queue.add(beyond)).rejects.toThrow("strokes, so it can't start at number");
   });
 
   it("takes a cancelled job up from where it was cancelled, held", async () => {
@@ -278,7 +308,7 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 3, alongMm: 4.5 } });
   });
 
-  it("begins at the beginning when it is plotted again, though it is interrupted before it draws", async () => {
+  it("begins at the beginning when it is plotted again, if it is interrupted before it draws", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
@@ -292,7 +322,7 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "interrupted", place: null });
   });
 
-  it("plots on with a full disk, and says once that it can't write", async () => {
+  it("continues plotting with a full disk, and reports once that it can't write", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -311,7 +341,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
-  it("knows after a kill how far a job had come, and nothing moves before the user's word", async () => {
+  it("knows after a kill how far a job had come, and nothing moves until the user asks", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
@@ -324,7 +354,7 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "queued", place: null });
   });
 
-  it("keeps heights and speeds that were changed while plotting", async () => {
+  it("stores heights and speeds that were changed while plotting", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     await plotter.nextRun();
@@ -336,7 +366,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
-  it("makes copies that share the drawing, right behind the one they are of", async () => {
+  it("makes copies that share the drawing, right behind the original", async () => {
     const fern = await add("fern");
     await add("moss");
     const copy = queue.duplicate(fern.id);
@@ -350,7 +380,7 @@ describe("the queue", () => {
     expect(queue.drawingPath(copy.id)).toMatch(/\.svg$/);
   });
 
-  it("waits between jobs for the paper, or runs on when it is told to", async () => {
+  it("waits between jobs for the paper, or continues automatically if configured", async () => {
     const [a, b] = [await add("fern"), await add("moss")];
     await queue.start(a.id);
     (await plotter.nextRun()).end({ kind: "done" });
@@ -389,7 +419,7 @@ describe("the queue", () => {
     expect(events.at(-1)).toEqual({ type: "job-removed", id });
   });
 
-  it("agrees with a simple list on what is queued and in which order, whatever is asked of it", async () => {
+  it("agrees with a simple list on the queued jobs and their order, after any requests", async () => {
     const step = fc.record({
       ask: fc.constantFrom("add", "move", "remove", "start", "end", "fail", "cancel", "requeue", "reopen"),
       at: fc.nat(7),
@@ -398,7 +428,7 @@ describe("the queue", () => {
     await fc.assert(
       fc.asyncProperty(fc.array(step, { maxLength: 25 }), async (steps) => {
         await startAfresh();
-        // The model: ids of what is not ended in order, the one that plots, and what has ended.
+        // The model: ids of unfinished jobs in order, the one that plots, and the finished ones.
         let open: string[] = [];
         let plotting: string | null = null;
         let ended: string[] = [];
@@ -445,7 +475,7 @@ describe("the queue", () => {
           if (ask === "reopen") {
             store.close();
             openQueue();
-            // Interrupted, and the user gives it up.
+            // Interrupted, and the user discards it.
             if (plotting !== null) queue.cancel(plotting);
             if (plotting !== null) ended.push(plotting);
             open = open.filter((id) => id !== plotting);

@@ -1,4 +1,4 @@
-/** Stops that a plot makes by itself, and how long plots are expected to take. */
+/** Stops that a plot makes by itself, and the expected duration of plots. */
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -44,7 +44,7 @@ function openQueue(): void {
     nowIso: () => new Date(nowMs).toISOString(),
   });
 }
-/** As after a kill: nothing is closed in order. */
+/** As after a kill: nothing is closed properly. */
 function crash(): void {
   store.close();
   openQueue();
@@ -63,7 +63,7 @@ async function plot(id: string, tookS: number): Promise<void> {
 }
 
 describe("a stop for a pen", () => {
-  it("holds the job with what it waits for, on disk too, until somebody resumes it", async () => {
+  it("holds the job with the pen that it waits for, on disk too, until somebody resumes it", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -79,7 +79,7 @@ describe("a stop for a pen", () => {
     expect(queue.get(id)).toMatchObject({ state: "paused", wait: null });
   });
 
-  it("is asked for again after a crash, and not once it was answered", async () => {
+  it("is asked for again after a crash, but not after it was answered", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -117,7 +117,7 @@ describe("a stop for a pen", () => {
     expect(queue.requeue(id).wait).toBeNull();
   });
 
-  it("is left out of the time that the plot took", async () => {
+  it("is not counted in the time that the plot took", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -136,7 +136,7 @@ describe("a stop for a pen", () => {
 describe("the progress of a plot", () => {
   const part = { progress: 0.25, elapsedS: 3, remainingS: 9 };
 
-  it("is what it was at its place, after a kill too, and stays when the job is taken up again", async () => {
+  it("equals that at its place, after a kill too, and stays when the job is resumed", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
@@ -161,7 +161,7 @@ describe("the progress of a plot", () => {
     });
   });
 
-  it("stays as it is where the journal of an older version does not say it", async () => {
+  it("stays unchanged if the journal of an older version does not have it", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     store.saveJournal(id, { place: { stroke: 1, alongMm: 7 } });
@@ -171,7 +171,7 @@ describe("the progress of a plot", () => {
 });
 
 describe("the expected time", () => {
-  it("is the plan's at first, then follows what the plotter's plots really took; that of ended jobs stays", async () => {
+  it("is the plan's at first, then follows the real times of the plotter's plots; that of ended jobs stays", async () => {
     const [first, second] = [await add("a"), await add("b")];
     expect(first.expectedS).toBe(STATS.durationS);
     await plot(first.id, STATS.durationS * 1.25);
@@ -185,7 +185,7 @@ describe("the expected time", () => {
     expect(queue.get(second.id).expectedS).toBeCloseTo(STATS.durationS * 1.25, 6);
   });
 
-  it("takes the middle of a plotter's own ended plots, and leaves out what is of another kind", () => {
+  it("uses the median of the plotter's own finished plots, and excludes plots of another kind", () => {
     const done = (took: number, more: Partial<Job> = {}): Job =>
       makeJob(String(took), { state: "done", plottedS: STATS.durationS * took, ...more });
     expect(timeRatio([], "virtual")).toBe(1);

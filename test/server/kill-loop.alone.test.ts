@@ -1,6 +1,6 @@
 /**
- * The real server process, killed without warning again and again while jobs are added, moved, removed and
- * plotted over HTTP. What it has answered holds after every restart: no job lost, none twice, order kept.
+ * The real server process, killed without warning many times while jobs are added, moved, removed and plotted
+ * over HTTP. What it has answered holds after every restart: no job is lost or doubled, and the order stays.
  *
  * 100 times in the full run; PLOTWRIGHT_KILLS=20 sets the count.
  */
@@ -21,22 +21,22 @@ const lines = (count: number): string =>
 const SHORT = lines(2);
 const LONG = lines(200);
 
-/** One thing asked of the server, and what it makes of the order of all jobs that were ever taken. */
+/** One request to the server, and its effect on the order of all jobs ever accepted. */
 interface Action {
   readonly method: string;
   readonly path: string;
   readonly body?: string;
   readonly isJson?: boolean;
-  /** `answer`: the body of a 2xx answer; null when the server was killed before it could answer. */
+  /** `answer`: the body of a 2xx answer; null if the server was killed before it could answer. */
   readonly becomes: (order: readonly string[], answer: Job | null) => readonly string[];
 }
 
 class Client {
-  /** Ids in queue order, those that have ended since too. */
+  /** Ids in queue order, including those that have ended since. */
   order: readonly string[] = [];
-  /** What the order may be instead: the request under way when the server was killed. */
+  /** The alternative order, if the request in progress took effect when the server was killed. */
   maybe: readonly string[] | null = null;
-  /** Its name may be there once, with an id that was not told. */
+  /** Its name may be there once, with an unknown id. */
   maybeName: string | null = null;
   readonly removed = new Set<string>();
   maybeRemoved: string | null = null;
@@ -61,7 +61,7 @@ class Client {
     return snapshotSchema.parse(await (await fetch(`${this.url}/api/v1/state`)).json()).jobs;
   }
 
-  /** Waits, not for ever, until nothing is being plotted. */
+  /** Waits, with a limit, until nothing is plotting. */
   async plotted(): Promise<void> {
     for (let look = 0; look < 50; look++) {
       if (!(await this.state()).some(({ state }) => state === "plotting")) return;
@@ -69,7 +69,7 @@ class Client {
     }
   }
 
-  /** Something that a user may do, given how the jobs stand. */
+  /** An action that a user may do in the current state of the jobs. */
   choose(jobs: readonly Job[]): Action {
     const queued = jobs.filter(({ state }) => state === "queued");
     const any = queued[this.below(queued.length)];
@@ -84,7 +84,7 @@ class Client {
     return this.#move(any.id, this.below(3) === 0 ? null : (queued[this.below(queued.length)]?.id ?? null));
   }
 
-  /** Returns false when the server went before it answered: then both may be. */
+  /** Returns false if the server ended before it answered: then both orders are possible. */
   async carryOut({ method, path, body, isJson, becomes }: Action): Promise<boolean> {
     const name = method === "POST" && body !== undefined && isJson !== true ? this.#lastName() : null;
     const removed = method === "DELETE" ? path.replace("/jobs/", "") : null;
@@ -109,7 +109,7 @@ class Client {
     }
   }
 
-  /** Has one job plotted to its end, whatever became of it before. */
+  /** Plots one job to its end, whatever happened to it before. */
   async finishOne(): Promise<void> {
     for (let tries = 0; tries < 100 && this.done.size === 0; tries++) {
       const jobs = await this.state();
@@ -123,7 +123,7 @@ class Client {
     }
   }
 
-  /** Compares what the server has after its restart, and goes on from there. */
+  /** Compares the server's jobs after its restart, and continues from there. */
   check(jobs: readonly Job[]): void {
     const known = new Set(this.order);
     const strangers = jobs.filter(({ id }) => !known.has(id));
@@ -216,14 +216,14 @@ describe("a server that is killed without warning", () => {
     async () => {
       let cutOffCount = 0;
       const isEnough = (): boolean => cutOffCount > KILL_COUNT / 10;
-      // Whether a kill meets a request that is under way is chance: some more where too few have.
+      // Whether a kill meets a request in progress is random: a few more if there were too few.
       for (let kill = 0; kill < KILL_COUNT || (kill < 4 * KILL_COUNT && !isEnough()); kill++) {
         for (let step = client.below(7); step > 0; step--) {
           expect(await client.carryOut(client.choose(await client.state()))).toBe(true);
         }
-        // Every other time what is being plotted is given the time to end.
+        // Every other time the running plot gets time to end.
         if (kill % 2 === 0) await client.plotted();
-        // The last request is under way when the server goes: at once, or somewhere in the middle of it.
+        // The last request is in progress when the server is killed, at its beginning or in the middle.
         const last = client.carryOut(client.choose(await client.state()));
         await new Promise((resolve) =>
           setTimeout(resolve, client.below(4) === 0 ? client.below(150) : client.below(12)),

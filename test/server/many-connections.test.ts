@@ -1,4 +1,4 @@
-/** Connections that others collect: whoever may stop the plot must always get one. */
+/** Connections that others hold open: a client that may stop the plot must always get one. */
 import { once } from "node:events";
 import { request as httpRequest } from "node:http";
 import { connect, type Socket } from "node:net";
@@ -35,7 +35,7 @@ interface Answer {
   readonly text: string;
 }
 
-/** On a connection of its own, as the paired device unless told. */
+/** On its own connection, as the paired device by default. */
 function send(path: string, method: string, headers: Record<string, string>, body = ""): Promise<Answer> {
   const { hostname, port } = new URL(app.url);
   return new Promise((resolve, reject) => {
@@ -57,7 +57,7 @@ function send(path: string, method: string, headers: Record<string, string>, bod
 const post = (path: string, body = ""): Promise<Answer> =>
   send(`/api/v1${path}`, "POST", { Cookie: cookie }, body);
 
-/** Opens connections from an address and keeps them as long as the server does. */
+/** Opens connections from an address and holds them as long as the server does. */
 async function hold(count: number, localAddress: string, text: string): Promise<void> {
   const { hostname, port } = new URL(app.url);
   for (let i = 0; i < count; i++) {
@@ -76,7 +76,7 @@ describe("while a stranger holds a thousand connections", () => {
   for (const [what, text] of [
     ["that were refused", refused],
     ["that ask for the page", page],
-    ["that say nothing", ""],
+    ["that send nothing", ""],
     [
       "that never end their request",
       "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 9\r\n",
@@ -95,7 +95,7 @@ describe("while a stranger holds a thousand connections", () => {
   }
 
   it(
-    "from many addresses, an emergency stop is answered, and a connection of a paired device is kept",
+    "from many addresses, an emergency stop is answered, and a connection of a paired device stays open",
     async () => {
       const watching = httpRequest(`${app.url}/api/v1/events`, { headers: { Cookie: cookie }, agent: false });
       watching.end();
@@ -113,7 +113,7 @@ describe("while a stranger holds a thousand connections", () => {
 });
 
 describe("a connection", () => {
-  it("ends with the answer for a stranger, and is kept for a paired device", async () => {
+  it("ends with the answer for a stranger, and stays open for a paired device", async () => {
     const stranger = await send("/api/v1/state", "GET", { Connection: "keep-alive" });
     expect([stranger.status, stranger.connection]).toEqual([403, "close"]);
     const paired = await send("/api/v1/state", "GET", { Connection: "keep-alive", Cookie: cookie });

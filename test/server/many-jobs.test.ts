@@ -1,4 +1,7 @@
-/** What the queue does when a plot ends must not grow with the number of waiting jobs: other plotters plot meanwhile. */
+/**
+ * The queue's work at the end of a plot must not grow with the number of waiting jobs: other plotters are
+ * plotting meanwhile.
+ */
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -17,7 +20,7 @@ afterEach(() => vi.restoreAllMocks());
 
 const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
-/** Plots one job with `waitingCount` others behind it: what was asked of the store at its end, and announced. */
+/** Plots one job with `waitingCount` others behind it: the store calls and events at its end. */
 async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; announced: string[] }> {
   const dir = mkdtempSync(join(tmpdir(), "plotwright-many-"));
   prepareDataDir(dir);
@@ -58,7 +61,7 @@ async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; annou
   }
 }
 
-/** The names of the store's methods, as they are called. */
+/** The names of the store's methods, in the order of the calls. */
 function spyOnStore(): string[] {
   const calls: string[] = [];
   const methods = Object.entries(Object.getOwnPropertyDescriptors(Store.prototype));
@@ -74,7 +77,7 @@ function spyOnStore(): string[] {
 }
 
 describe("the end of a plot", () => {
-  it("asks as much of the store with 1 000 waiting jobs as with 3, and announces as often", async () => {
+  it("makes as many store calls with 1 000 waiting jobs as with 3, and sends as many events", async () => {
     const few = await endOfPlot(3);
     const many = await endOfPlot(1_000);
     expect(few.announced.filter((type) => type === "expected")).toHaveLength(1);

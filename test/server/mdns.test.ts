@@ -1,4 +1,7 @@
-/** plotwright.local, on a network inside this process: what is announced is found, and taken back in the end. */
+/**
+ * plotwright.local, on a network inside this process: what is announced can be found, and is withdrawn at the
+ * end.
+ */
 import { EventEmitter } from "node:events";
 import { Bonjour, type Service } from "bonjour-service";
 import multicastDns, { type MulticastDns } from "multicast-dns";
@@ -8,7 +11,7 @@ import { answerTo, recordsOf } from "../../server/plugins/local-name/service-rec
 
 type Sent = (error: Error | null) => void;
 
-/** As much of a UDP socket as mDNS uses; what one sends, all others of its network hear. */
+/** The part of a UDP socket that mDNS uses; what one sends, all others on its network receive. */
 class Line extends EventEmitter {
   constructor(
     private readonly network: Set<Line>,
@@ -55,7 +58,7 @@ const found = (phone: Bonjour, type: string): Promise<Service> =>
 const NETWORK = (): Set<Line> => new Set<Line>();
 const PACE = { probeIntervalMs: 5, yieldMs: 50 };
 
-/** A server on a network; `names` are those that it had, one after the other. */
+/** A server on a network; `names` are those that it had, in order. */
 class Announcer {
   readonly names: (string | null)[] = [];
   readonly logged: string[] = [];
@@ -94,7 +97,7 @@ class Announcer {
   }
 }
 
-/** A device that says what it likes, as packets. */
+/** A device that sends arbitrary packets. */
 const stranger = (network: Set<Line>): MulticastDns => multicastDns({ socket: new Line(network) });
 
 describe("the name on the network", () => {
@@ -113,7 +116,7 @@ describe("the name on the network", () => {
     expect(network.size).toBe(0);
   });
 
-  it("is taken back when the server stops", async () => {
+  it("is withdrawn when the server stops", async () => {
     const network = NETWORK();
     const phone = new Bonjour({ socket: new Line(network) } as object);
     const seen = phone.find({ type: "http" });
@@ -126,7 +129,7 @@ describe("the name on the network", () => {
   });
 
   it.each(["EADDRINUSE", "EACCES", "ENETUNREACH"])(
-    "disturbs nothing where the system refuses, and says so once: %s",
+    "does no harm if the system refuses, and reports that once: %s",
     async (code) => {
       const fault = Object.assign(new Error(`bind ${code}`), { code });
       const server = new Announcer(new Line(new Set(), fault));
@@ -169,7 +172,7 @@ describe("the answer to a question", () => {
 });
 
 describe("two servers on one network", () => {
-  it("have two names: the second says that the first is taken, and which one it has", async () => {
+  it("have two names: the second reports that the first is taken, and which one it has", async () => {
     const network = NETWORK();
     const first = new Announcer(new Line(network));
     await first.named("plotwright.local");
@@ -185,7 +188,7 @@ describe("two servers on one network", () => {
     for (const { local } of [first, second, third]) await local.close();
   });
 
-  it("have two names when they ask in the same instant", async () => {
+  it("have two names if they probe in the same instant", async () => {
     const network = NETWORK();
     const servers = [9080, 9081, 9082].map((port) => new Announcer(new Line(network), { port }));
     await Promise.all(servers.map((server) => server.until(({ local }) => local.name !== null)));
@@ -193,14 +196,14 @@ describe("two servers on one network", () => {
     for (const { local } of servers) await local.close();
   });
 
-  it("have two names when the networks of both are joined later", async () => {
+  it("have two names if their networks are joined later", async () => {
     const [here, there] = [NETWORK(), NETWORK()];
     const lines = [new Line(here), new Line(there)] as const;
     const servers = lines.map((line, index) => new Announcer(line, { port: 9080 + index }));
     await Promise.all(servers.map((server) => server.named("plotwright.local")));
     here.add(lines[1]);
     there.add(lines[0]);
-    // Somebody asks for the name, so that each hears what the other says to that.
+    // Somebody queries the name, so that each receives the other's answer.
     const phone = new Bonjour({ socket: new Line(here) } as object);
     phone.find({ type: "http" });
     await Promise.race(servers.map((server) => server.until(({ names }) => names.includes(null))));
@@ -211,7 +214,7 @@ describe("two servers on one network", () => {
     for (const { local } of servers) await local.close();
   });
 
-  it("keep their own names over a power cut, whoever is back first", async () => {
+  it("keep their own names over a power cut, whichever is back first", async () => {
     const network = NETWORK();
     const second = new Announcer(new Line(network), { port: 9081, last: "plotwright-2.local" });
     await second.named("plotwright-2.local");
@@ -220,14 +223,14 @@ describe("two servers on one network", () => {
     for (const { local } of [first, second]) await local.close();
   });
 
-  it("do not take a stored name that is none of these", async () => {
+  it("do not use a stored name of an unknown form", async () => {
     const server = new Announcer(new Line(NETWORK()), { last: "evil.example.local" });
     await server.until(({ local }) => local.name !== null);
     expect(server.local.name).toBe("plotwright.local");
     await server.local.close();
   });
 
-  it("are not disturbed by a device that takes back the name, nor by one of another name", async () => {
+  it("are not disturbed by a device that withdraws the name, nor by one with another name", async () => {
     const network = NETWORK();
     const server = new Announcer(new Line(network));
     await server.named("plotwright.local");

@@ -10,7 +10,7 @@ import { Store } from "../../server/storage/store.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { LedPlotter } from "./support/fakes.js";
 
-/** Ways over the page on which travel at 1 000 mm/s² saves time. */
+/** Travel across the page on which 1 000 mm/s² saves time. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200">
   <path fill="none" stroke="black" d="M20 20h30 M150 150h30 M20 170h30 M150 30h30"/></svg>`;
 
@@ -47,15 +47,15 @@ async function add(plotterId: string): Promise<Job> {
 }
 const durationS = (job: Job): number => job.stats?.durationS ?? NaN;
 
-describe("the time told of a job", () => {
-  it("is that of its plotter's board: one before 2.5.3 speeds up more gently", async () => {
+describe("the estimated time of a job", () => {
+  it("is that of its plotter's board: one before 2.5.3 accelerates more gently", async () => {
     const [forRecent, forOld, forUnknown] = [await add("recent"), await add("old"), await add("unknown")];
     expect(durationS(forOld)).toBeGreaterThan(1.01 * durationS(forRecent));
     expect(forOld.expectedS).toBe(durationS(forOld));
     expect(durationS(forUnknown)).toBe(durationS(forRecent));
   });
 
-  it("is told anew when the job is moved to a board that moves otherwise", async () => {
+  it("is computed again when the job is moved to a board that moves differently", async () => {
     const [forRecent, forOld] = [await add("recent"), await add("old")];
     const moved = await queue.patch(forRecent.id, { plotterId: "old" });
     expect(durationS(moved)).toBe(durationS(forOld));

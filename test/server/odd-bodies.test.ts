@@ -1,4 +1,4 @@
-/** Bodies and names that are made to trouble the server: each gets its answer, and none is kept as it came. */
+/** Bodies and names made to trouble the server: each gets an answer, and none is stored unchanged. */
 import { gzipSync } from "node:zlib";
 import { request as httpRequest } from "node:http";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -32,14 +32,14 @@ const fault = async (response: Response) => {
 };
 
 describe("a body", () => {
-  it("is not read for a queue that there is not", async () => {
+  it("is not read for a queue that does not exist", async () => {
     const bomb = Buffer.from(gzipSync(Buffer.from(`{"a":"${"x".repeat(45_000_000)}"}`)));
     const answer = await fault(await send("POST", "/shared-jobs", bomb, { "Content-Encoding": "gzip" }));
     expect(answer).toMatchObject({
       status: 404,
       message: expect.stringMatching(/no shared queue/) as string,
     });
-    // The answer is there before the body has come.
+    // The answer is sent before the body has arrived.
     const { hostname, port } = new URL(app.url);
     const headers = { "Content-Type": "application/json", "Content-Length": "40000000" };
     const status = await new Promise<number | undefined>((resolve, reject) => {
@@ -57,7 +57,7 @@ describe("a body", () => {
     expect(status).toBe(404);
   });
 
-  it("of layers without end is refused, in a job and in a change", async () => {
+  it("with endless layers is refused, in a job and in a change", async () => {
     const many = (count: number, value: unknown): object =>
       Object.fromEntries(Array.from({ length: count }, (_, i) => [`layer ${i}`, value]));
     const settings = { ...DEFAULT_PLOT_SETTINGS, layerPens: many(10_500, "a") };
@@ -81,7 +81,7 @@ describe("a body", () => {
     expect(app.queue.list()).toHaveLength(1);
   });
 
-  it("that is nested without end is refused in words, small or large", async () => {
+  it("nested without end is refused with an explanation, small or large", async () => {
     for (const [depth, status, code] of [
       [100_000, 400, "bad-setting"],
       [9_000_000, 413, "too-large"],
@@ -101,7 +101,7 @@ describe("a body", () => {
 });
 
 describe("a name", () => {
-  it("comes without what could forge a line of the log or can't be written", async () => {
+  it("is stored without characters that could forge a log line or can't be written", async () => {
     const evil = "a\nrefused GET / from 1.2.3.4\u001b[2Jb\u0000\u202ec\u2028";
     const clean = "a refused GET / from 1.2.3.4 [2Jb c";
     const job = jobSchema.parse(await (await send("POST", "/jobs", newJob({ name: evil }))).json());
@@ -119,7 +119,7 @@ describe("a name", () => {
     expect(app.logged.join("")).not.toMatch(/[\n\u001b\u0000\u202e]/);
   });
 
-  it("with half a character in it is answered like any other, its drawing too", async () => {
+  it("with half a surrogate pair is answered like any other, and so is its drawing", async () => {
     const half = String.fromCharCode(0xd83d);
     for (const name of [`a${half}b`, half, `${"a".repeat(199)}🖊`]) {
       const answer = await send("POST", "/jobs", newJob({ name: name.slice(0, 200) }));
@@ -148,7 +148,7 @@ describe("a name", () => {
 });
 
 describe("a page of another site", () => {
-  it("is refused in whatever letters it writes the path", async () => {
+  it("is refused however it spells the path", async () => {
     for (const path of ["/api/v1/state", "/API/v1/state", "/Api/V1/State"]) {
       const response = await fetch(`${app.url}${path}`, { headers: { "Sec-Fetch-Site": "cross-site" } });
       expect([path, response.status]).toEqual([path, 403]);

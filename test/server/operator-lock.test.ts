@@ -1,4 +1,4 @@
-/** One operator at a time: several browsers, each with the cookie that the server gave it. */
+/** One operator at a time: several browsers, each with its own cookie. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { OperatorLock } from "../../server/security/operator-lock.js";
 import {
@@ -112,7 +112,7 @@ describe("the operator lock", () => {
     stream.close();
   });
 
-  it("lapses when its browser has gone, and stays with one that is there", async () => {
+  it("expires when its browser has gone, and stays with one that is present", async () => {
     await app.close();
     app = await startApp({ lapseMs: 100 });
     const [desktop, phone] = [await openBrowser(DESKTOP), await openBrowser(PHONE)];
@@ -128,7 +128,7 @@ describe("the operator lock", () => {
     watching.close();
   });
 
-  it("is nothing that scripts or keys need", async () => {
+  it("is not needed by scripts or keys", async () => {
     const desktop = await openBrowser(DESKTOP);
     const stream = await EventStream.open(app.url, desktop.headers);
     const { id } = await addJob();
@@ -147,7 +147,7 @@ describe("the operator lock", () => {
     stream.close();
   });
 
-  it("shows other browsers no cookie, and tells a forged one from its owner's", async () => {
+  it("shows other browsers no cookie, and recognises a forged one", async () => {
     const desktop = await openBrowser(DESKTOP);
     const stream = await EventStream.open(app.url, desktop.headers);
     const { id } = await addJob();

@@ -1,4 +1,4 @@
-/** Files and settings that would keep a planner busy for hours: each ends with an error that says so. */
+/** Files and settings that would keep a planner busy for hours: each ends with its own error. */
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -12,7 +12,7 @@ import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index
 
 const COUNT = 20_000;
 const range = (count: number): number[] => Array.from({ length: count }, (_, i) => i);
-/** Rules that each element has to be held against: reading it takes more than an hour. */
+/** Many rules to match against each element: reading it takes more than an hour. */
 const SLOW_TO_READ = `<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><style>${range(COUNT)
   .map((i) => `g:not(.a${i}) g:not(.b${i}) path:not(.c${i}){stroke-width:${i}}`)
   .join("")}</style>${"<g>".repeat(50)}${'<path d="M0 0h9"/>'.repeat(COUNT)}${"</g>".repeat(50)}</svg>`;
@@ -51,22 +51,22 @@ async function failure(work: Promise<unknown>): Promise<PlotwrightError> {
 const TOO_MUCH = ["too-large", expect.stringContaining("more memory than is available") as string];
 
 describe("a planner", () => {
-  it("ends reading a file that takes too long", async () => {
+  it("cancels reading a file that takes too long", async () => {
     const limits = { ...PLANNING_LIMITS, importS: 1 };
     const { code, message } = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
     expect(code).toBe("bad-file");
     expect(message).toMatch(/^This file takes too long to read: more than 1 s/);
   }, 60_000);
 
-  it("counts the time to read apart from what the user lets the search for an order take", async () => {
+  it("limits the reading time separately from the time that the user allows for ordering", async () => {
     const limits = { ...PLANNING_LIMITS, importS: 1 };
     const slow = { ...input(SLOW_TO_READ, ORDERED), limits };
     expect((await failure(WorkerPlanner.open(slow))).message).toMatch(/too long to read/);
   }, 60_000);
 
-  it("lets the search for an order take as long as the user wants", async () => {
+  it("lets ordering take as long as the user allows", async () => {
     const settings = { ...ORDERED, prepare: { ...ORDERED.prepare, orderS: 2 } };
-    // Less than the search takes: without the user's own time it would be ended.
+    // Less than ordering takes: without the user's limit it would be cancelled.
     const limits = { ...PLANNING_LIMITS, prepareS: 0.5 };
     const unordered = await failure(
       WorkerPlanner.open({
@@ -82,7 +82,7 @@ describe("a planner", () => {
     expect(stats.strokeCount).toBe(COUNT);
   }, 120_000);
 
-  it("ends planning that takes too long", async () => {
+  it("cancels planning that takes too long", async () => {
     const limits = { ...PLANNING_LIMITS, planS: 0 };
     const error = await failure(measureDrawing({ ...input(SLOW_TO_ORDER), limits }, null));
     expect([error.code, error.message]).toEqual([
@@ -91,21 +91,21 @@ describe("a planner", () => {
     ]);
   }, 60_000);
 
-  it("gives up where memory would run out, and says so", async () => {
+  it("fails with its own error if memory would run out", async () => {
     const limits = { ...PLANNING_LIMITS, heapMb: 64 };
     const groups = `0\nSECTION\n2\nENTITIES\n0\nMTEXT\n${"3\nabc\n".repeat(2_000_000)}0\nENDSEC\n0\nEOF\n`;
     const error = await failure(WorkerPlanner.open({ ...input(groups), limits }));
     expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
 
-  it("gives up where the process grows too far", async () => {
+  it("fails if the process grows too large", async () => {
     const limits = { ...PLANNING_LIMITS, growthMb: 20 };
     const error = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
     expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
 });
 
-it("the command plan ends a file that takes too long to read, with 3", async () => {
+it("the command plan cancels a file that takes too long to read, with exit code 3", async () => {
   const { path, settings } = input(SLOW_TO_READ);
   const out: string[] = [];
   const error = await failure(

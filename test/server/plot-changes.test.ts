@@ -1,4 +1,4 @@
-/** Changes of speeds and heights while a plot runs, and what is asked for right after them. */
+/** Changes of speeds and heights during a plot, and requests right after them. */
 import { describe, expect, it } from "vitest";
 import type { PenSettings, VirtualBoard } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
@@ -20,7 +20,7 @@ const DASHES_MM = 80;
 const [FIRST, SECOND, LAST] = DASHES as [number[], number[], number[]];
 const MORSE = strokesOf(FIRST, [...DOTS[0], ...DOTS[0]], SECOND, [...DOTS[1]], LAST);
 
-/** Everything of MORSE is on the paper, and nothing else. */
+/** All of MORSE is on the paper, and nothing else. */
 function expectMorse(board: VirtualBoard): void {
   const { drawnMm } = board.statistics();
   expect(drawnMm).toBeCloseTo(DASHES_MM, 0);
@@ -33,7 +33,7 @@ function expectMorse(board: VirtualBoard): void {
 }
 
 describe("changes while it runs", () => {
-  it("slows down within a second to the percentage asked for, without leaving the line", async () => {
+  it("slows down within a second to the requested percentage, without leaving the line", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(2);
     const speed = async (): Promise<number> => {
@@ -57,7 +57,7 @@ describe("changes while it runs", () => {
     expectDrawn(board, DRAWING, 0.05);
   });
 
-  it("presses harder at once where the pen is down, and from then on", async () => {
+  it("presses harder at once if the pen is down, and from then on", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(2);
     await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 20 } }));
@@ -68,7 +68,7 @@ describe("changes while it runs", () => {
     expect(board.statistics()).toMatchObject({ underrunCount: 0, penMoveCount: 8 });
   });
 
-  it.each([0, 10, 25])("waits for the servo where the pen is pressed down to %i percent", async (downPct) => {
+  it.each([0, 10, 25])("waits for the servo if the pen is pressed down to %i percent", async (downPct) => {
     const waiting: PenSettings = { ...DEFAULT_PLOT_SETTINGS.pen, overlap: "off" };
     const { world, board, run } = await plotting("junction", DRAWING, "2.8.1", waiting);
     await world.advance(2);
@@ -77,7 +77,7 @@ describe("changes while it runs", () => {
     expect(board.statistics().movesBeforePenArrivedCount).toBe(0);
   });
 
-  it("takes new settings at the hold point while held", async () => {
+  it("applies new settings at the hold point while held", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(2);
     await world.run(run.pause());
@@ -89,7 +89,7 @@ describe("changes while it runs", () => {
     expectDrawn(board, DRAWING, 0.05);
   });
 
-  it.each([0, 1, 2, 3, 4])("can be asked for at any instant, many times (run %i)", async (seed) => {
+  it.each([0, 1, 2, 3, 4])("can be requested at any instant, many times (run %i)", async (seed) => {
     const { world, board, run } = await plotting("junction");
     const random = seeded(seed + 1);
     for (let i = 0; i < 8; i++) {
@@ -102,7 +102,7 @@ describe("changes while it runs", () => {
     expectDrawn(board, DRAWING, 0.05);
   });
 
-  it.each(MOTION_MODES)("draws each stroke once whenever it is asked for, in %s mode", async (mode) => {
+  it.each(MOTION_MODES)("draws each stroke once whenever one is requested, in %s mode", async (mode) => {
     const random = seeded(MOTION_MODES.indexOf(mode) + 1);
     for (let i = 0; i < 50; i++) {
       const { world, board, run } = await plotting(mode, MORSE);
@@ -116,7 +116,7 @@ describe("changes while it runs", () => {
   });
 
   it.each(["pause", "emergencyStop"] as const)(
-    "draws each stroke once whenever a %s comes right after one",
+    "draws each stroke once whenever a %s follows one at once",
     async (stop) => {
       const random = seeded(11);
       for (let i = 0; i < 80; i++) {
@@ -135,7 +135,7 @@ describe("changes while it runs", () => {
     },
   );
 
-  it("ends up at the last of two percentages, however soon it came after the first", async () => {
+  it("ends with the last of two percentages, however soon it followed the first", async () => {
     const line = strokesOf([10, 10, 250, 10]);
     for (let afterS = 0.2; afterS < 0.6; afterS += 0.02) {
       const { world, board, run } = await plotting("junction", line);

@@ -1,6 +1,6 @@
 /**
- * What a plot goes on from when the board has lost its place or has refused a command: nothing is left out, and no more
- * is drawn twice than the board can have drawn since it last said for certain where it was.
+ * Where a plot resumes when the board has lost its position or has refused a command: nothing is left out,
+ * and no more is drawn twice than the board can have drawn since its last certain position.
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../server/plotter/types.js";
@@ -20,11 +20,14 @@ const FIRMWARES = ["2.8.1", "3.0.3"];
 const COUNT = 10;
 const PLOT_S = 8;
 const SPEED_MM_PER_S = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS;
-/** Between two readings of the supply, on a board whose answers wait for the motion before them; and what it has got. */
+/**
+ * Between two readings of the supply, on a board whose replies wait for the motion before them, plus the
+ * motion that it holds.
+ */
 const SUPPLY_INTERVAL_S = 0.25 + 0.3;
 const WINDOW_S = 0.3;
 const MOST_OVERLAP_MM = SPEED_MM_PER_S * (SUPPLY_INTERVAL_S + WINDOW_S);
-/** Drawn beside its place before a board whose parser stands blocked can be stopped. */
+/** Drawn beside the path before a board with a blocked parser can be stopped. */
 const WINDOW_MM = SPEED_MM_PER_S * (WINDOW_S + 0.15);
 const GAP_MM = 0.05;
 
@@ -46,7 +49,7 @@ interface Broken {
   readonly message: string;
 }
 
-/** A plot until it is broken off by what happens at that instant. */
+/** A plot until it is interrupted by an event at that instant. */
 async function brokenOff(
   firmware: string,
   afterS: number,
@@ -75,7 +78,7 @@ async function brokenOff(
   return { world, driver, board, strokes, journal, message };
 }
 
-/** Until it has been planned and has begun. */
+/** Until it is planned and has begun. */
 async function underWay(world: ManualClock, journal: readonly JournalEntry[]): Promise<void> {
   while (journal.length === 0) await world.advance(0.05);
 }
@@ -92,12 +95,12 @@ async function goneOn({ world, driver, board, strokes, journal }: Broken) {
 }
 
 describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
-  it("whose motors lose their supply goes on from the last good reading", { timeout: 60_000 }, async () => {
+  it("whose motors lose their supply resumes from the last good reading", { timeout: 60_000 }, async () => {
     const random = seeded(5);
     for (let i = 0; i < COUNT; i++) {
       const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
       expect(broken.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
-      // In steps, each of which lets what was promised be settled.
+      // In steps, so that pending promises settle in between.
       for (let step = 0; step < 40; step++) await broken.world.advance(0.05);
       expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
       broken.board.setMotorVolts(9.1);
@@ -110,13 +113,13 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   });
 
   it(
-    "whose board starts anew is broken off at once, and goes on from where it surely was",
+    "whose board restarts is interrupted at once, and resumes from its last certain position",
     { timeout: 60_000 },
     async () => {
       const random = seeded(6);
       for (let i = 0; i < COUNT; i++) {
         const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
-        expect(broken.message).toMatch(/^board-error: The board has started anew.*overlap a little/);
+        expect(broken.message).toMatch(/^board-error: The board restarted.*overlap a little/);
         expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
         expect(broken.driver.state).toMatchObject({ connection: "idle", xMm: null });
         const { gapMm, overlapMm } = await goneOn(broken);
@@ -127,14 +130,14 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   );
 
   it(
-    "one of whose commands is refused keeps its place, and goes on where its line ends",
+    "with a refused command keeps its position, and resumes where its line ends",
     { timeout: 60_000 },
     async () => {
       const random = seeded(7);
       let refused = 0;
       for (let i = 0; i < 2 * COUNT; i++) {
         const broken = await brokenOff(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
-        // It may have been a question: those are asked again.
+        // It may have been a query: those are repeated.
         if (broken.message === "done") continue;
         refused++;
         expect(broken.message).toMatch(/^board-error: The board refused /);
@@ -149,22 +152,23 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
     },
   );
 
-  it("one of whose commands is refused on a curve leaves nothing out", { timeout: 60_000 }, async () => {
+  it("with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
     const random = seeded(8);
     for (let i = 0; i < COUNT; i++) {
       const broken = await brokenOff(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
       if (broken.message === "done") continue;
       const { gapMm, overlapMm } = await goneOn(broken);
       expect(gapMm).toBeLessThan(GAP_MM);
-      // Where the board's parser is free, it is stopped before any command after the refused one.
+      // If the board's parser is free, it is stopped before any command after the refused one.
       expect(overlapMm).toBeLessThan(firmware === "3.0.3" ? GAP_MM : WINDOW_MM);
     }
   });
 });
 
-// On 2.8.1 what was sent waits in the system's buffers, which the virtual line loses when it is pulled.
+// On 2.8.1 the commands sent ahead wait in the system's buffers, which the virtual connection loses when it
+// is unplugged.
 it(
-  "a plot whose server is killed on a line that goes over itself goes on from the later of the places that fit",
+  "a plot whose server is killed on a line that retraces itself resumes from the later of the matching places",
   { timeout: 60_000 },
   async () => {
     const random = seeded(9);
@@ -178,7 +182,7 @@ it(
       const run = await world.run(driver.plot(planner, DEFAULT_PLOT_SETTINGS, { journal: { record } }));
       await underWay(world, journal);
       await world.advance(1.5 + 4 * random());
-      // A server that is killed writes nothing down at its end; the board plays what it has.
+      // A killed server writes nothing at its end; the board plays what it has.
       const { place: from, sent } = journal[journal.length - 1];
       virtualBoardOf(driver).unplug();
       await world.run(run.finished.catch(() => undefined));

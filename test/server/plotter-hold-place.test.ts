@@ -1,6 +1,6 @@
 /**
- * The place that an emergency stop is gone on from, among lines that lie on one another: the step counters do not tell
- * their sides apart. The truth is the board's own count of ticks.
+ * The place at which a plot resumes after an emergency stop, on overlapping lines: the step counters cannot
+ * tell the sides apart. The reference is the board's own count of ticks.
  */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
@@ -13,11 +13,11 @@ import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks, RETRACED } fr
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const FIRMWARES = ["2.4.4", "2.5.3", "2.8.1", "3.0.0", "3.0.3"];
-/** Where a corner is rounded by so much, mm along its line are no surer than that. */
+/** At a corner rounded by this much, mm along the line are no more accurate than that. */
 const { cornerMm: ROUNDED_MM } = settingsOf("blend").motion.draw;
 const STOP_COUNT = 4;
 
-/** An instant at random, at the slowest of some: near the tips, where both sides are the nearest. */
+/** A random instant, the slowest of several: near the tips, where both sides are closest. */
 function instant(trajectory: Trajectory, random: () => number): number {
   const times = Array.from({ length: 4 }, () => 0.95 * trajectory.totalS * random());
   const speed = (tS: number): number => {
@@ -27,8 +27,8 @@ function instant(trajectory: Trajectory, random: () => number): number {
   return times.reduce((best, tS) => (speed(tS) < speed(best) ? tS : best));
 }
 
-describe.each(MOTION_MODES)("an emergency stop among lines that lie on one another, in %s mode", (mode) => {
-  it.each(FIRMWARES)("is gone on from at the very place, on firmware %s", async (firmware) => {
+describe.each(MOTION_MODES)("an emergency stop on overlapping lines, in %s mode", (mode) => {
+  it.each(FIRMWARES)("resumes at exactly that place, on firmware %s", async (firmware) => {
     const random = seeded(MOTION_MODES.indexOf(mode) + 10 * FIRMWARES.indexOf(firmware) + 1);
     const withinMm = 0.02 + (mode === "junction" ? 0 : ROUNDED_MM);
     const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);
@@ -42,7 +42,7 @@ describe.each(MOTION_MODES)("an emergency stop among lines that lie on one anoth
       const [plot] = planner.plots;
       await world.advance(instant(plot.trajectory, random));
       await world.run(run.emergencyStop());
-      // Reading the place back runs the motors for a tick, which makes no step.
+      // Reading back the position runs the motors for one tick, which makes no step.
       const ticks = ranTicks(virtualBoardOf(driver)) - (hasClear ? 1 + idleTicksTimed : 0);
       const truthMm = drawnUntilMm(RETRACED, plot, planSAfter(plot.commands, ticks));
       expect(Math.abs(mmOf(RETRACED, run.holdPlace!) - truthMm)).toBeLessThan(withinMm);

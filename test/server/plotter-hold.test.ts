@@ -3,13 +3,16 @@ import { describe, expect, it } from "vitest";
 import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
 import { drawnMm, DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 
-/** Pause to held: what is in flight (a window and a command), slowing down from 150 mm/s, the lift, a poll. */
+/**
+ * From pause to held: the motion in flight (a window and a command), slowing down from 150 mm/s, the lift, a
+ * poll.
+ */
 const HELD_WITHIN_S = 0.5 + 0.15 + 0.25 + 0.05;
 
-/** How well a drawn length is known: to a step. */
+/** Accuracy of a drawn length: one step. */
 const STEP_MM = 0.0125;
 
-/** What a plot that nobody stops draws. */
+/** What an uninterrupted plot draws. */
 async function wholeMm(mode: MotionMode, firmware?: string): Promise<number> {
   const { world, board, run } = await plotting(mode, DRAWING, firmware);
   await world.run(run.finished);
@@ -18,7 +21,7 @@ async function wholeMm(mode: MotionMode, firmware?: string): Promise<number> {
 
 describe("a hold at any instant", () => {
   it.each(MOTION_MODES)(
-    "leaves no gap and no doubled stretch, and ends exactly, in %s mode",
+    "leaves no gap and draws nothing twice, and ends exactly, in %s mode",
     async (mode) => {
       const random = seeded(MOTION_MODES.indexOf(mode) + 7);
       const undisturbedMm = await wholeMm(mode);
@@ -38,14 +41,14 @@ describe("a hold at any instant", () => {
         expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
         expect(Math.max(0, ...seamsMm(board))).toBeLessThan(0.02);
         expectDrawn(board, DRAWING, 0.05 + 0.02);
-        // Nor a longer stretch, whose ends would lie apart.
+        // No longer stretch either: its ends would be apart.
         expect(Math.abs(drawnMm(board) - undisturbedMm)).toBeLessThan(0.02 + STEP_MM);
         expect(board.statistics().underrunCount).toBe(0);
       }
     },
   );
 
-  it("can be repeated, before the first hold has even come to rest", async () => {
+  it("can be repeated before the first hold has come to rest", async () => {
     const { world, board, run } = await plotting("junction");
     for (let i = 0; i < 12; i++) {
       await world.advance(0.4);
@@ -61,7 +64,7 @@ describe("a hold at any instant", () => {
 
 describe("an emergency stop at any instant", () => {
   it.each(MOTION_MODES.flatMap((mode) => [[mode, "2.8.1"] as const, [mode, "3.0.3"] as const]))(
-    "leaves no gap and no doubled stretch after going on, and ends exactly, in %s mode on firmware %s",
+    "leaves no gap and draws nothing twice after resuming, and ends exactly, in %s mode on firmware %s",
     async (mode, firmware) => {
       const random = seeded(MOTION_MODES.indexOf(mode) + 41);
       const undisturbedMm = await wholeMm(mode, firmware);
@@ -81,7 +84,7 @@ describe("an emergency stop at any instant", () => {
         expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
         expect(Math.max(0, ...seamsMm(board))).toBeLessThan(0.02);
         expectDrawn(board, DRAWING, 0.05 + 0.02);
-        // Nor a longer stretch, whose ends would lie apart.
+        // No longer stretch either: its ends would be apart.
         expect(Math.abs(drawnMm(board) - undisturbedMm)).toBeLessThan(0.02 + STEP_MM);
       }
     },
@@ -98,14 +101,14 @@ describe("an emergency stop at any instant", () => {
   });
 });
 
-describe("an emergency stop when all is sent", () => {
+describe("an emergency stop after everything is sent", () => {
   it("holds the plot while its last move is not over", async () => {
     const { world, board, run } = await plotting("junction");
     const isNearHome = (): boolean => Math.hypot(board.state().xMm, board.state().yMm) < 1;
     await world.advance(5);
     while (!isNearHome()) await world.advance(0.01);
     board.setFrozen(true);
-    // By the plan it is over; the board is asked whether it is.
+    // By the plan it is over; the board is queried whether it is.
     await world.advance(1);
     const stopped = run.emergencyStop();
     board.setFrozen(false);
@@ -118,7 +121,7 @@ describe("an emergency stop when all is sent", () => {
 });
 
 describe("the hold point", () => {
-  it("can be moved back, looked at with the pen up, and gone on from", async () => {
+  it("can be moved back, viewed with the pen up, and resumed from", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(5);
     await world.run(run.pause());

@@ -1,4 +1,4 @@
-/** How a plotter lets go: in the middle of something, with its board lost, or with two things asked for at once. */
+/** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { PlotwrightError } from "../../src/index.js";
@@ -40,7 +40,7 @@ describe("a plotter that is closed", () => {
     expect(world.timerCount).toBe(0);
   });
 
-  it("while it holds ends the plot", async () => {
+  it("during a hold ends the plot", async () => {
     const { world, driver, run } = await plotting("junction");
     await world.advance(2);
     await world.run(run.pause());
@@ -50,7 +50,7 @@ describe("a plotter that is closed", () => {
     expect(world.timerCount).toBe(0);
   });
 
-  it("after its board was lost looks for it no more", async () => {
+  it("after its board was lost stops searching for it", async () => {
     const { world, driver, board } = await idle();
     const moved = outcome(driver.walkTo(100, 100));
     await world.advance(0.5);
@@ -62,7 +62,7 @@ describe("a plotter that is closed", () => {
 });
 
 describe("a board that is lost while the plot is held", () => {
-  it("ends the plot at once, so that it can be taken up when the board is back", async () => {
+  it("ends the plot at once, so that it can be resumed when the board is back", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(2);
     await world.run(run.pause());
@@ -71,8 +71,8 @@ describe("a board that is lost while the plot is held", () => {
   });
 });
 
-describe("two things at once", () => {
-  it("are not begun: the second is refused", async () => {
+describe("two requests at once", () => {
+  it("are not both started: the second is refused", async () => {
     const { world, driver, board } = await idle();
     const [first, second] = [outcome(driver.walkTo(30, 0)), outcome(driver.walkTo(0, 30))];
     expect(await world.run(second)).toMatch(/^busy/);
@@ -80,7 +80,7 @@ describe("two things at once", () => {
     expect(board.state()).toMatchObject({ xMm: 30, yMm: 0 });
   });
 
-  it("a look at the hold point is over before the plot goes on", async () => {
+  it("the view of the hold point ends before the plot resumes", async () => {
     const { world, board, run } = await plotting("junction");
     await world.advance(5);
     await world.run(run.pause());
@@ -94,7 +94,7 @@ describe("two things at once", () => {
     expectDrawn(board, DRAWING, 0.05);
   });
 
-  it("a stop at once holds on the way home too, and the place is still known", async () => {
+  it("a stop at once also holds on the way home, and the position is still known", async () => {
     const { world, driver, board, run } = await plotting("junction", DRAWING, "3.0.3");
     await world.advance(5);
     const cancelled = run.cancel();

@@ -1,4 +1,4 @@
-/** Several plotters on one server: kept, changed while it runs, each with its queue, side by side. */
+/** Several plotters on one server: stored, changed while it runs, each with its queue, side by side. */
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -53,7 +53,7 @@ describe("the plotters of a server", () => {
     return jobSchema.parse(await (await send(app.url, "POST", "/jobs", body)).json());
   };
 
-  it("are added, renamed and removed while it runs, and every browser hears of it", async () => {
+  it("are added, renamed and removed while it runs, and every browser is notified", async () => {
     const events = await EventStream.open(app.url);
     const second = await add("Upstairs");
     const added = await events.find("plotters", ({ plotters }) => plotters.length === 2);
@@ -67,7 +67,7 @@ describe("the plotters of a server", () => {
     events.close();
   });
 
-  it("keep their names and devices apart, and one is always left", async () => {
+  it("have unique names and devices, and at least one remains", async () => {
     const { id } = await add("Upstairs", "/dev/ttyACM0");
     expect(
       await faultOf(await send(app.url, "POST", "/plotters", { name: "UPSTAIRS", device: "virtual" })),
@@ -83,7 +83,7 @@ describe("the plotters of a server", () => {
     expect((await send(app.url, "DELETE", "/plotters/none")).status).toBe(404);
   });
 
-  it("are offered the boards that are plugged in, with what has them", async () => {
+  it("are offered the connected boards, with the plotter that uses each", async () => {
     const listed = async (): Promise<unknown> => {
       const { devices } = (await (await send(app.url, "GET", "/devices")).json()) as { devices: unknown[] };
       return devices.map((device) => deviceSchema.parse(device));
@@ -116,7 +116,7 @@ describe("the plotters of a server", () => {
     expect(app.queue.get(a.id).state).toBe("plotting");
   });
 
-  it("do not go while they have jobs, nor change their device under one", async () => {
+  it("are not removed while they have jobs, and keep their device", async () => {
     const { id } = await add("Upstairs");
     const job = await upload("a", id);
     expect((await send(app.url, "DELETE", `/plotters/${id}`)).status).toBe(409);
@@ -131,12 +131,12 @@ describe("the plotters of a server", () => {
     run?.end({ kind: "done" });
     await expect.poll(() => app.queue.get(job.id).state).toBe("done");
     expect((await send(app.url, "DELETE", `/plotters/${id}`)).status).toBe(200);
-    // History stays, and plots again where there is a plotter.
+    // History stays, and can be plotted again on any plotter.
     const again = await send(app.url, "POST", `/jobs/${job.id}/requeue`);
     expect(jobSchema.parse(await again.json())).toMatchObject({ state: "queued", plotterId: "virtual" });
   });
 
-  it("have a queue each that runs on or waits", async () => {
+  it("have separate queues that continue or wait", async () => {
     const { id } = await add("Upstairs");
     const events = await EventStream.open(app.url);
     expect((await send(app.url, "PATCH", `/plotters/${id}/queue`, { runOn: true })).status).toBe(200);
@@ -155,8 +155,8 @@ describe("the plotters of a server", () => {
   });
 });
 
-describe("a plotter that is said to be another machine", () => {
-  it("stays connected, and home where it is", async () => {
+describe("a plotter that is changed to another machine", () => {
+  it("stays connected, and home stays", async () => {
     const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));
     const server = await createServer({ port: 0, device: "virtual", virtualSpeed: 50, dataDir });
     const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0];
@@ -200,7 +200,7 @@ describe("a server with two virtual plotters", () => {
       const events = await EventStream.open(server.url);
       for (const { id } of jobs)
         await expect.poll(async () => (await send(server.url, "POST", `/jobs/${id}/start`)).status).toBe(200);
-      // Long enough that neither can have ended while the other one is still being planned.
+      // Long enough that neither can have ended while the other is still being planned.
       for (const { id } of jobs) await events.find("progress", ({ jobId }) => jobId === id);
       expect((await snapshotOf(server.url)).jobs.map(({ state }) => state)).toEqual(["plotting", "plotting"]);
       for (const { id } of jobs) await send(server.url, "POST", `/jobs/${id}/cancel`);

@@ -56,7 +56,7 @@ async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}
 }
 
 describe("a plot with a change of pens", () => {
-  it("waits at home with the pen up, says for which, and goes on when it is told", async () => {
+  it("waits at home with the pen up, names the pen, and continues when asked to", async () => {
     const { world, driver, board, run, held, nextHold, drawnRows } = await plotting();
     expect(driver.state.activity).toBe("plotting");
     await world.run(nextHold());
@@ -77,7 +77,7 @@ describe("a plot with a change of pens", () => {
     expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
   });
 
-  it("tells the progress of the whole, to 1, with the waits left out", async () => {
+  it("reports the progress of the whole, up to 1, without the waits", async () => {
     const { world, run, nextHold } = await plotting();
     const seen: PlotProgress[] = [];
     run.onProgress((progress) => seen.push(progress));
@@ -96,7 +96,7 @@ describe("a plot with a change of pens", () => {
     expect(seen.every((p, i) => i === 0 || p.planS >= seen[i - 1].planS - 1e-9)).toBe(true);
   });
 
-  it("waits before the first stroke where its layer's name says so, though nobody listened yet", async () => {
+  it("waits before the first stroke if its layer's name says so, even without a listener", async () => {
     const strokes = { ...DRAWING, layers: [{ ...LAYERS[0], name: "!Sky" }, ...LAYERS.slice(1)] };
     const { world, run, held, drawnRows } = await plotting(SETTINGS, {}, strokes);
     await world.advance(5);
@@ -108,7 +108,7 @@ describe("a plot with a change of pens", () => {
     await world.run(run.cancel().catch(() => undefined));
   });
 
-  it("asks once: a hold after the answer, and a plot taken up behind it, do not ask again", async () => {
+  it("asks once: a hold after the answer, and a plot resumed behind it, do not ask again", async () => {
     const { world, driver, run, held, nextHold, journal, begin, drawnRows } = await plotting();
     await world.run(nextHold());
     await world.run(run.resume());
@@ -129,7 +129,7 @@ describe("a plot with a change of pens", () => {
     expect(new Set(drawnRows())).toEqual(new Set([10, 20, 30, 40, 50]));
   });
 
-  it("has its wait in the journal: taken up there, the answer to it is enough", async () => {
+  it("has its wait in the journal: a resumed plot only needs the answer", async () => {
     const { world, driver, run, nextHold, journal, begin, drawnRows } = await plotting();
     await world.run(nextHold());
     expect(journal[journal.length - 1].place).toEqual({ stroke: 3, alongMm: 0 });
@@ -144,7 +144,7 @@ describe("a plot with a change of pens", () => {
     expect(drawnRows()).toEqual([10, 20, 30, 40, 50]);
   });
 
-  it("taken up before it, is asked for when it comes to it", async () => {
+  it("resumed before it, is asked for when it is reached", async () => {
     const { world, run, held, nextHold, drawnRows } = await plotting(SETTINGS, {
       from: { stroke: 2, alongMm: 0 },
     });
@@ -156,7 +156,7 @@ describe("a plot with a change of pens", () => {
     expect(drawnRows()).toEqual([30, 40, 50]);
   });
 
-  it("is asked for anew when the user goes back before it", async () => {
+  it("is asked for again when the user moves back before it", async () => {
     const { world, run, held, nextHold, drawnRows } = await plotting();
     await world.run(nextHold());
     run.moveHoldPlace({ strokes: -1 });
@@ -170,7 +170,7 @@ describe("a plot with a change of pens", () => {
     expect(drawnRows()).toEqual([10, 20, 30, 30, 50]);
   });
 
-  it("is held, changed and cancelled while it waits as at any other time", async () => {
+  it("can be held, changed and cancelled while it waits", async () => {
     const { world, board, run, nextHold } = await plotting();
     await world.run(nextHold());
     await world.run(run.change({ speedPct: 50 }));
@@ -181,7 +181,7 @@ describe("a plot with a change of pens", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("paused on its way home to a stop, waits for the pen; on the way home at the end, is done", async () => {
+  it("paused on its way home to a stop, waits for the pen; on the final way home, is done", async () => {
     const { world, board, run, held, drawnRows } = await plotting();
     while (drawnRows().length < 3 || !board.state().penUp) await world.advance(0.1);
     await world.run(run.pause());
@@ -197,7 +197,7 @@ describe("a plot with a change of pens", () => {
     ["never", []],
     ["pens", ["Ink"]],
     ["layers", ["Sea", "Ink"]],
-  ] as const)("stops as the settings say: %s", async (penStops, names) => {
+  ] as const)("stops according to the settings: %s", async (penStops, names) => {
     const { world, run, held } = await plotting({ ...SETTINGS, penStops });
     let isOver = false;
     void run.finished.then(() => (isOver = true));

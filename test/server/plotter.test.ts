@@ -36,7 +36,7 @@ const drawn = (board: { drawn(): { penDown: boolean; xy: Float64Array }[] }): nu
     );
 
 describe("a plotter", () => {
-  it("connects to the virtual board and says plainly that it is one", async () => {
+  it("connects to the virtual board and says so plainly", async () => {
     const { driver } = await newPlotter();
     expect(driver.state).toMatchObject({ kind: "virtual", connection: "idle", firmware: "2.8.1" });
     expect(driver.state.message).toContain("nothing is drawn on paper");
@@ -59,7 +59,7 @@ describe("a plotter", () => {
     },
   );
 
-  it("tells progress many times a second, ever forward, to 1", async () => {
+  it("reports progress many times a second, always increasing, up to 1", async () => {
     const { world, begin } = await newPlotter();
     const { run } = await begin();
     const seen: PlotProgress[] = [];
@@ -89,7 +89,7 @@ describe("a plotter", () => {
     await world.run(run.finished);
   });
 
-  it("goes home after a cancel, pen up, and draws no more", async () => {
+  it("goes home after a cancel, pen up, and draws nothing more", async () => {
     const { world, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.5);
@@ -100,7 +100,7 @@ describe("a plotter", () => {
     expect(drawn(board).length).toBe(1);
   });
 
-  it("says that there is nothing to draw", async () => {
+  it("reports that there is nothing to draw", async () => {
     const { world, driver, begin } = await newPlotter();
     const { run } = await begin(strokesOf());
     expect(await outcome(world.run(run.finished))).toMatch(/^bad-file: There is nothing to draw/);
@@ -109,7 +109,7 @@ describe("a plotter", () => {
 });
 
 describe("moves by hand", () => {
-  it("lifts and drops the pen to the heights of the settings, or to the one asked for", async () => {
+  it("lifts and lowers the pen to the heights of the settings, or to the requested one", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.pen({ up: false }));
     expect(board.state()).toMatchObject({ penUp: false });
@@ -120,7 +120,7 @@ describe("moves by hand", () => {
     expect(driver.state.penUp).toBe(true);
   });
 
-  it("switches the motors off, after which home is wherever the carriage then stands", async () => {
+  it("switches the motors off; home is then wherever the carriage is", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.run(run.finished);
@@ -131,7 +131,7 @@ describe("moves by hand", () => {
 });
 
 describe("moves by hand from place to place", () => {
-  it("walks, jogs, sets home, and traces a frame with the pen up", async () => {
+  it("moves to positions, jogs, sets home, and traces a frame with the pen up", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(40, 30));
     expect(driver.state).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
@@ -145,7 +145,7 @@ describe("moves by hand from place to place", () => {
     expect(drawn(board)).toEqual([]);
   });
 
-  it("goes nowhere beyond the machine", async () => {
+  it("never moves beyond the machine", async () => {
     const { world, driver, board } = await newPlotter();
     expect(await outcome(driver.walkTo(400, 10))).toMatch(
       /^out-of-bounds: 400, 10 mm is beyond the AxiDraw V3/,
@@ -156,7 +156,7 @@ describe("moves by hand from place to place", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
   });
 
-  it("draws a test patch where the carriage stands and comes back there", async () => {
+  it("draws a test patch at the carriage's position and returns there", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(50, 50));
     await world.run(driver.drawTestPatch());
@@ -177,8 +177,8 @@ describe("moves by hand from place to place", () => {
   });
 });
 
-describe("a plot that was broken off", () => {
-  it("goes on from where the board had come to, held until the user says so, and draws nothing twice", async () => {
+describe("an interrupted plot", () => {
+  it("resumes from where the board stopped, held until the user continues, and draws nothing twice", async () => {
     const { world, driver, board } = await newPlotter();
     const journal: JournalEntry[] = [];
     const planner = new LocalPlanner(TWO_LINES);
@@ -197,7 +197,7 @@ describe("a plot that was broken off", () => {
     const linesBefore = drawn(board).length;
     await world.advance(2);
     expect(drawn(board).length).toBe(linesBefore);
-    // The journal is a little behind: the board played out what it had.
+    // The journal is a little behind: the board played what it had received.
     expect(run.holdPlace!.stroke).toBe(place.stroke);
     expect(run.holdPlace!.alongMm).toBeGreaterThan(place.alongMm);
     await world.run(run.resume());
@@ -206,7 +206,7 @@ describe("a plot that was broken off", () => {
     expect(drawn(board)[drawn(board).length - 1]).toEqual([20, 50, 80, 50]);
   });
 
-  it("is written into the journal at least every half second", async () => {
+  it("is written to the journal at least every half second", async () => {
     const { world, driver } = await newPlotter();
     const times: number[] = [];
     const run = await world.run(
@@ -220,7 +220,7 @@ describe("a plot that was broken off", () => {
     expect(Math.max(...gaps)).toBeLessThanOrEqual(0.5);
   });
 
-  it("has lost its place after the board was reset: home is set anew", async () => {
+  it("has lost its position after the board was reset: home is set again", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.9);
@@ -231,8 +231,8 @@ describe("a plot that was broken off", () => {
   });
 });
 
-describe("what the board tells while it plots", () => {
-  it("holds when its button is pressed", async () => {
+describe("the board's reports while it plots", () => {
+  it("holds the plot when its button is pressed", async () => {
     const { world, board, begin } = await newPlotter();
     const { run } = await begin();
     const held: boolean[] = [];
@@ -246,7 +246,7 @@ describe("what the board tells while it plots", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 
-  it("does not end a plot for one odd reading of the supply", async () => {
+  it("do not end a plot for one odd reading of the supply", async () => {
     const { world, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.4);
@@ -256,7 +256,7 @@ describe("what the board tells while it plots", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 
-  it("ends the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {
+  it("end the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.5);
@@ -270,7 +270,7 @@ describe("what the board tells while it plots", () => {
     expect(driver.state.connection).toBe("idle");
   });
 
-  it("notices a supply that is off before a plot begins", async () => {
+  it("detect a supply that is off before a plot begins", async () => {
     const { world, driver, board } = await newPlotter();
     board.setMotorVolts(0);
     await world.advance(3);
@@ -280,7 +280,7 @@ describe("what the board tells while it plots", () => {
 });
 
 describe("a board that fails", () => {
-  it("ends the plot with words to act on, and is used again once it is back", async () => {
+  it("ends the plot with advice, and is used again once it is back", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.5);
@@ -303,7 +303,7 @@ describe("a board that fails", () => {
   });
 });
 
-describe("a board that answers but does not get on", () => {
+describe("a board that answers but does not move", () => {
   it.each(["2.5.3", "2.8.1", "3.0.3"])("ends the plot within 3 s, on firmware %s", async (firmware) => {
     const { world, driver, board, begin } = await newPlotter(firmware);
     const { run } = await begin(strokesOf([10, 10, 250, 10]));
@@ -352,7 +352,7 @@ describe("a plotter that is closed in mid-plot", () => {
 });
 
 describe("another machine on the same board", () => {
-  it("is driven in its own microsteps from where the carriage stands", async () => {
+  it("uses its own microsteps from the carriage's position", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(30, 0));
     expect(board.state()).toMatchObject({ steps1: 2_400, steps2: 2_400 });

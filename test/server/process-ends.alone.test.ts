@@ -66,7 +66,7 @@ async function urlOf(started: Started): Promise<string> {
 async function stateOf(url: string): Promise<Job> {
   return snapshotSchema.parse(await (await fetch(`${url}/api/v1/state`)).json()).jobs[0];
 }
-/** A plot that has come so far that the pen is at work. */
+/** A plot that has progressed so far that the pen is drawing. */
 async function plotting(url: string, line: PtyBoard): Promise<void> {
   await expect
     .poll(
@@ -96,7 +96,7 @@ const refuses = (url: string): Promise<boolean> =>
 
 describe("a server that plots", () => {
   it(
-    "goes on when nobody reads what it says, and by SIGHUP lifts the pen, walks home and ends",
+    "continues if its output is not read, and on SIGHUP lifts the pen, goes home and ends",
     async () => {
       const line = await board();
       const server = serve("--data", folder(), "--device", line.path, "--virtual-speed", "5");
@@ -104,7 +104,7 @@ describe("a server that plots", () => {
       await plotting(url, line);
       server.child.stdout?.destroy();
       server.child.stderr?.destroy();
-      // Each refusal is a line that finds no reader.
+      // Each refusal is a line without a reader.
       const headers = { "Sec-Fetch-Site": "cross-site" };
       for (let i = 0; i < 5; i++) expect((await fetch(`${url}/api/v1/state`, { headers })).status).toBe(403);
       const { drawnMm } = (await line.report()).statistics;
@@ -151,7 +151,7 @@ describe("npm start", () => {
     ["node", "SIGINT"],
     ["npm", "SIGTERM"],
   ] as const)(
-    "run by %s and ended by %s leaves no server behind",
+    "run by %s and ended by %s leaves no server running",
     async (by, signal) => {
       const started =
         by === "npm"
@@ -178,11 +178,11 @@ describe("a data folder that can't be used", () => {
   );
 
   it(
-    "and that may only be read is named in words",
+    "which is read-only is named in the message",
     async () => {
       const data = join(folder(), "data");
       mkdirSync(join(data, "drawings"), { recursive: true });
-      // Whoever may do everything may write here too: then another user starts the server.
+      // Root may write here too: then another user starts the server.
       const isRoot = process.getuid?.() === 0;
       for (const path of [join(data, ".."), data, join(data, "drawings")]) chmodSync(path, 0o555);
       undo.push(() => [join(data, ".."), data].forEach((path) => chmodSync(path, 0o755)));
@@ -200,7 +200,7 @@ describe("a data folder that can't be used", () => {
   );
 
   it(
-    "of sources for npm start says so, and does not ask about the network",
+    "of sources for npm start is reported, without a question about the network",
     async () => {
       const copy = join(folder(), "copy");
       mkdirSync(copy);

@@ -18,7 +18,7 @@ async function begin() {
   return { world, run, seen };
 }
 
-/** Neither the share nor the time left jumps: no report differs from the one before by more than a second's work. */
+/** Neither the share nor the remaining time jumps: consecutive reports differ by at most a second's work. */
 function expectSteady(seen: readonly PlotProgress[]): void {
   const wholeS = seen[0].elapsedS + seen[0].remainingS;
   for (let i = 1; i < seen.length; i++) {
@@ -30,7 +30,7 @@ function expectSteady(seen: readonly PlotProgress[]): void {
 }
 
 describe("the progress of a plot", () => {
-  it("stands where it is while the plot is held, and goes on from there", async () => {
+  it("stays the same while the plot is held, and continues from there", async () => {
     const { world, run, seen } = await begin();
     await world.run(run.pause());
     const held = seen.at(-1)!;
@@ -42,7 +42,7 @@ describe("the progress of a plot", () => {
     expect(seen.at(-1)).toMatchObject({ progress: 1, remainingS: 0 });
   });
 
-  it("stands wherever in the plan the plot is held, in motion or at rest", async () => {
+  it("stays the same wherever the plot is held, in motion or at rest", async () => {
     for (let afterS = 0; afterS < 1.5; afterS += 0.13) {
       const { world, run, seen } = await begin();
       await world.advance(afterS);
@@ -52,7 +52,7 @@ describe("the progress of a plot", () => {
     }
   });
 
-  it("follows the place where a held plot goes on, back and on", async () => {
+  it("follows the place where a held plot resumes, backwards and forwards", async () => {
     const { world, run, seen } = await begin();
     await world.run(run.pause());
     const held = seen.at(-1)!;
@@ -79,7 +79,7 @@ describe("the progress of a plot", () => {
     expect(seen.at(-1)!.progress).toBeLessThan(0.5);
   });
 
-  it("takes the plan over to which it goes in motion, without a jump", async () => {
+  it("follows a switch to another plan in motion, without a jump", async () => {
     const { world, run, seen } = await begin();
     const { pen } = DEFAULT_PLOT_SETTINGS;
     await world.run(run.change({ pen: { ...pen, downPct: pen.downPct + 5 } }));

@@ -1,4 +1,4 @@
-/** Requests as they come from the network: nothing is trusted for where it comes from. */
+/** Requests from the network: none is trusted because of its origin. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { Access } from "../../server/security/access.js";
 import { DEFAULT_PLOT_SETTINGS, accessEntrySchema, jobSchema, type Job } from "../../src/schema/index.js";
@@ -14,7 +14,7 @@ afterEach(() => app.close());
 
 const call = (path: string, init: RequestInit = {}): Promise<Response> => fetch(`${app.url}${path}`, init);
 
-/** Opens a pairing link as a phone does; gives back the session's cookie. */
+/** Opens a pairing link as a phone does; returns the session's cookie. */
 async function pair(role: "operate" | "watch"): Promise<string> {
   const response = await call(app.access.pairingPath(role));
   expect(response.status).toBe(200);
@@ -36,7 +36,7 @@ async function plotting(cookie: string): Promise<Job> {
 }
 
 describe("a server on the network", () => {
-  it("answers nobody without a pairing, by whatever path, and says how to get one", async () => {
+  it("refuses every path without a pairing, and says how to get one", async () => {
     for (const [method, path] of [
       ["GET", "/api/v1/state"],
       ["GET", "/api/v1/events"],
@@ -59,7 +59,7 @@ describe("a server on the network", () => {
     expect(app.logged.some((line) => /^refused GET .*state from/.test(line))).toBe(true);
   });
 
-  it("lets in a paired browser and refuses wrong, cut and foreign secrets", async () => {
+  it("accepts a paired browser and refuses wrong, truncated and foreign secrets", async () => {
     const cookie = await pair("operate");
     expect((await call("/api/v1/me", as(cookie))).status).toBe(200);
     for (const wrong of [`${cookie}x`, cookie.slice(0, -1), "plotwright_session=", `other=${cookie}`]) {
@@ -108,7 +108,7 @@ describe("a server on the network", () => {
     expect(run.asked).toEqual(["pause", "cancel"]);
   });
 
-  it("makes keys for scripts, shows their secret once, and forgets what is revoked at once", async () => {
+  it("makes keys for scripts, shows their secret once, and revokes them at once", async () => {
     const operator = await pair("operate");
     const made = await call(
       "/api/v1/access/keys",
@@ -142,7 +142,7 @@ describe("a server on the network", () => {
     expect(again.pairingPath("operate")).not.toBe(app.access.pairingPath("operate"));
   });
 
-  it("refuses a foreign page even with the browser's cookie in hand, and the plot goes on", async () => {
+  it("refuses a foreign page even with the browser's cookie, and the plot continues", async () => {
     const operator = await pair("operate");
     const job = await plotting(operator);
     const run = await app.plotter.nextRun();
@@ -158,7 +158,7 @@ describe("a server on the network", () => {
     expect(app.queue.get(job.id).state).toBe("plotting");
   });
 
-  it("gives names and drawings back as data only, whatever is in them", async () => {
+  it("returns names and drawings as data only, whatever they contain", async () => {
     const operator = await pair("operate");
     const evil = '<img src=x onerror=alert(1)>"</script>';
     const body = JSON.stringify({
@@ -178,7 +178,7 @@ describe("a server on the network", () => {
     expect(state.headers.get("content-type")).toMatch(/^application\/json/);
   });
 
-  it("has enough of an address that guesses pairing links", async () => {
+  it("blocks an address that guesses pairing links", async () => {
     const answers: number[] = [];
     for (let guess = 0; guess < 13; guess++) answers.push((await call(`/pair?token=guess${guess}`)).status);
     expect(answers.slice(0, 10)).toEqual(Array(10).fill(403));

@@ -1,4 +1,4 @@
-/** The whole server as it is embedded or served: real threads, real disk, the virtual board. */
+/** The whole server, embedded or served: real threads, real disk, the virtual board. */
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -17,7 +17,7 @@ import { EventStream } from "./support/event-stream.js";
 
 const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
-/** Enough lines that the plot is met under way, however busy the computer is. */
+/** Enough lines that the test meets a running plot, however busy the computer is. */
 const lines = (count: number): string =>
   svg(Array.from({ length: count }, (_, i) => `<path d="M10 ${5 + (90 / count) * i}h80"/>`).join(""));
 const LINE = svg('<path d="M10 10h60"/><path d="M10 30h60"/>');
@@ -74,7 +74,7 @@ describe("a server", () => {
     expect(await drawing.text()).toBe(drawn);
   });
 
-  it("pauses with the pen up, goes on to the end, and cancels another", async () => {
+  it("pauses with the pen up, continues to the end, and cancels another", async () => {
     const many = lines(120);
     const { id } = await add(many);
     const events = await EventStream.open(server.url);
@@ -97,7 +97,7 @@ describe("a server", () => {
     expect(Math.hypot(plotter?.xMm ?? NaN, plotter?.yMm ?? NaN)).toBeLessThan(0.02);
   });
 
-  it("offers a job that a stop of the server broke off from its place on, and plots the rest when told", async () => {
+  it("offers a job that a stop of the server interrupted, and plots the rest when asked", async () => {
     const { id } = await add(lines(120));
     const events = await EventStream.open(server.url);
     await post(`/jobs/${id}/start`);
@@ -117,7 +117,7 @@ describe("a server", () => {
     again.close();
   });
 
-  it("refuses what can't be plotted with the reason, and keeps the queue as it was", async () => {
+  it("refuses what can't be plotted with the reason, and keeps the queue unchanged", async () => {
     const kept = await add(LINE);
     const trueSize: PlotSettings = {
       ...DEFAULT_PLOT_SETTINGS,
@@ -149,7 +149,7 @@ describe("a server", () => {
     expect((await state()).jobs).toEqual([kept]);
   });
 
-  it("takes what is odd but can be plotted", async () => {
+  it("accepts odd drawings that can be plotted", async () => {
     const odd = {
       "NaN coordinates": svg('<path d="M NaN NaN L 10 10"/><path d="M10 10h50"/>'),
       "huge coordinates": svg('<path d="M0 0L1e300 1e300"/><path d="M10 10h50"/>'),
@@ -169,7 +169,7 @@ describe("a server", () => {
     expect((await state()).plotters).toHaveLength(1);
   });
 
-  it("shows a device that is not there in the state, and still takes jobs", async () => {
+  it("shows a missing device in the state, and still takes jobs", async () => {
     await server.close();
     await start({ device: join(dataDir, "no-such-device") });
     const { id } = await add(LINE);
@@ -182,7 +182,7 @@ describe("a server", () => {
     expect((await state()).jobs[0]?.state).toBe("queued");
   });
 
-  it("tells a taken port and a taken data folder apart, and lets go of both when closed", async () => {
+  it("distinguishes a taken port from a taken data folder, and releases both when closed", async () => {
     const port = Number(new URL(server.url).port);
     const other = mkdtempSync(join(tmpdir(), "plotwright-other-"));
     await expect(createServer({ port, device: "virtual", dataDir: other })).rejects.toThrow(
@@ -197,7 +197,7 @@ describe("a server", () => {
     rmSync(other, { recursive: true });
   });
 
-  it("gives every sample as it is on disk", async () => {
+  it("returns every sample exactly as on disk", async () => {
     const response = await fetch(`${server.url}/api/v1/samples`);
     const { samples } = (await response.json()) as { samples: { name: string; title: string }[] };
     for (const { name } of samples) {

@@ -1,4 +1,4 @@
-/** The systemd service and the logs, with a computer that only writes down what is asked of it. */
+/** The systemd service and the logs, on a simulated computer that only records its commands. */
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
@@ -54,7 +54,7 @@ const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({
 const userUnit = (): string => join(home, ".config/systemd/user/plotwright.service");
 
 describe("plotwright service", () => {
-  it("installs a user's unit, starts it, tells how it stands, and takes it away again", () => {
+  it("installs a user's unit, starts it, reports its state, and removes it again", () => {
     installService({}, ["--lan", "--data", "relative/plots"], io, host());
     const unit = readFileSync(userUnit(), "utf8");
     const script = "/usr/lib/node_modules/plotwright/dist/server/main.js";
@@ -77,7 +77,7 @@ describe("plotwright service", () => {
     expect(() => uninstallService({}, io, host())).toThrow("no service is installed");
   });
 
-  it("installs the computer's unit for root only, and runs it as somebody else", () => {
+  it("installs the system's unit for root only, and runs it as another user", () => {
     const system = { system: true };
     const asRoot = host({ isRoot: true, env: { SUDO_USER: "ada" } });
     expect(() => installService({ system: true, user: "ada" }, [], io, host())).toThrow("run it with sudo");
@@ -98,12 +98,12 @@ describe("plotwright service", () => {
     expect(await runCli(["service", "install", "--print", "--", "--prot", "9081"], io, "1.0.0")).toBe(2);
   });
 
-  it("quotes what systemd would take for something else", () => {
+  it("quotes what systemd would interpret", () => {
     const unit = unitText({}, ["--watch", '/my "plots"/100%/$HOME'], host());
     expect(unit).toContain(' --watch "/my \\"plots\\"/100%%/$$HOME"\n');
   });
 
-  it("says why when there is no systemd, or it refuses", () => {
+  it("explains if there is no systemd, or if it refuses", () => {
     expect(() => installService({}, [], io, host({ platform: "darwin" }))).toThrow("only Linux has");
     expect(() => installService({}, [], io, host({ script: "/home/a/.npm/_npx/1/main.js" }))).toThrow(
       "npm install -g",
@@ -116,7 +116,7 @@ describe("plotwright service", () => {
 });
 
 describe("the logs", () => {
-  it("are kept over restarts, at most two files, one line for each thing", () => {
+  it("are kept over restarts, at most two files, one line per entry", () => {
     new LogBook(home).write("first\nline");
     const book = new LogBook(home);
     for (let line = 0; line < 30; line++) book.write("x".repeat(100_000));
@@ -132,7 +132,7 @@ describe("the logs", () => {
     ).toBe(true);
   });
 
-  it("are printed with versions, without secrets, also when no server runs", async () => {
+  it("are printed with versions, without secrets, also if no server runs", async () => {
     const book = new LogBook(home);
     book.write("paired 192.168.1.7");
     book.write("GET /pair?token=SECRETTOKEN with Bearer SECRETKEY at https://ada:SECRETWORD@example.org/x");
@@ -145,11 +145,11 @@ describe("the logs", () => {
     expect(readFileSync(file, "utf8")).toContain("paired 192.168.1.7");
   });
 
-  it("do not name the user's folder", () => {
+  it("do not contain the path of the user's folder", () => {
     expect(withoutSecrets(`${join(homedir(), "plots/a.svg")} is torn`)).toBe("~/plots/a.svg is torn");
   });
 
-  it("do not stop the server when they can't be written", () => {
+  it("do not stop the server if they can't be written", () => {
     expect(() => new LogBook(join(home, "none")).write("x")).not.toThrow();
   });
 });

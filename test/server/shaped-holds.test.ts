@@ -13,7 +13,7 @@ import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../sup
 import { FIGURES, inQuality, SPRINGS, swinging } from "../support/swinging.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
-/** A gap, a doubled stretch or a swing that nobody sees, mm. */
+/** A gap, a doubled stretch or a swing that is invisible, mm. */
 const UNSEEN_MM = 0.05;
 const [springs] = SPRINGS;
 const machine = swinging(springs);
@@ -104,7 +104,7 @@ describe("a hold in shaped motion", () => {
 
 describe("an emergency stop in shaped motion", () => {
   it.each(["2.8.1", "3.0.3"])(
-    "is gone on from where the pen was, on firmware %s",
+    "resumes from where the pen was, on firmware %s",
     async (firmware) => {
       const random = seeded(17);
       const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);

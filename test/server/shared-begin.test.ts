@@ -1,4 +1,4 @@
-/** A shared job begins only where all servers know that it does; a plotter of no known model is told what it is. */
+/** A shared job begins only if all servers know that it does; a plotter without a known model is asked for it. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { PlotwrightServer } from "../../server/index.js";
 import { temporaryFolder } from "../support/server-process.js";
@@ -35,8 +35,8 @@ afterAll(async () => {
   data.remove();
 });
 
-describe("a plotter whose model nobody has named", () => {
-  it("is not given what is for any plotter of a model, says so, and is once it is named", async () => {
+describe("a plotter without a known model", () => {
+  it("is not given jobs for any plotter of a model, says so, and is once it has one", async () => {
     await expect
       .poll(() => logged)
       .toContainEqual(
@@ -52,8 +52,8 @@ describe("a plotter whose model nobody has named", () => {
   });
 });
 
-describe("a shared job that was taken and has not begun", () => {
-  it("does not begin while the database is away, which says why, and a copy of it does", async () => {
+describe("a claimed shared job that has not begun", () => {
+  it("does not begin while the database is away, and says why, but a copy of it does", async () => {
     await database.cut();
     expect(await start("fern")).toMatch(/^409 .*another server may have been given/);
     expect(await jobsOf(server)).toEqual(["fern queued"]);
@@ -66,7 +66,7 @@ describe("a shared job that was taken and has not begun", () => {
     await expect.poll(() => jobsOf(server)).toEqual(["fern here queued", "copy done"]);
   });
 
-  it("is left by a queue that runs on, and the job behind it begins", async () => {
+  it("is skipped by a queue that runs on, and the job behind it begins", async () => {
     const duplicate = async (name: string): Promise<void> => {
       const id = await jobNamed("copy");
       const answer = await send(server.url, "POST", `/jobs/${id}/duplicate`);
@@ -85,17 +85,17 @@ describe("a shared job that was taken and has not begun", () => {
     await send(server.url, "PATCH", "/queue", { runOn: false });
   });
 
-  it("begins when the database is back, and is nobody else's from that instant on", async () => {
+  it("begins when the database is back, and is exclusive from that instant on", async () => {
     await database.restore();
     await expect.poll(() => start("fern here")).toBe("200");
     expect(await sharedOf(server, "fern")).toMatchObject({ hasBegun: true });
     await expect.poll(async () => (await jobsOf(server)).includes("fern here done")).toBe(true);
   });
 
-  it("is taken out of the queue when it proves to be another server's", async () => {
+  it("is removed from the queue if it belongs to another server", async () => {
     await share(server, "ivy", { plotter: "left" });
     await expect.poll(async () => (await jobsOf(server))[0]).toBe("ivy queued");
-    // One that lives: of one that has gone there would be a notice.
+    // A running one: for one that has gone there would be a notice.
     await database.query(`INSERT INTO plotwright_servers (id, seen_at) VALUES ('other', now());
       UPDATE plotwright_jobs SET server_id = 'other' WHERE name = 'ivy'`);
     await expect.poll(() => start("ivy")).toMatch(/^409 .*was given to another server/);
@@ -103,7 +103,7 @@ describe("a shared job that was taken and has not begun", () => {
     expect(await noticesOf(server)).toEqual(['"ivy" was given to another server while this one was away.']);
   });
 
-  it("begins once when two ask for it in the same instant", async () => {
+  it("begins once when two requests arrive in the same instant", async () => {
     await share(server, "oak", { plotter: "left" });
     await expect.poll(async () => (await jobsOf(server))[0]).toBe("oak queued");
     await expect.poll(() => Promise.all([start("oak"), start("oak")])).toEqual(["200", "200"]);

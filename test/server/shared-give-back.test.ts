@@ -1,4 +1,7 @@
-/** What a server took from the shared queue and left behind: another one can have it, as long as nothing was drawn. */
+/**
+ * Jobs that a server claimed from the shared queue and abandoned: another one can have them, as long as
+ * nothing was drawn.
+ */
 import { afterEach, describe, expect, it } from "vitest";
 import type { PlotwrightServer } from "../../server/index.js";
 import { temporaryFolder } from "../support/server-process.js";
@@ -20,8 +23,8 @@ afterEach(async () => {
   for (const step of undo.splice(0).reverse()) await step();
 });
 
-describe("a job that a server has taken", () => {
-  it("is given back when that server has gone and has not begun it, and comes in once", async () => {
+describe("a job claimed by a server", () => {
+  it("is returned when that server has gone and has not begun it, and is added once", async () => {
     const database = await SharedDatabase.open();
     undo.push(() => database.close());
     const open = async (dataDir: string, name: string): Promise<PlotwrightServer> => {

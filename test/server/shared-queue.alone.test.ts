@@ -1,6 +1,6 @@
 /**
- * Two servers that share jobs by a PostgreSQL database (PGlite: PostgreSQL in this process, behind a socket), each
- * with a virtual plotter; one is killed in mid-job.
+ * Two servers that share jobs by a PostgreSQL database (PGlite: PostgreSQL in this process, behind a socket),
+ * each with a virtual plotter; one is killed during a job.
  */
 import { once } from "node:events";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -23,7 +23,7 @@ const JOB_COUNT = countFor("PLOTWRIGHT_SHARED_JOBS", 40, 8);
 /** For the whole test; each of its three waits has a third of it. */
 const LIMIT_MS = 30_000 * JOB_COUNT;
 const LINES = 8;
-/** The second job of the left server: so long that it is met in the middle of it. */
+/** The second job of the left server: long enough that the kill meets it in the middle. */
 const LONG_INDEX = 4;
 const MANY_LINES = 60;
 
@@ -31,7 +31,7 @@ const jobsOf = async (server: AtUrl): Promise<Job[]> => (await stateOf(server)).
 const countOf = (jobs: readonly Job[], ...states: Job["state"][]): number =>
   jobs.filter(({ state }) => states.includes(state)).length;
 
-/** What their operator does: takes up what a busy computer or a kill has interrupted, and begins what waits. */
+/** The operator's part: resumes what a busy computer or a kill has interrupted, and starts what waits. */
 async function goOn(server: AtUrl): Promise<void> {
   const action: Partial<Record<Job["state"], string>> = {
     failed: "requeue",
@@ -71,7 +71,7 @@ describe("two servers that share a queue", { timeout: LIMIT_MS }, () => {
     for (const folder of folders) folder.remove();
   });
 
-  it(`plots each of ${JOB_COUNT} jobs once where it is meant to be, though one server is killed in mid-job`, async () => {
+  it(`plots each of ${JOB_COUNT} jobs once on its plotter, though one server is killed during a job`, async () => {
     const [left, right] = servers as [ServerProcess, ServerProcess];
     const names: string[] = [];
     for (let index = 0; index < JOB_COUNT; index++) {
@@ -97,7 +97,7 @@ describe("two servers that share a queue", { timeout: LIMIT_MS }, () => {
     const gone = once(left.process, "exit");
     left.process.kill("SIGKILL");
     await gone;
-    // The other one goes on, with everything that is not meant for the one that is gone.
+    // The other one continues, with everything that is not for the missing one.
     await expect
       .poll(
         async () => {
@@ -126,7 +126,7 @@ describe("two servers that share a queue", { timeout: LIMIT_MS }, () => {
     expect([...onLeft, ...onRight].map(({ name }) => name).sort()).toEqual([...names].sort());
     expect(onLeft.filter(({ name }) => name.endsWith("right"))).toEqual([]);
     expect(onRight.filter(({ name }) => name.endsWith("Left"))).toEqual([]);
-    // A job may be plotted sooner than its server has said in the database that it has it.
+    // A job may be plotted before its server has recorded its claim in the database.
     await expect
       .poll(async () => (await sharedJobsOf(right)).map(({ state }) => state))
       .toEqual(Array(JOB_COUNT).fill("stored"));

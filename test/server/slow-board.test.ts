@@ -1,4 +1,7 @@
-/** A virtual board that runs slower than time: what it takes longer for is no silence, and no standstill. */
+/**
+ * A virtual board that runs slower than real time: its longer durations are not silence, and not a
+ * standstill.
+ */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
@@ -7,7 +10,7 @@ import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const { motion } = DEFAULT_PLOT_SETTINGS;
-/** Commands as long as they get: one line of 14 s. */
+/** Commands of maximum length: one line of 14 s. */
 const SLOW: PlotSettings = {
   ...DEFAULT_PLOT_SETTINGS,
   motion: { ...motion, draw: { ...motion.draw, speedMmPerS: 20 } },
@@ -31,7 +34,7 @@ describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) 
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it.each(["2.5.3", "2.8.1", "3.0.3"])("is led by hand, on firmware %s", async (firmware) => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("can be moved by hand, on firmware %s", async (firmware) => {
     const { world, driver, board } = await slowPlotter(virtualSpeed, firmware);
     await world.run(driver.cyclePen(SLOW));
     await world.run(driver.walkTo(280, 200, SLOW));
@@ -44,7 +47,7 @@ describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) 
     expect(board.state().penUp).toBe(true);
   });
 
-  it.each(["2.8.1", "3.0.3"])("is held, goes on, and stops at once, on firmware %s", async (firmware) => {
+  it.each(["2.8.1", "3.0.3"])("is held, resumes, and stops at once, on firmware %s", async (firmware) => {
     const { world, driver, board } = await slowPlotter(virtualSpeed, firmware);
     const run = await world.run(driver.plot(new LocalPlanner(LINES), SLOW));
     const held = (): Promise<void> => new Promise((resolve) => run.onHeld((isHeld) => isHeld && resolve()));
@@ -62,7 +65,7 @@ describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) 
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("is left in mid-plot with the pen up", async () => {
+  it("is closed in mid-plot with the pen up", async () => {
     const { world, driver, board } = await slowPlotter(virtualSpeed, "2.8.1");
     const run = await world.run(driver.plot(new LocalPlanner(LINES), SLOW));
     run.finished.catch(() => undefined);

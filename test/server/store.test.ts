@@ -22,7 +22,7 @@ afterEach(() => rmSync(dir, { recursive: true, force: true }));
 const ids = (store: Store): string[] => store.jobs().map((job) => job.id);
 
 describe("a store", () => {
-  it("gives back after reopening exactly the jobs that were put in, in their order", () => {
+  it("returns after reopening exactly the stored jobs, in their order", () => {
     const first = Store.open(dir);
     const jobs = ["a", "b", "c"].map((id) => makeJob(id, { message: `über ${id} 🖊`, warnings: ["x", "y"] }));
     for (const job of jobs) first.addJob(job, drawingOf(job.id));
@@ -63,7 +63,7 @@ describe("a store", () => {
     store.close();
   });
 
-  it("keeps settings by name, and tells a missing one from null", () => {
+  it("stores settings by name, and distinguishes a missing one from null", () => {
     const store = Store.open(dir);
     store.saveSetting("page", { dark: true });
     store.saveSetting("page", { dark: false });
@@ -74,7 +74,7 @@ describe("a store", () => {
     store.close();
   });
 
-  it("refuses a folder that another server uses, and lets it go on", () => {
+  it("refuses a folder that another server uses, without disturbing it", () => {
     const store = Store.open(dir);
     expect(() => Store.open(dir)).toThrow(/Another plotwright server \(process \d+\) uses the data folder/);
     store.addJob(makeJob("a"), drawingOf("a"));
@@ -84,7 +84,7 @@ describe("a store", () => {
     again.close();
   });
 
-  it("takes over a lock whose owner is gone, or whose number another process has now", () => {
+  it("takes over a lock whose owner is gone, or whose process number is reused", () => {
     for (const owner of [
       '{"pid":999999999,"began":""}',
       `{"pid":${process.pid},"began":"0@another-boot"}`,
@@ -109,7 +109,7 @@ describe("a store", () => {
     after.close();
   });
 
-  it("names a file that is no database and leaves the folder free", () => {
+  it("names a file that is not a database and leaves the folder free", () => {
     writeFileSync(
       join(dir, "plotwright.db"),
       "this is not SQLite, but long enough to have a header".repeat(40),
@@ -118,8 +118,8 @@ describe("a store", () => {
     expect(() => Store.open(dir)).toThrow(/can't be opened/);
   });
 
-  it("has every change it told of, whenever it is killed", async () => {
-    // Two folders side by side: a process spends most of its time beginning, and waiting for the disk.
+  it("has every change that it reported, whenever it is killed", async () => {
+    // Two folders side by side: a process spends most of its time starting, and waiting for the disk.
     const inOne = async (folder: string, firstSeed: number): Promise<void> => {
       for (let seed = firstSeed; seed <= cases(10, 4); seed += 2) {
         const told = await changeUntilKilled(folder, seed, 3 + ((seed * 37) % 90));
@@ -138,7 +138,7 @@ describe("a store", () => {
   });
 });
 
-/** What may be on disk after the kill: what was told last, and what was being done. */
+/** What may be on disk after the kill: the last reported state, or the one in progress. */
 async function changeUntilKilled(folder: string, seed: number, lines: number): Promise<string[]> {
   const script = new URL("./support/store-child.ts", import.meta.url).pathname;
   const child = spawn(process.execPath, ["--import", "tsx", script, folder, String(seed)], {
@@ -160,7 +160,7 @@ async function changeUntilKilled(folder: string, seed: number, lines: number): P
 }
 
 describe("drawing files", () => {
-  it("keeps the bytes as they came, each upload for itself", async () => {
+  it("stores the bytes unchanged, each upload separately", async () => {
     const files = new DrawingFiles(dir, 1_000);
     const parts = [Buffer.from("<svg "), Buffer.from("/>\r\n\0ü")];
     const first = await files.add(parts);
@@ -185,7 +185,7 @@ describe("drawing files", () => {
     expect(readdirSync(join(dir, "drawings"))).toEqual([]);
   });
 
-  it("leaves nothing of an upload that breaks off", async () => {
+  it("leaves nothing of an upload that is cut off", async () => {
     const files = new DrawingFiles(dir, 1_000);
     async function* broken(): AsyncGenerator<Uint8Array> {
       yield new Uint8Array(10);

@@ -1,4 +1,7 @@
-/** Uploads that take long, or are made to: the others are served meanwhile, and nothing is done for those who have gone. */
+/**
+ * Slow uploads, intentional or not: other clients are served meanwhile, and no work is done for clients that
+ * have gone.
+ */
 import { request as httpRequest } from "node:http";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -14,7 +17,7 @@ const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10" stroke="r
 const JSON_TYPE = { "Content-Type": "application/json" };
 
 describe("a lane", () => {
-  /** Work that ends when told to; `begun` in the order in which it begins. */
+  /** Work that ends when the test says so; `begun` in the order in which it begins. */
   function desk(places: number): {
     readonly begun: string[];
     begin(name: string, client?: string, signal?: AbortSignal): Promise<string>;
@@ -36,7 +39,7 @@ describe("a lane", () => {
   }
   const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
-  it("gives each client one place, the others in the order in which they came", async () => {
+  it("gives each client one place, the others in order of arrival", async () => {
     const { begun, begin, end } = desk(2);
     const all = [begin("a1", "a"), begin("a2", "a"), begin("b1", "b"), begin("c1", "c"), begin("b2", "b")];
     await settled();
@@ -53,7 +56,7 @@ describe("a lane", () => {
     expect(await Promise.all(all)).toEqual(["a1", "a2", "b1", "c1", "b2"]);
   });
 
-  it("forgets who has gone while waiting, and who had gone before", async () => {
+  it("drops clients that have gone while waiting, and those gone before", async () => {
     const { begun, begin, end } = desk(1);
     const gone = new AbortController();
     const first = begin("first");
@@ -71,7 +74,7 @@ describe("a lane", () => {
   });
 });
 
-describe("uploads whose order is searched for an hour", () => {
+describe("uploads whose ordering takes an hour", () => {
   const scattered = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200"><path stroke="black" fill="none" d="${Array.from(
     { length: 20_000 },
     (_, i) => `M${(i * 7919) % 200} ${(i * 104_729) % 197}h.5`,
@@ -94,7 +97,7 @@ describe("uploads whose order is searched for an hour", () => {
     rmSync(dataDir, { recursive: true, force: true });
   });
 
-  it("keep no ordinary one waiting, and end with the client who wanted them", async () => {
+  it("do not delay ordinary ones, and end with their client", async () => {
     const gone = new AbortController();
     const jobs = `${server.url}/api/v1/jobs`;
     const drawings = (): string[] => readdirSync(join(dataDir, "drawings"));
@@ -109,7 +112,7 @@ describe("uploads whose order is searched for an hour", () => {
     expect([answer.status, jobSchema.parse(await answer.json()).name]).toEqual([201, "ordinary"]);
     gone.abort();
     expect(await Promise.all(long)).toEqual(["gone", "gone", "gone"]);
-    // Their drawings go when their planning has ended.
+    // Their drawings are removed when their planning has ended.
     await expect.poll(() => drawings().length).toBe(1);
   }, 120_000);
 });
@@ -134,7 +137,7 @@ describe("JSON", () => {
     ["beside the drawing", job(`"settings":${nested(400_000)}`)],
     ["a small one", job(`"settings":${nested(50_000)}`)],
     ["in place of the drawing", `{"name":"a","drawing":${nested(400_000)}}`],
-  ])("nested deeply, %s, is refused and nothing of it kept", async (_what, body) => {
+  ])("nested deeply, %s, is refused and nothing of it is stored", async (_what, body) => {
     const { status, message } = await post(body);
     expect([status, message]).toEqual([400, expect.stringMatching(/nested|object|expected|drawing|JSON/i)]);
     expect(app.drawingsOnDisk()).toEqual([]);
@@ -150,7 +153,7 @@ describe("JSON", () => {
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
-  it("that is broken far in is refused with words", async () => {
+  it("that is broken late is refused with an explanation", async () => {
     const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(900_000))}`).slice(0, -1));
     expect([status, message]).toEqual([400, "The request is not valid JSON."]);
   });
@@ -183,7 +186,7 @@ describe("an uploaded drawing", () => {
     rmSync(dataDir, { recursive: true, force: true });
   }, 30_000);
 
-  it("is kept for its job, however long that waits", async () => {
+  it("stays for its job, however long that waits", async () => {
     const app = await startApp({ keepUploadsMs: 200 });
     const id = await idOf(await post(app, SVG));
     expect((await add(app, id)).status).toBe(201);
@@ -192,16 +195,16 @@ describe("an uploaded drawing", () => {
     await app.close();
   }, 30_000);
 
-  it("goes when its job can't be planned", async () => {
+  it("is removed when its job can't be planned", async () => {
     const measure = (): Promise<never> =>
-      Promise.reject(new PlotwrightError("bad-file", "It is no drawing."));
+      Promise.reject(new PlotwrightError("bad-file", "It is not a drawing."));
     const app = await startApp({ planning: { measure, open: measure } });
     expect((await add(app, await idOf(await post(app, SVG)))).status).toBe(422);
     expect(app.drawingsOnDisk()).toEqual([]);
     await app.close();
   }, 30_000);
 
-  it("is refused when it is empty or too large, and nothing of a half-sent one is kept", async () => {
+  it("is refused when it is empty or too large, and nothing of a half-sent one is stored", async () => {
     const app = await startApp({ maxUploadBytes: 10_000 });
     expect((await post(app, "")).status).toBe(422);
     expect((await post(app, "x".repeat(10_001))).status).toBe(413);

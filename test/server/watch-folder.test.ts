@@ -73,7 +73,7 @@ const queued = (...wanted: string[]): Promise<void> =>
   expect.poll(() => [...names()].sort()).toEqual([...wanted].sort());
 
 describe("the watched folder", () => {
-  it("queues what lies there and what comes, once each, and nothing twice after a restart", async () => {
+  it("queues present and new files, once each, and nothing twice after a restart", async () => {
     put("a.svg");
     await open();
     await queued("a.svg");
@@ -81,7 +81,7 @@ describe("the watched folder", () => {
     put("notes.txt");
     put(".hidden.svg");
     await queued("a.svg", "b.dxf");
-    // Exported again with the same content, or under another name for a while.
+    // Exported again with the same content, or temporarily under another name.
     put("a.svg");
     renameSync(join(watched, "b.dxf"), join(watched, "c.tmp"));
     renameSync(join(watched, "c.tmp"), join(watched, "b.dxf"));
@@ -93,14 +93,14 @@ describe("the watched folder", () => {
     await queued("a.svg", "a.svg", "b.dxf", "late.svg");
   });
 
-  it("takes every format that can be read, and no settings", async () => {
+  it("takes every readable format, and no settings files", async () => {
     await open();
     for (const name of ["settings.json", "a.settings.json", "notes.txt", "a.hgl", "b.json", "c.PLT"])
       put(name, "{}");
     await queued("a.hgl", "b.json", "c.PLT");
   });
 
-  it("takes a file only when its size has stood still", async () => {
+  it("takes a file only when its size is stable", async () => {
     await open(1_500);
     const whole = "<svg><!-- 1 2 3 4 5 6 --></svg>";
     for (let length = 5; length < whole.length; length += 5) {
@@ -115,7 +115,7 @@ describe("the watched folder", () => {
     expect(readFileSync(queue.drawingPath(slow?.id ?? ""), "utf8")).toBe(whole);
   });
 
-  it("names what can't be plotted in the log and in a notice, once, and goes on", async () => {
+  it("names what can't be plotted in the log and in a notice, once, and continues", async () => {
     planning = {
       ...LED_PLANNING,
       measure: (...args) =>
@@ -141,7 +141,7 @@ describe("the watched folder", () => {
     expect(notices.list()).toHaveLength(3);
   });
 
-  it("takes its settings from the last job, and a file beside the drawing goes before them", async () => {
+  it("takes its settings from the last job; a settings file beside the drawing overrides them", async () => {
     put("a.settings.json", JSON.stringify({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 12 } }));
     put("a.svg");
     await open();
@@ -158,7 +158,7 @@ describe("the watched folder", () => {
     await expect.poll(() => notices.list()[0]?.message).toMatch(/c\.settings\.json: pen\./);
   });
 
-  it("does not follow links out of the folder, and says when the folder is not there", async () => {
+  it("does not follow links out of the folder, and reports a missing folder", async () => {
     writeFileSync(join(dir, "secret.svg"), "<svg/>");
     symlinkSync(join(dir, "secret.svg"), join(watched, "link.svg"));
     await open();

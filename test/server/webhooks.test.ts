@@ -1,4 +1,4 @@
-/** Webhooks against a receiver that answers as told. */
+/** Webhooks against a receiver with scripted answers. */
 import { createHmac } from "node:crypto";
 import { createServer, type IncomingHttpHeaders, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -30,9 +30,9 @@ interface Received {
 let app: TestApp;
 let receiver: Server;
 let received: Received[];
-/** Statuses of the next answers; 200 when there are none left. */
+/** Statuses of the next answers; 200 if there are none left. */
 let answers: number[];
-/** Nobody answers; its port stays its own, since another program might take it. */
+/** No server answers; the port stays reserved, because another program might take it. */
 let isAway: boolean;
 let url: string;
 
@@ -95,7 +95,7 @@ async function plot(end: "done" | Error): Promise<Job> {
 }
 
 describe("a webhook", () => {
-  it("is told when a job is done, signed with its secret and the time", async () => {
+  it("is sent when a job is done, signed with its secret and the time", async () => {
     const { secret } = await subscribe(["done", "failed", "waiting"]);
     const { id } = await plot("done");
     await heard(1);
@@ -110,7 +110,7 @@ describe("a webhook", () => {
     expect(headers["plotwright-delivery"]).toBe(message.id);
   });
 
-  it("hears of what it asked for only: failures, and waits for a pen or after an interruption", async () => {
+  it("is sent only the selected events: failures, and waits for a pen or after an interruption", async () => {
     await subscribe(["failed", "waiting"]);
     await plot("done");
     await plot(new PlotwrightError("internal", "The planner broke."));
@@ -130,7 +130,7 @@ describe("a webhook", () => {
     expect(received[2]?.message).toMatchObject({ event: "waiting", job: { id, state: "interrupted" } });
   });
 
-  it("is tried again until it takes the message, in order, and does not follow redirects", async () => {
+  it("is retried until the message is accepted, in order, and does not follow redirects", async () => {
     answers = [500, 302];
     await subscribe(["done"]);
     await plot("done");
@@ -144,7 +144,7 @@ describe("a webhook", () => {
     expect(app.logged.some((line) => line.includes("redirects are not followed"))).toBe(true);
   });
 
-  it("is given up after its last try, or at once when it says that it is gone", async () => {
+  it("is dropped after its last try, or at once if the receiver reports that it is gone", async () => {
     answers = [500, 500, 500, 500];
     await subscribe(["done"]);
     await plot("done");
@@ -157,7 +157,7 @@ describe("a webhook", () => {
     expect(received).toHaveLength(5);
   });
 
-  it("gets after a restart what it could not be told before", async () => {
+  it("is sent after a restart what could not be sent before", async () => {
     const { webhook } = await subscribe(["done"]);
     isAway = true;
     await app.webhooks.close();
@@ -231,7 +231,7 @@ describe("a webhook", () => {
   });
 
   it.each(["ftp://example.org/", "javascript:alert(1)", "not a url", "file:///etc/passwd"])(
-    "is not taken with the address %s",
+    "is refused with the address %s",
     async (address) => {
       const response = await fetch(`${app.url}/api/v1/webhooks`, {
         method: "POST",

@@ -5,7 +5,7 @@ import type { MotionLimits } from "../../src/internal.js";
 
 export type Point = readonly [number, number];
 
-/** Strokes in one layer (or as told) from lists of points. */
+/** Strokes in one layer (or the given ones) from lists of points. */
 export function strokeSetOf(
   strokes: readonly (readonly Point[])[],
   layerOf: readonly number[] = [],
@@ -78,7 +78,7 @@ export const arbitraryStroke: fc.Arbitrary<readonly Point[]> = fc.oneof(
   { weight: 1, arbitrary: dot },
 );
 
-/** One stroke with points on a grid of 1 µm: none nearer together than that, unless equal. */
+/** One stroke with points on a grid of 1 µm: none closer together than that, unless equal. */
 export const arbitraryGridStroke: fc.Arbitrary<readonly Point[]> = arbitraryStroke.map((stroke) =>
   stroke.map(([x, y]): Point => [Math.round(x * 1000) / 1000, Math.round(y * 1000) / 1000]),
 );

@@ -1,8 +1,8 @@
-/** axe's rules (WCAG 2.2 A and AA, and its best practices) on the page as it stands. */
+/** axe's rules (WCAG 2.2 A and AA, and its best practices) on the current page. */
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 
-/** Serious and critical findings, one line each: rule, and the elements it is about. */
+/** Serious and critical findings, one line each: the rule, and the elements concerned. */
 export async function seriousFindings(page: Page): Promise<string[]> {
   await page.evaluate(axe.source);
   const { violations } = await page.evaluate(() =>

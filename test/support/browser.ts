@@ -2,7 +2,7 @@
 import { chromium, type Browser, type LaunchOptions } from "playwright-core";
 import { findBrowser } from "../../scripts/find-browser.mjs";
 
-/** Throws, with what to do, where no browser is installed: a browser test is never skipped. */
+/** Throws, with advice, if no browser is installed: a browser test is never skipped. */
 export async function browserOptions(): Promise<LaunchOptions> {
   const executablePath = await findBrowser();
   if (executablePath === null) {
@@ -10,12 +10,15 @@ export async function browserOptions(): Promise<LaunchOptions> {
       "No Chromium, Chrome or Edge found. Install one, or set CHROMIUM_PATH to its program file.",
     );
   }
-  // As on a computer without a graphics card: drawn by the processor, which is quicker than a card that is imitated.
+  // As on a computer without a graphics card: drawn by the processor, which is faster than an emulated card.
   const args = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
   return { executablePath, args, timeout: 120_000 };
 }
 
-/** The browser that the test files share, or one of its own for a script. `close` ends only what was opened here. */
+/**
+ * The browser that the test files share, or a separate one for a script. `close` ends only what was opened
+ * here.
+ */
 export async function launchBrowser(): Promise<Browser> {
   const shared = process.env["PLOTWRIGHT_BROWSER"];
   return shared === undefined ? chromium.launch(await browserOptions()) : chromium.connect(shared);

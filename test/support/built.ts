@@ -1,4 +1,4 @@
-/** Before tests that run the built product: builds dist/ where the sources have changed since. */
+/** Runs before tests of the built product: builds dist/ if the sources have changed. */
 import { ensureBuild } from "../../scripts/setup.mjs";
 
 export default function setup(): void {

@@ -1,4 +1,7 @@
-/** Do the colours on the screen belong to a legend? A line's edge pixels are mixed with the paper under it. */
+/**
+ * Checks whether the colours on the screen belong to a legend. The pixels at a line's edge are mixed with the
+ * paper.
+ */
 export type Rgb = readonly [r: number, g: number, b: number];
 
 /** From 0xrrggbb. */

@@ -1,4 +1,4 @@
-/** Connects to a port as whoever it is run as, and tells its parent what came of it. */
+/** Connects to a port under the account that runs it, and sends the result to its parent. */
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 
 const driver = new PlotterDriver({ device: process.argv[2] });

@@ -1,22 +1,24 @@
 /**
- * What an isolated corner costs: seconds lost against a pen that goes round it at V as if direction were free, for each
- * rule, and the least that any motion can lose that stays within δ of the drawing.
+ * The time cost of an isolated corner: seconds lost compared with a pen that turns at speed V as if direction
+ * were free. Computed for each rule, together with the minimum for any motion that stays within δ of the
+ * drawing.
  *
  *   y ^  \   φ turn         s = sin(φ/2), c = cos(φ/2); both sides are long, the pen comes and goes at V
  *     |   \     /           y along the bisector, into the corner's inside; x across it
- *     |    \ • /  apex at   A point of the bisector is y c from the sides: whoever passes within δ
+ *     |    \ • /  apex at   A point of the bisector is y c from the sides: a path that passes within δ
  *     +-----V----> x        crosses it at y ≤ δ/c, and comes along the side at σ ≤ δ outside of it.
  *
- * The bound keeps only that, |a| ≤ A and |v| ≤ V, and forgets the rest of the corridor, so nothing can be faster. Two
- * motions averaged keep the same convex limits; so a symmetric one is among the best, with velocity along x at the
- * bisector. With u the direction of coming and n the one square to it, towards the inside, the half before it loses
+ * The bound uses only that, |a| ≤ A and |v| ≤ V, and ignores the rest of the corridor, so nothing can be
+ * faster. The average of two motions satisfies the same convex limits, so some symmetric motion is optimal,
+ * with velocity along x at the bisector. With u the direction of approach and n its normal towards the
+ * inside, the half before it loses
  *
  *     V λ = ∫ (V − v·u) dt − s y        c y = ∫ v·n dt − σ ≤ δ
  *
- * For any μ ≥ 0 a lower bound (Lagrange's duality) is the least of ∫ ℓ(v) dt − μ (δ + σ) + σ s/c, where ℓ =
- * V − v·u + (μ − s/c) v·n. For μ ≥ s/c that is least at σ = δ; and since ℓ ≥ 0 and dt ≥ |dv|/A, the rest is a shortest
- * way through the disc of velocities from V u to the x axis with the weight ℓ/A: found on a polar grid, for the best of
- * many μ.
+ * For any μ ≥ 0 a lower bound (Lagrangian duality) is the minimum of ∫ ℓ(v) dt − μ (δ + σ) + σ s/c, where ℓ =
+ * V − v·u + (μ − s/c) v·n. For μ ≥ s/c that is minimal at σ = δ. Since ℓ ≥ 0 and dt ≥ |dv|/A, the rest is a
+ * shortest path through the disc of velocities from V u to the x axis with weight ℓ/A. It is computed on a
+ * polar grid, for the best of many μ.
  */
 export interface CornerCase {
   /** V mm/s, A mm/s², δ mm, φ rad. */
@@ -34,8 +36,9 @@ export function junctionLoss({ speed, accel, deviation, turn }: CornerCase): num
 }
 
 /**
- * Brake to the parabola's speed; the parabola takes 2 v s/A and stands for 2 v² s/A mm; speed up again. The corner is moved outwards
- * by up to δ where it would have to brake, which makes it rounder, both sides of `side` mm longer, and the turn a little wider.
+ * Brake to the parabola's speed; the parabola takes 2 v s/A and replaces 2 v² s/A mm; speed up again. Where
+ * the pen would have to brake, the corner is moved outwards by up to δ. This makes it rounder, both sides
+ * (`side` mm) longer, and the turn a little wider.
  */
 export function blendLoss({ speed, accel, deviation, turn }: CornerCase, side: number): number {
   const [s, c] = [Math.sin(turn / 2), Math.cos(turn / 2)];
@@ -51,13 +54,13 @@ export function blendLoss({ speed, accel, deviation, turn }: CornerCase, side: n
 const RADII = 160;
 const ANGLES = 40;
 
-/** The least that can be lost, s, within about 1 %; below 0 where the short cut saves more than the turn costs. */
+/** The minimum loss, s, within about 1 %; below 0 where the short cut saves more than the turn costs. */
 export function leastLoss(corner: CornerCase): number {
   const { speed, accel, deviation, turn } = corner;
   const least = Math.tan(turn / 2);
   const scale = (speed * speed) / (2 * accel * deviation);
   const bound = (share: number): number => dualBound(corner, least + scale * share * share);
-  // Concave in μ: narrowed down by thirds.
+  // Concave in μ: ternary search.
   let [low, high] = [0, 2];
   for (let i = 0; i < 24; i++) {
     const [a, b] = [low + (high - low) / 3, high - (high - low) / 3];

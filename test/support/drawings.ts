@@ -1,4 +1,4 @@
-/** Drawings written in a few words, for tests of what comes after the importer. */
+/** Drawings in a short notation, for tests of the stages after the importer. */
 import {
   PAIRS_OF_VERB,
   RULE_NONZERO,
@@ -19,6 +19,7 @@ export interface TestShape {
   readonly group?: number;
   readonly dash?: number;
   readonly clip?: number;
+  readonly strokeWidth?: number;
   readonly fillRule?: number;
 }
 
@@ -99,7 +100,7 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
       ),
       fill: Int32Array.from(given, (shape) => colorIndex(shape.fill ?? null)),
       fillRule: Uint8Array.from(given, (shape) => shape.fillRule ?? RULE_NONZERO),
-      strokeWidth: new Float32Array(given.length).fill(0.3),
+      strokeWidth: Float32Array.from(given, (shape) => shape.strokeWidth ?? 0.3),
       dash: Int32Array.from(given, (shape) => shape.dash ?? -1),
       clip: Int32Array.from(given, (shape) => shape.clip ?? -1),
     },
@@ -107,7 +108,7 @@ export function drawingOf(shapes: readonly (TestShape | string)[], more: TestDra
   };
 }
 
-/** A sheet of ruled lines: little to draw on a screen, minutes to plot. */
+/** A sheet of ruled lines: little to draw on a screen, but minutes to plot. */
 export const ruledSheet = (lineCount = 120): string => {
   const lines = Array.from(
     { length: lineCount },

@@ -1,19 +1,19 @@
 /**
- * What a virtual board has really drawn, compared with the drawing: what is missing, what is drawn more than once,
- * what lies beside it. For drawings whose strokes keep a few mm from one another and from themselves, so that the
- * nearest place of the drawing is the one that was meant.
+ * Compares what a virtual board has drawn with the drawing: what is missing, what is drawn more than once,
+ * what lies beside it. For drawings whose strokes stay a few mm apart from one another and from themselves,
+ * so that the nearest place of the drawing is the intended one.
  */
 import type { StrokeSet } from "../../src/index.js";
 
-/** Steps of the motors, rounded corners. */
+/** Tolerance: steps of the motors, rounded corners. */
 const SAME_MM = 1e-9;
 
 export interface DrawnTruth {
   /** The longest piece of the drawing that is not drawn. */
   readonly gapMm: number;
-  /** All that is drawn more than once. */
+  /** Everything that is drawn more than once. */
   readonly overlapMm: number;
-  /** The farthest that anything drawn lies from the drawing. */
+  /** Max distance of the drawn line from the drawing. */
   readonly awayMm: number;
 }
 
@@ -35,7 +35,7 @@ export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): Drawn
     for (let i = 0; i < xy.length; i += 2) {
       const now = nearest(rail, xy[i], xy[i + 1]);
       awayMm = Math.max(awayMm, now.awayMm);
-      // Between two strokes nothing of either is drawn; `awayMm` tells of such a line.
+      // A line between two strokes belongs to neither; `awayMm` reports it.
       if (before?.stroke === now.stroke) {
         passed.push([Math.min(before.alongMm, now.alongMm), Math.max(before.alongMm, now.alongMm)]);
       }

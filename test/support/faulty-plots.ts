@@ -1,7 +1,7 @@
 /**
- * One plot on a board in another process, over a real pseudo-terminal, with a fault at one instant: it is taken up
- * again as often as it is broken off, as a user would do by Recover and Resume. Then what the board drew is compared
- * with the drawing.
+ * One plot on a board in another process, over a real pseudo-terminal, with a fault at one instant. It is
+ * resumed after each interruption, as a user would do by Recover and Resume. Then what the board drew is
+ * compared with the drawing.
  */
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
@@ -23,15 +23,15 @@ export const FAULT_DRAWING: StrokeSet = strokesOf(
   Array.from({ length: 120 }, (_, i) => [60 + i / 3, 45 + 3 * Math.sin(i / 6)]).flat(),
 );
 
-/** Each longer than any plot with a fault needs. */
+/** Each is longer than any plot with a fault needs. */
 const MOST_INTERRUPTIONS = 4;
 const IDLE_WITHIN_S = 40;
 
 export interface Fault {
   readonly name: string;
-  /** What happens, and what mends it, with the time that passes between. */
+  /** The fault and its repair, with the time between them. */
   happen(board: PtyBoard, random: () => number): void | Promise<void>;
-  /** Before the plot is taken up again: sets home where the fault has cost it. */
+  /** Called before the plot is resumed: sets home if the fault has lost it. */
   readonly beforeResume?: (driver: PlotterDriver, board: PtyBoard) => Promise<void>;
 }
 
@@ -39,7 +39,7 @@ export interface FaultyPlotResult extends DrawnTruth {
   /** How each run of the plot ended: "done", or the error's code and message. */
   readonly outcomes: readonly string[];
   readonly report: BoardReport;
-  /** For how long the machine did not run the board's process meanwhile: a real board never stands still. */
+  /** How long the machine did not run the board's process: a real board never stops. */
   readonly sleptS: number;
 }
 

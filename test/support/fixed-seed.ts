@@ -1,7 +1,7 @@
 /**
- * Property tests draw the same cases in every run, so that a failure is there for everybody and a change is
- * judged on what it changes. `PLOTWRIGHT_SEED=random` (or a number) draws others: worth doing after work on
- * an algorithm. Known then: about once in two thousand random polygons, slivers along a border defeat either
+ * Property tests use the same cases in every run, so that a failure is reproducible and independent of
+ * earlier runs. `PLOTWRIGHT_SEED=random` (or a number) uses others: do this after work on an algorithm. Known
+ * failure of other seeds: in about one of two thousand random polygons, slivers along a border defeat either
  * Clipper's rounding or the sampling that checks it.
  */
 import fc from "fast-check";

@@ -1,4 +1,4 @@
-/** A plot on the virtual board by a clock that the test leads, and what is to be said of the line that it drew. */
+/** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
 import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
@@ -64,7 +64,7 @@ function* pairs(xy: ArrayLike<number>): Iterable<readonly [number, number]> {
   for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
 }
 
-/** Everything drawn lies on the drawing, and everything of the drawing is drawn. */
+/** Everything drawn lies on the drawing, and the whole drawing is drawn. */
 export function expectDrawn(board: VirtualBoard, strokes: StrokeSet, withinMm: number): void {
   const drawn = new SegmentGrid(1);
   const source = gridOfStrokes(strokes);
@@ -75,7 +75,7 @@ export function expectDrawn(board: VirtualBoard, strokes: StrokeSet, withinMm: n
   expect(farthest(pairs(strokes.xy), drawn)).toBeLessThan(withinMm);
 }
 
-/** mm between the end of each line and the beginning of the next, where they belong to the same stroke. */
+/** mm between the end of each line and the beginning of the next, if both belong to the same stroke. */
 export function seamsMm(board: VirtualBoard): number[] {
   const all = lines(board);
   const seams: number[] = [];
@@ -88,8 +88,8 @@ export function seamsMm(board: VirtualBoard): number[] {
 }
 
 /**
- * mm drawn, without the steps' own zigzag, which makes up to a twentieth more of a line by how the two motors' steps happen to
- * fall.
+ * mm drawn, without the zigzag of the steps, which adds up to a twentieth to a line, depending on how the two
+ * motors' steps interleave.
  */
 export function drawnMm(board: Pick<VirtualBoard, "drawn">): number {
   let sum = 0;

@@ -9,7 +9,7 @@ export interface StreamRow {
   readonly run?: number;
 }
 
-/** A command stream written by hand; plan time is board time. */
+/** A hand-written command stream; plan time is board time. */
 export function makeStream(
   rows: readonly StreamRow[],
   from: readonly [number, number] = [0, 0],
@@ -43,7 +43,7 @@ export function makeStream(
   };
 }
 
-/** `count` moves in one run, `ms` each, in a circle of sorts so that nothing runs away. */
+/** `count` moves in one run, `ms` each, roughly in a circle so that the position stays bounded. */
 export function wavyRows(count: number, ms: number, run = 0): StreamRow[] {
   const stepsPerMs = 4;
   return Array.from({ length: count }, (_, i) => {

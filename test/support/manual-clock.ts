@@ -6,7 +6,7 @@ interface Timer {
   readonly callback: () => void;
 }
 
-/** Time that passes only when a test says so. Timers fire in order, promises settle between them. */
+/** Time that passes only when a test says so. Timers fire in order; promises settle between them. */
 export class ManualClock implements Clock {
   private timeS = 0;
   private timers: Timer[] = [];
@@ -16,7 +16,7 @@ export class ManualClock implements Clock {
     return this.timeS;
   }
 
-  /** Timers that wait to fire. */
+  /** Pending timers. */
   get timerCount(): number {
     return this.timers.length;
   }
@@ -30,7 +30,7 @@ export class ManualClock implements Clock {
     };
   }
 
-  /** Passes time, firing what is due; what those start is fired too where it falls within. */
+  /** Advances the time and fires the timers that are due, including those that they start within that time. */
   async advance(byS: number): Promise<void> {
     const untilS = this.timeS + byS;
     await settle();
@@ -43,13 +43,13 @@ export class ManualClock implements Clock {
     this.timeS = untilS;
   }
 
-  /** Time passes without a timer firing, as for a process that was stopped; then all that is due fires. */
+  /** Advances the time without firing a timer, as for a suspended process; then fires all that are due. */
   async sleep(byS: number): Promise<void> {
     this.timeS += byS;
     await this.advance(0);
   }
 
-  /** Passes as much time as the work needs. Throws when it needs more than `limitS`. */
+  /** Advances the time until the work is done. Throws if that takes more than `limitS`. */
   async run<T>(work: Promise<T>, limitS = 100_000): Promise<T> {
     let done = false;
     const finished = work.finally(() => {

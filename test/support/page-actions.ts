@@ -1,4 +1,4 @@
-/** What a user does on the page, in words: shared by the browser tests and the screenshots. */
+/** A user's actions on the page, shared by the browser tests and the screenshots. */
 import type { Locator, Page } from "playwright-core";
 
 /** Drops a file on the middle of the page, as from the desktop. */
@@ -37,38 +37,41 @@ export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"):
   if (await tab.isVisible()) await tab.click();
 }
 
-/** Until the page has shown whatever it was told before: what changes with the next frame has changed then. */
+/** Waits until the page has rendered all earlier changes, including those of the next frame. */
 export const nextFrames = (page: Page): Promise<void> =>
   page.evaluate(
     () => new Promise<void>((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve()))),
   );
 
-/** Waits until the preview shows all of what was set and planned last. */
+/** Waits until the preview shows the latest settings and plan. */
 export async function waitForPicture(page: Page): Promise<void> {
   await nextFrames(page);
   await page.locator(".stage canvas[aria-busy=false]:visible").waitFor();
   await nextFrames(page);
 }
 
-/** Waits until the drawing on the paper is planned: the figures are there, and no plan is under way. */
+/** Waits until the drawing on the paper is planned: the figures are there, and no plan is running. */
 export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Strokes").waitFor({ state: "attached" });
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
-/** Until the empty sheet of a first visit offers the samples, with their pictures as far as they are in sight. */
+/** Waits until the empty sheet of a first visit offers the samples, with the pictures of those in view. */
 export async function waitForSamples(page: Page): Promise<void> {
   await page.locator(".sample").nth(5).waitFor({ state: "attached" });
   await page.locator(".sample img").first().waitFor();
 }
 
-/** What a first visit begins with: one click on a sample. Waits for its plan. */
+/** How a first visit begins: one click on a sample. Waits for its plan. */
 export async function chooseSample(page: Page): Promise<void> {
   await page.getByRole("button", { name: "Flower meadow" }).click();
   await waitForPlan(page);
 }
 
-/** How many pixels of each colour (0xrrggbb) the screen shows at an element or in a box, decoded by the browser itself. */
+/**
+ * Number of pixels of each colour (0xrrggbb) that the screen shows at an element or in a box, decoded by the
+ * browser itself.
+ */
 export async function colorCounts(
   ...[target, clip]: [Locator] | [Page, { x: number; y: number; width: number; height: number }]
 ): Promise<Map<number, number>> {

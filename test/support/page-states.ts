@@ -1,4 +1,4 @@
-/** Every state that the page can be seen in, and how a user gets it there: for screenshots and accessibility checks. */
+/** Every visible state of the page, and how a user gets there: for screenshots and accessibility checks. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
@@ -32,7 +32,7 @@ export type Scheme = (typeof SCHEMES)[number];
 interface Stand {
   readonly page: Page;
   readonly server: ServerProcess;
-  /** Another server in the place of one that ended. */
+  /** A new server in place of one that ended. */
   restart(): Promise<void>;
 }
 
@@ -41,9 +41,9 @@ export interface PageState {
   readonly virtualSpeed?: number;
   /** Instead of the virtual board. */
   readonly device?: string;
-  /** Leaves nothing behind, once a sheet that it opened is closed. */
+  /** Leaves nothing behind once a sheet that it opened is closed. */
   readonly isPassing?: true;
-  /** Begins with nothing on the paper; others begin with a sample there. */
+  /** Begins with an empty paper; other states begin with a sample on it. */
   readonly isFirstVisit?: true;
   reach(stand: Stand): Promise<void>;
 }
@@ -62,15 +62,15 @@ const TWO_PENS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http:/
   <g inkscape:groupmode="layer" inkscape:label="!Red circle" stroke="#c8102e"><circle cx="90" cy="60" r="30"/></g>
   </g></svg>`;
 
-/** Enough strokes that planning them takes long enough to be seen. */
+/** Enough strokes that the planning is visible. */
 function manyStrokes(): string {
   const lines = Array.from({ length: 60_000 }, (_, i) => `M${(i * 7919) % 290} ${(i * 104_729) % 205}l3 2`);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path fill="none" stroke="#000" d="${lines.join("")}"/></svg>`;
 }
 
 /**
- * From now on the page waits to say that it plans, which may be over when somebody looks from outside. No function in there has a
- * name: what runs scripts keeps names by a call that the page does not know.
+ * From now on the page keeps its planning message, which could otherwise disappear before the test sees it.
+ * No function in it may have a name: the script runner would add a helper call that the page does not have.
  */
 const notePlanning = (page: Page): Promise<void> =>
   plotBar(page).evaluate((bar) => {
@@ -265,8 +265,8 @@ export const PAGE_STATES: readonly PageState[] = [
 type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
 
 /**
- * Brings the page into each of the states and gives it to `lookAtIt`, light and dark. Those that leave nothing behind
- * are reached one after the other on one page; each of the others has a server of its own.
+ * Brings the page into each of the states and calls `lookAtIt`, light and dark. States that leave nothing
+ * behind share one page; each of the others has its own server.
  */
 export async function inStates(
   browser: Browser,
@@ -301,7 +301,7 @@ async function inGroup(
     await server.stop();
     server = await open(port);
   };
-  // Nothing is on its way from one colour to another while it is looked at.
+  // Colour transitions have ended when the check runs.
   const reducedMotion = "reduce" as const;
   const context = await browser.newContext({
     viewport: { width, height },

@@ -1,4 +1,4 @@
-/** One browser, one server and one page for a browser test, and what a test asks them. */
+/** One browser, one server and one page for a browser test, with its helpers. */
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
 import { importSvg, prepare, type StrokeSet } from "../../src/index.js";
 import { prepareSettingsOf } from "../../src/internal.js";
@@ -15,12 +15,12 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-/** For what the page has to show: it is slow where the computer is busy. */
+/** Time-out for what the page has to show: it is slow if the computer is busy. */
 const PATIENCE_MS = 90_000;
 const DESKTOP = { width: 1440, height: 900 };
 
 export class PageTest {
-  /** What the browser's console complained about. */
+  /** Messages of the browser's console. */
   readonly complaints: string[] = [];
 
   private constructor(
@@ -35,14 +35,14 @@ export class PageTest {
     });
   }
 
-  /** With a sample on the paper. `args`: for the server. */
+  /** Starts with a sample on the paper. `args`: for the server. */
   static async open(...options: Parameters<typeof PageTest.firstVisit>): Promise<PageTest> {
     const test = await PageTest.firstVisit(...options);
     await chooseSample(test.page);
     return test;
   }
 
-  /** With nothing on the paper. */
+  /** Starts with an empty paper. */
   static async firstVisit(
     name: string,
     options: BrowserContextOptions = {},
@@ -71,24 +71,30 @@ export class PageTest {
     await this.planned();
   }
 
-  /** Waits until what was changed last has been planned. */
+  /** Waits until the last change has been planned. */
   async planned(): Promise<void> {
     await nextFrames(this.page);
     await waitForPlan(this.page);
   }
 
-  /** Waits until that is seen, too. */
+  /** Waits until it is visible, too. */
   async drawn(): Promise<void> {
     await this.planned();
     await waitForPicture(this.page);
   }
 
-  /** Folds a group of settings open or shut. */
+  /** Opens or closes a group of settings. */
   async group(title: string, isOpen = true): Promise<void> {
     const head = this.page
       .locator(".group-head")
       .filter({ has: this.page.getByText(title, { exact: true }) });
     if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
+  }
+
+  /** Looks at the drawing that way. */
+  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen"): Promise<void> {
+    const looks = this.page.getByRole("group", { name: "Colour by" });
+    await looks.getByRole("radio", { name, exact: true }).check();
   }
 
   async jobs(): Promise<readonly Job[]> {
@@ -105,7 +111,7 @@ export class PageTest {
     }
   }
 
-  /** Adds what is on the paper to the queue, and hands back the job as the server has it. */
+  /** Adds the drawing to the queue, and returns the job as the server has it. */
   async queue(): Promise<Job> {
     await this.planned();
     const known = new Set((await this.jobs()).map(({ id }) => id));
@@ -117,7 +123,7 @@ export class PageTest {
     }
   }
 
-  /** The strokes that a job would draw, made from its own file and settings. */
+  /** The strokes that a job would draw, from its own file and settings. */
   async strokesOf(job: Job): Promise<StrokeSet> {
     const text = await (await fetch(`${this.server.url}/api/v1/jobs/${job.id}/drawing`)).text();
     return prepare(importSvg(text), prepareSettingsOf(job.settings)).strokes;

@@ -1,7 +1,7 @@
 /**
- * The shortest time in which a run's own line can be drawn under |v| ≤ V and |a| ≤ A, found independently of
- * the planner: cut the line finely, take its curvature κ, and integrate speed² backwards and forwards over
- * the friction circle (tangential acceleration ≤ √(A² − (κ v²)²), κ v² ≤ A).
+ * The minimum time to draw a run's own line under |v| ≤ V and |a| ≤ A, computed independently of the planner:
+ * cuts the line finely, takes its curvature κ, and integrates speed² backwards and forwards over the friction
+ * circle (tangential acceleration ≤ √(A² − (κ v²)²), κ v² ≤ A).
  */
 import type { Trajectory } from "../../src/index.js";
 
@@ -23,14 +23,14 @@ export function optimalRunTime(t: Trajectory, run: number, speed: number, accel:
   for (let i = 0; i < n - 1; i++) v2[i + 1] = Math.min(v2[i] + gain(v2[i], i), v2[i + 1]);
   let time = 0;
   for (let i = 0; i < n; i++) {
-    // Inside a piece that could be driven faster than at both its ends, the peak between them.
+    // The peak between the two ends of a piece that could be driven faster inside than at both ends.
     const sum = Math.sqrt(v2[i]) + Math.sqrt(v2[i + 1]);
     time += sum > 0 ? (2 * ds[i]) / sum : 2 * Math.sqrt(ds[i] / accel);
   }
   return time;
 }
 
-/** Cuts block `k` into pieces, straight ones finer towards the ends, where speed changes most. */
+/** Cuts block `k` into pieces. Straight ones are cut finer towards the ends, where speed changes most. */
 function cutBlock(t: Trajectory, k: number, ds: number[], curvature: number[]): void {
   const at = (u: number): readonly [number, number, number, number] => {
     const { x, y, vx, vy, ax, ay } = t;

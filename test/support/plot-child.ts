@@ -1,4 +1,4 @@
-/** Plots a drawing on a port and tells its parent each journal entry, until it is killed. */
+/** Plots a drawing on a port and sends its parent each journal entry, until it is killed. */
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";

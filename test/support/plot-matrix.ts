@@ -1,6 +1,6 @@
 /**
- * The samples, plotted by every firmware in every mode on virtual boards: what the acceptance of the board asks,
- * as numbers, and the table of docs/ebb.md.
+ * The samples, plotted by every firmware in every mode on virtual boards: the board's acceptance figures, and
+ * the table of docs/ebb.md.
  */
 import { readFileSync } from "node:fs";
 import path from "node:path";
@@ -36,10 +36,10 @@ const MICROSTEP_MM = 0.0125;
 /** δ + ε + one microstep. */
 export const ALLOWED_MM = DEFAULT_MOTION.draw.cornerMm + DEFAULT_MOTION.fit!.toleranceMm + MICROSTEP_MM;
 
-/** Largest change of speed between two commands, mm/s; null: what the mode's corners jump by is the plan's. */
+/** Max change of speed between two commands, mm/s; null: the plan's own jumps at the corners of the mode. */
 export function allowedJump(mode: MotionMode, firmware: Firmware): number | null {
   if (mode === "junction") return null;
-  // Slices of constant speed: no promise, but not absurd.
+  // Slices of constant speed: not guaranteed, but within reason.
   if (compareFirmware(firmware, "2.5.3") < 0) return 10;
   return compareFirmware(firmware, "2.7.0") < 0 ? 5 : 1;
 }
@@ -50,14 +50,14 @@ export interface MatrixRow {
   readonly mode: MotionMode;
   readonly commands: number;
   readonly planS: number;
-  /** The first command whose counters were others than predicted, of all plots. */
+  /** The first command, over all plots, whose counters differ from the prediction. */
   readonly firstWrong: string | null;
-  /** Where the board stands after the last plot, steps. */
+  /** The board's position after the last plot, steps. */
   readonly endSteps: readonly [number, number];
   readonly errors: readonly string[];
   /** |board time / plan time − 1|, the worst of the plots. */
   readonly timeShare: number;
-  /** mm: drawn line from the drawing, and points of the drawing from the drawn line. */
+  /** Max mm from the drawn line to the drawing, and from points of the drawing to the drawn line. */
   readonly offMm: number;
   readonly missedMm: number;
   readonly jumpMmPerS: number;
@@ -76,7 +76,7 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
   return { strokes, grid };
 });
 
-/** Plots a sample so many times in a row, without homing in between. */
+/** Plots a sample that many times in a row, without homing in between. */
 export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, plots = 3): MatrixRow {
   const { strokes, grid } = strokesOf(sample);
   const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
@@ -107,7 +107,10 @@ export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, 
   };
 }
 
-/** All that was drawn against the drawing; the drawing against the first plot of it, lest later ones help out. */
+/**
+ * Compares everything drawn with the drawing, but the drawing only with its first plot, so that later plots
+ * do not hide a gap.
+ */
 function distances(
   fast: FastBoard,
   strokes: StrokeSet,
@@ -136,7 +139,7 @@ function remembered<K, V>(make: (key: K) => V): (key: K) => V {
   };
 }
 
-/** The worst of the samples, a line for each firmware and mode, as in docs/ebb.md. */
+/** The worst of the samples, one line for each firmware and mode, as in docs/ebb.md. */
 export function worstTable(rows: readonly MatrixRow[]): string {
   const lines = ["| firmware | mode | off the drawing, mm | jump, mm/s | time, % | motors apart, µs |"];
   lines.push("| --- | --- | ---: | ---: | ---: | ---: |");

@@ -1,6 +1,6 @@
 /**
- * A virtual board behind a real pseudo-terminal, in a process of its own: what the driver's tests plug in.
- * Started by pty-board.ts; told by messages what shall happen to the board.
+ * A virtual board behind a real pseudo-terminal, in its own process: the device for the driver's tests.
+ * Started by pty-board.ts, which sends messages for the board's events and faults.
  */
 import { chmodSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -29,12 +29,12 @@ const link = path.join(folder, "board");
 
 let terminal: IPty | null = null;
 let foreignAnswer: string | null = null;
-/** Bytes from the host that still arrive; after that the line is deaf and mute. */
+/** Bytes from the host that still arrive; after that the connection is deaf and mute. */
 let bytesUntilDeaf = Infinity;
-/** 1: wait for the end of the present line; 2: the next letter is changed. */
+/** 1: wait for the end of the current line; 2: the next letter is changed. */
 let refusing = 0;
 
-/** A shell holds a terminal open and makes it pass bytes as they are; its first line is the terminal's name. */
+/** A shell holds a terminal open and makes it pass bytes unchanged; its first line is the terminal's name. */
 function plugIn(opened: () => void): void {
   const shell = spawn("sh", ["-c", "stty raw -echo; tty; exec sleep 1000000"], { encoding: null });
   terminal = shell;

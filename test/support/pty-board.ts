@@ -4,9 +4,9 @@ import { fileURLToPath } from "node:url";
 import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 
 export type ToBoard =
-  /** `replug`: after `unplug` or `reset`, the board is there again at the same path. */
+  /** `replug`: after `unplug` or `reset`, the board is available again at the same path. */
   | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
-  /** It starts anew, its counters at 0, but its USB stays. */
+  /** It restarts with its counters at 0, but its USB connection stays. */
   | { readonly type: "restart" }
   /** The line carries nothing in either direction and what is sent is lost; the board itself goes on. */
   | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }
@@ -29,7 +29,7 @@ export interface BoardReport {
   readonly type: "report";
   readonly state: VirtualBoardState;
   readonly statistics: BoardStatistics;
-  /** Seconds that a wakeful board's clock stood still. */
+  /** Seconds that a wakeful board's clock was stopped. */
   readonly sleptS: number;
   /** mm from home: x, y, x, y … */
   readonly drawn: readonly { readonly penDown: boolean; readonly xy: readonly number[] }[];
@@ -37,10 +37,10 @@ export interface BoardReport {
 
 export type FromBoard = { readonly type: "open"; readonly path: string } | BoardReport;
 
-/** `wakeful`: its clock stands still while the machine does not run its process. */
+/** `wakeful`: its clock stops while the machine does not run its process. */
 export class PtyBoard {
   private constructor(
-    /** What a driver opens: a link to the terminal, which stays the same over `unplug` and `replug`. */
+    /** The path for the driver: a link to the terminal, which stays the same over `unplug` and `replug`. */
     readonly path: string,
     private readonly child: ChildProcess,
   ) {}

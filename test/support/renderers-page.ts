@@ -1,11 +1,11 @@
-/** What the test of the renderers runs inside a browser; bundled by it. */
+/** The part of the renderers' test that runs inside a browser; the test bundles it. */
 import { createGlRenderer } from "../../web/scene/gl-renderer.js";
 import type { Detail, Frame, SceneRenderer } from "../../web/scene/renderer.js";
 import type { Pieces } from "../../web/scene/pieces.js";
 import { createSoftRenderer } from "../../web/scene/soft-renderer.js";
 
 export type RendererName = "gl" | "soft";
-/** A scene on its way into the page: bytes in base 64. */
+/** A scene to be sent to the page: bytes in base 64. */
 export interface SentScene {
   readonly draw: string;
   readonly travel: string;
@@ -26,7 +26,7 @@ const base64Of = (bytes: Uint8ClampedArray): string => {
   return btoa(text);
 };
 
-/** The card works beside the page: its turn comes when the page's ends. */
+/** The card works asynchronously: its work is done after the page's task ends. */
 const turn = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 0));
 
 async function draw(renderer: SceneRenderer, frame: Frame, detail: Detail, part: number): Promise<void> {
@@ -38,7 +38,7 @@ async function draw(renderer: SceneRenderer, frame: Frame, detail: Detail, part:
   renderer.present();
 }
 
-/** RGBA in base 64 of the picture of a frame on white, drawn in parts of so many pieces. */
+/** RGBA in base 64 of the picture of a frame on white, drawn in parts of that many pieces. */
 export async function pixelsOf(
   name: RendererName,
   { draw: drawn, travel, totalS }: SentScene,

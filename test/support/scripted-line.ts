@@ -1,6 +1,6 @@
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
-/** The far end of a line, played by a test: it sees what was written and says what it likes. */
+/** The far end of a connection, played by a test: it records what was written and sends what the test wants. */
 export class ScriptedLine implements Transport {
   /** Command lines written so far. */
   readonly written: string[] = [];
@@ -9,7 +9,7 @@ export class ScriptedLine implements Transport {
   private dataListener: ((bytes: Uint8Array) => void) | null = null;
   private closeListener: ((error?: Error) => void) | null = null;
 
-  /** `answer` is asked for the reply bytes to each command; null keeps silent. */
+  /** `answer` returns the reply bytes to each command; null: no reply. */
   constructor(private answer: (line: string) => string | null = () => null) {}
 
   answerWith(answer: (line: string) => string | null): void {

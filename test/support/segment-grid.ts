@@ -1,4 +1,4 @@
-/** A cell's number; the columns and rows of a sheet of paper fit. */
+/** A cell's number; there are enough columns and rows for a sheet of paper. */
 const keyOf = (column: number, row: number): number => (column + 0x8000) * 0x10000 + (row + 0x8000);
 
 /** A cell and its neighbours, the likeliest first. */
@@ -14,23 +14,23 @@ const AROUND = [
   [-1, -1],
 ] as const;
 
-/** Distances from points to a heap of line segments, quickly: a grid of cells over the segments. */
+/** Fast distances from points to many line segments: a grid of cells over the segments. */
 export class SegmentGrid {
   private readonly segments: number[] = [];
   private readonly cells = new Map<number, number[]>();
 
-  /** `cellMm` should be larger than the distances that matter. */
+  /** `cellMm` should be larger than the distances of interest. */
   constructor(private readonly cellMm = 0.5) {}
 
-  /** x, y, x, y …; a single point is a segment of no length. */
+  /** x, y, x, y …; a single point is a segment of length 0. */
   addPolyline(xy: ArrayLike<number>, from = 0, to = xy.length): void {
     if (to - from === 2) this.addSegment(xy[from], xy[from + 1], xy[from], xy[from + 1]);
     for (let i = from; i + 3 < to; i += 2) this.addSegment(xy[i], xy[i + 1], xy[i + 2], xy[i + 3]);
   }
 
   /**
-   * mm to the nearest segment; Infinity when none is within a cell. The search ends at a segment nearer than
-   * `enoughMm`: who looks for the largest of many distances needs no smaller one exactly.
+   * mm to the nearest segment; Infinity if none is within a cell. The search ends at a segment nearer than
+   * `enoughMm`: for the maximum of many distances, smaller ones need not be exact.
    */
   distance(x: number, y: number, enoughMm = 0): number {
     const column = Math.floor(x / this.cellMm);

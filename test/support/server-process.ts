@@ -1,4 +1,4 @@
-/** The built server in a process of its own, as a user starts it, on a free port with a data folder of its own. */
+/** The built server in its own process, as a user starts it, on a free port with its own data folder. */
 import { spawn, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
 import { mkdtempSync, rmSync } from "node:fs";
@@ -9,7 +9,7 @@ import { ROOT } from "../../scripts/setup.mjs";
 export interface ServerProcess {
   readonly url: string;
   readonly process: ChildProcess;
-  /** Everything it has said so far, both streams. */
+  /** Its output so far, both streams. */
   readonly output: () => string;
   /** SIGTERM, and waits for the end. */
   stop(): Promise<void>;
@@ -17,12 +17,12 @@ export interface ServerProcess {
 
 export interface ServerProcessOptions {
   readonly dataDir: string;
-  /** Board seconds a second on the virtual board. */
+  /** Board seconds per second on the virtual board. */
   readonly virtualSpeed?: number;
   readonly args?: readonly string[];
 }
 
-/** Rejects with what the server said when it ends before it listens. */
+/** Rejects with the server's output if it ends before it listens. */
 export async function startServerProcess(options: ServerProcessOptions): Promise<ServerProcess> {
   const args = ["--port", "0", "--device", "virtual", "--data", options.dataDir];
   args.push("--virtual-speed", String(options.virtualSpeed ?? 20), ...(options.args ?? []));

@@ -1,4 +1,4 @@
-/** Inside and outside, told point by point and independently of the library: what clipping is checked against. */
+/** Inside and outside, decided point by point and independently of the library: the reference for clipping. */
 import type { StrokeSet } from "../../src/drawing/stroke-set.js";
 
 export type Ring = readonly (readonly [number, number])[];
@@ -33,7 +33,7 @@ export function distanceToSegment(
   return Math.hypot(x0 + t * dx - x, y0 + t * dy - y);
 }
 
-/** From a point to the border of the rings. */
+/** Distance from a point to the border of the rings. */
 export const distanceToRings = (rings: readonly Ring[], x: number, y: number): number =>
   Math.min(
     Infinity,
@@ -44,7 +44,7 @@ export const distanceToRings = (rings: readonly Ring[], x: number, y: number): n
 
 export type Segment = readonly [readonly [number, number], readonly [number, number]];
 
-/** A dot is a segment without length. */
+/** A dot is a segment of length 0. */
 export function segmentsOf(strokes: StrokeSet): Segment[] {
   const segments: Segment[] = [];
   for (let i = 0; i + 1 < strokes.offsets.length; i++) {

@@ -1,4 +1,4 @@
-/** Starts Chromium once for all files with browser tests. Each file connects to it and opens contexts of its own. */
+/** Starts Chromium once for all files with browser tests. Each file connects to it and opens its own contexts. */
 import { chromium } from "playwright-core";
 import { browserOptions } from "./browser.js";
 

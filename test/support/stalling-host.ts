@@ -1,8 +1,8 @@
 import type { Clock, Transport } from "../../src/index.js";
 
 /**
- * A host that stops now and then, as a process does under SIGSTOP, a garbage collection or a busy machine:
- * the board goes on, but no timer fires and no byte is read until the host goes on too.
+ * A host that stalls now and then, like a process under SIGSTOP, a garbage collection or a busy machine: the
+ * board continues, but no timer fires and no byte is read until the host continues too.
  */
 export class StallingHost {
   private stalled = false;
@@ -10,7 +10,7 @@ export class StallingHost {
 
   constructor(private readonly world: Clock) {}
 
-  /** Stops for `stallS` at the end of every `everyS`. Returns a function that ends this. */
+  /** Stalls for `stallS` at the end of every `everyS`. Returns a function that ends this. */
   stallRegularly(everyS: number, stallS: number): () => void {
     let cancel = (): void => undefined;
     const begin = (): void => {
@@ -37,7 +37,7 @@ export class StallingHost {
     },
   };
 
-  /** The same line, as the stalling host sees it; every answer comes `delayS` late on top. */
+  /** The same connection, as the stalling host sees it; in addition, every reply comes `delayS` late. */
   transport(line: Transport, delayS = 0): Transport {
     return {
       write: (bytes) => line.write(bytes),

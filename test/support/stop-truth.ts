@@ -1,6 +1,6 @@
 /**
- * Where a virtual board was stopped, by its own count of the ticks that its motors ran: the truth that a host has to
- * find from what the board answers.
+ * Where a virtual board was stopped, from its own count of the ticks that its motors ran: the reference for
+ * the place that a host computes from the board's replies.
  */
 import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import type { MachineCommands } from "../../src/drivers/machine-job.js";
@@ -10,7 +10,7 @@ import { commandLine, stateAt, type Place, type StrokeSet, type VirtualBoard } f
 import { TICKS_PER_S } from "../../src/units.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 
-/** A planner that keeps what it has planned. */
+/** A planner that stores its plans. */
 export class KeepingPlanner extends LocalPlanner {
   readonly plots: PlannedPlot[] = [];
 
@@ -21,13 +21,13 @@ export class KeepingPlanner extends LocalPlanner {
   }
 }
 
-/** Pen moves and waits, in which the motors rest. */
+/** Pen moves and waits, during which the motors rest. */
 const isMove = (line: string): boolean => /^(LM|LT|T3|SM)/.test(line) && !/^SM,\d+,0,0$/.test(line);
 
-/** Ticks in which the board's motors have run so far. */
+/** Ticks for which the board's motors have run so far. */
 export const ranTicks = (board: VirtualBoard): number => Math.round(board.statistics().movingS * TICKS_PER_S);
 
-/** The plan's time after so many ticks of motion; at rest, the earliest. */
+/** The plan's time after that many ticks of motion; at rest, the earliest. */
 export function planSAfter(commands: MachineCommands, ticks: number): number {
   const stream = streamOf(commands);
   let left = ticks;
@@ -42,7 +42,7 @@ export function planSAfter(commands: MachineCommands, ticks: number): number {
   return stream.planS[stream.count];
 }
 
-/** mm drawn, from the drawing's beginning, when the plan has come that far. */
+/** mm drawn from the drawing's beginning at that time of the plan. */
 export function drawnUntilMm(strokes: StrokeSet, { trajectory }: PlannedPlot, planS: number): number {
   const { runs } = trajectory;
   const { stroke, alongMm } = stateAt(trajectory, planS);
@@ -62,14 +62,17 @@ export function mmOf(strokes: StrokeSet, place: Place): number {
   return sum;
 }
 
-/** Two sides of a tip of so many degrees. */
+/** Two sides of a tip with an angle of that many degrees. */
 const tip = (x: number, y: number, mm: number, deg: number): number[] => {
   const half = (deg / 360) * Math.PI;
   const [dx, dy] = [mm * Math.cos(half), mm * Math.sin(half)];
   return [x, y - dy, x + dx, y, x, y + dy];
 };
 
-/** Lines that pass the same places more than once: tips, hairpins, a line gone over again and again, a small zigzag. */
+/**
+ * Lines that pass the same places more than once: tips, hairpins, a line drawn over itself many times, a
+ * small zigzag.
+ */
 export const RETRACED: StrokeSet = strokesOf(
   tip(20, 20, 15, 0.9),
   tip(20, 30, 10, 0.3),

@@ -1,39 +1,39 @@
 /**
- * Looks at a trajectory from outside, at many instants inside every block, and reports the worst it found.
- * It knows nothing of how the planner works: only the columns, the formula of a block, and the drawing.
+ * Samples a trajectory at many times inside every block, and reports the worst values. It does not depend on
+ * how the planner works: only on the columns, the formula of a block, and the drawing.
  */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type { MotionLimits } from "../../src/internal.js";
 import { penMovesOf } from "../../src/plan/pen-moves.js";
 
 export interface Worst {
-  /** Largest |v| / V and |a| / A (0 where there is no motion). */
+  /** Max |v| / V and |a| / A (0 if there is no motion). */
   speed: number;
   accel: number;
-  /** Largest |j| / J. */
+  /** Max |j| / J. */
   jerk: number;
-  /** Largest jump of position, mm, and of velocity, mm/s, from one block to the next in a run. */
+  /** Max jump of position, mm, and of velocity, mm/s, from one block to the next in a run. */
   gap: number;
   velocityJump: number;
   accelJump: number;
-  /** Largest speed at the beginning or end of a run. */
+  /** Max speed at the beginning or end of a run. */
   restSpeed: number;
-  /** Largest distance of the drawn line from its source stroke, mm. */
+  /** Max distance of the drawn line from its source stroke, mm. */
   distance: number;
-  /** Largest difference between the sum of durations and the clock, s. */
+  /** Max difference between the sum of durations and the clock, s. */
   clock: number;
   finite: boolean;
 }
 
-/** Every block is looked at so many times at least, and at least every so many seconds. */
+/** Min number of samples per block, and max seconds between samples. */
 const SAMPLES = 8;
 const EVERY_S = 0.004;
-/** But not endlessly often: a random block may last for hours. */
+/** Max number of samples: a random block may last for hours. */
 const MOST_SAMPLES = 250;
-/** A distance that rounding alone makes, mm. */
+/** A distance explained by rounding alone, mm. */
 const NOTHING = 1e-7;
 
-/** @param allowed distance from the drawing that need not be looked at more closely, mm */
+/** @param allowed distance from the drawing that needs no closer check, mm */
 export function worstOf(
   trajectory: Trajectory,
   strokes: StrokeSet,
@@ -128,7 +128,7 @@ function allFinite(trajectory: Trajectory): boolean {
   );
 }
 
-/** Distance from one stroke; remembers where it was near last, since a pen goes along it. */
+/** Distance from one stroke; remembers the last nearest segment, because a pen moves along it. */
 export class NearStroke {
   private readonly points: readonly (readonly [number, number])[];
   private last = 0;
@@ -142,7 +142,7 @@ export class NearStroke {
     this.points = points;
   }
 
-  /** The distance; or, to save looking further, that of any segment found nearer than `enough`. */
+  /** The distance, or to save time that of any segment nearer than `enough`. */
   distance(x: number, y: number, enough = 1e-9): number {
     const n = this.points.length - 1;
     let best = Infinity;

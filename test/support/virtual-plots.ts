@@ -1,4 +1,4 @@
-/** Plays command streams on virtual boards, as fast as they go, and compares with what was predicted. */
+/** Plays command streams on virtual boards at full speed, and compares the result with the prediction. */
 import {
   commandLine,
   compile,
@@ -12,7 +12,7 @@ import {
 } from "../../src/index.js";
 import type { BoardState } from "../../src/internal.js";
 
-/** Time stands still: a board of infinite speed does not need it. */
+/** A clock that stands still: a board of infinite speed does not need it. */
 const stillClock: Clock = { nowS: () => 0, after: () => () => undefined };
 
 export const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
@@ -45,7 +45,10 @@ export class FastBoard {
     return compile(trajectory, { machine, firmware, pen, start: state });
   }
 
-  /** Plays a stream; returns board seconds that it took and the first command after which the counters differed. */
+  /**
+   * Plays a stream; returns its duration in board seconds and the first command after which the counters
+   * differ.
+   */
   play(stream: CommandStream): { boardS: number; firstWrong: string | null } {
     const before = this.board.state().boardS;
     let firstWrong: string | null = null;

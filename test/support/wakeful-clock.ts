@@ -1,24 +1,25 @@
 /**
- * A clock that stands still while its process is not run. For a board: a real one is never descheduled, so time that
- * the machine took from the virtual one must not count as time in which its host sent nothing. And for what must be
- * done within seconds: a computer that stops the program for a while says nothing of the program.
+ * A clock that stops while its process is not scheduled. Used for a virtual board: a real one is never
+ * descheduled, so time that the machine took from the virtual one must not count as time in which its host
+ * sent nothing. Used for time limits too: a computer that suspends the program says nothing about the
+ * program.
  *
- * A heartbeat every few ms tells: one that comes late was a sleep of the whole process.
+ * A heartbeat every few ms detects it: a late one means that the whole process slept.
  */
 import type { Clock } from "../../src/index.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { cpuS } from "./watchdog.js";
 
 const BEAT_S = 0.004;
-/** Late by less is the timer's own roughness. */
+/** A smaller delay is the timer's own jitter. */
 const LATE_S = 0.01;
 
 export interface WakefulClock extends Clock {
-  /** Seconds that it stood still, in all. */
+  /** Total seconds that it was stopped. */
   readonly sleptS: () => number;
 }
 
-/** `countsWork`: it goes on while its process works for so long that the heartbeat is late. */
+/** `countsWork`: it keeps running while its process works for so long that the heartbeat is late. */
 export function wakefulClock({ countsWork = false } = {}): WakefulClock {
   let sleptS = 0;
   let seenS = nodeClock.nowS();

@@ -1,9 +1,12 @@
-/** Ends work that hangs, and tells how much processor time work took: load on the machine makes neither fail. */
+/** Ends work that hangs, and measures its processor time: load on the machine makes neither fail. */
 import { runInThisContext } from "node:vm";
 
 const scope = globalThis as { watchedWork?: (() => unknown) | undefined };
 
-/** Runs synchronous work; throws (ERR_SCRIPT_EXECUTION_TIMEOUT) when it is not over in time, endless loops too. */
+/**
+ * Runs synchronous work; throws (ERR_SCRIPT_EXECUTION_TIMEOUT) if it is not over in time, endless loops
+ * included.
+ */
 export function endWhenOver<T>(limitMs: number, work: () => T): T {
   scope.watchedWork = work;
   try {

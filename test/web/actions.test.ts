@@ -22,8 +22,8 @@ function makePage() {
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };
 }
 
-describe("a message of what went wrong", () => {
-  it("stays until it is closed or something goes right", async () => {
+describe("an error message", () => {
+  it("stays until it is closed or an action succeeds", async () => {
     const { actions, errorCount, startServer } = makePage();
     await actions.loadSamples();
     await actions.loadSamples();
@@ -33,7 +33,7 @@ describe("a message of what went wrong", () => {
     expect(errorCount()).toBe(0);
   });
 
-  it("goes away with the next drawing", async () => {
+  it("disappears with the next drawing", async () => {
     const { actions, errorCount } = makePage();
     await actions.loadSamples();
     expect(errorCount()).toBe(1);
@@ -48,7 +48,7 @@ describe("a file that is dropped", () => {
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],
     ["holds no text", new File(["\x89PNG\0\0"], "photo.png")],
-  ])("and %s is named, with what to do; what lies on the paper stays", async (_what, file) => {
+  ])("and %s is named, with advice; the drawing on the paper stays", async (_what, file) => {
     const { store, actions } = makePage();
     actions.openPasted("<svg width='9'/>");
     const { drawing } = store.getState();
@@ -59,13 +59,13 @@ describe("a file that is dropped", () => {
     expect(notice?.text).toContain(file.name);
   });
 
-  it("is laid on the paper without its ending", async () => {
+  it("is put on the paper without its extension", async () => {
     const { store, actions } = makePage();
     await actions.openFile(new File(["<svg width='9'/>"], "waves.svg"));
     expect(store.getState().drawing?.name).toBe("waves");
   });
 
-  it("stays as it was read where it is large, and goes to the queue as a file", async () => {
+  it("is stored unchanged if it is large, and goes to the queue as a file", async () => {
     const { store, actions, sent, startServer } = makePage();
     startServer();
     const svg = `<svg width="9">\n<!-- ${"größer \t\u{1f58b}\u0001".repeat(200_000)} --></svg>`;
@@ -88,7 +88,7 @@ describe("a drawing of the last visit", () => {
   const ofJob = { name: "waves", text: "<svg width='9'/>", jobId: "a", sourceId: "a" };
   const jobSettings = { ...DEFAULT_PLOT_SETTINGS, penStops: "layers" as const };
 
-  it("comes back with the settings as they were left", () => {
+  it("is restored with its last settings", () => {
     const { store, actions } = makePage();
     store.setState({ settings: jobSettings });
     actions.restoreDrawing({ ...ofJob, jobId: null });
@@ -107,7 +107,7 @@ describe("a drawing of the last visit", () => {
     expect(store.getState()).toMatchObject({ settings: jobSettings, drawing: { jobId: "a" } });
   });
 
-  it("is no job's any more once that was removed", () => {
+  it("is no longer a job's after that was removed", () => {
     const { store, actions } = makePage();
     actions.restoreDrawing(ofJob);
     actions.takeJobSettings();

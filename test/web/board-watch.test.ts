@@ -6,7 +6,7 @@ import { createPageStore, type PageState } from "../../web/state/store.js";
 import { makePlotter } from "./fixtures.js";
 
 describe("the plan on the page", () => {
-  it("is made anew for a board that moves otherwise, and for no other change", () => {
+  it("is computed again for a board that moves differently, and for no other change", () => {
     const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
     let count = 0;
     const stop = replanForBoard(store, () => count++);

@@ -27,11 +27,11 @@ const at = ({ bytes }: Pieces, i: number) => {
 const all = (pieces: Pieces) => Array.from({ length: pieces.count }, (_, i) => at(pieces, i));
 
 describe("a drawing in few pieces", () => {
-  it("is the drawing itself where it has few", () => {
+  it("is the drawing itself if it has few", () => {
     expect(coarsePieces(draw, draw.count)).toBe(draw);
   });
 
-  it("joins pieces that follow each other, and leaves none of the way out while there is room", () => {
+  it("joins consecutive pieces, and omits none while there is room", () => {
     expect(draw.count).toBeGreaterThan(10_000);
     const coarse = coarsePieces(draw, 4_000);
     expect(coarse.count).toBeLessThanOrEqual(4_000);
@@ -47,7 +47,7 @@ describe("a drawing in few pieces", () => {
     expect(pieces.at(-1)!.t1).toBe(at(draw, draw.count - 1).t1);
   });
 
-  it("has no more than it may where nothing can be joined", () => {
+  it("stays below its maximum if nothing can be joined", () => {
     const dots = waves(500, 1);
     const scene = buildScene(plan(dots, DEFAULT_MOTION, DEFAULT_PEN), dots.layer);
     expect(scene.draw.count).toBe(500);
@@ -65,12 +65,12 @@ describe("the pieces in sight", () => {
   const has = (ranges: readonly PieceRange[], i: number): boolean =>
     ranges.some(([from, to]) => from <= i && i < to);
 
-  it("are all of them where the whole paper is seen", () => {
+  it("are all of them if the whole paper is visible", () => {
     const seen = { view: { scale: 3, offsetX: 5, offsetY: 5 }, width: 700, height: 900 };
     expect(rangesInSight(boxes, whole, seen, 2)).toEqual([whole]);
   });
 
-  it("leave out no piece that touches the frame, and most of those far from it", () => {
+  it("include every piece that touches the frame, and exclude most of those far from it", () => {
     const seen = { view: { scale: 20, offsetX: -1_500, offsetY: -700 }, width: 600, height: 300 };
     const ranges = rangesInSight(boxes, whole, seen, 2);
     const { scale, offsetX, offsetY } = seen.view;
@@ -89,7 +89,7 @@ describe("the pieces in sight", () => {
     expect(drawn).toBeLessThan(draw.count / 3);
   });
 
-  it("keep to the part that is asked for", () => {
+  it("stay within the requested part", () => {
     const seen = { view: { scale: 3, offsetX: 5, offsetY: 5 }, width: 700, height: 900 };
     expect(rangesInSight(boxes, [700, 1_900], seen, 2)).toEqual([[700, 1_900]]);
     expect(rangesInSight(boxes, [700, 700], seen, 2)).toEqual([]);

@@ -16,6 +16,17 @@ const luminance = (hex: string): number => {
   };
   return 0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5);
 };
+/** Lightness in OKLab, 0 … 1. */
+const lightness = (hex: string): number => {
+  const [r, g, b] = [1, 3, 5].map((at) => {
+    const c = Number.parseInt(hex.slice(at, at + 2), 16) / 255;
+    return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  });
+  const l = Math.cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const m = Math.cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const s = Math.cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  return 0.2104542553 * l + 0.793617785 * m - 0.0040720468 * s;
+};
 const contrastOnPaper = (hex: string): number => (luminance("#fefdfb") + 0.05) / (luminance(hex) + 0.05);
 
 describe("the colour ramp", () => {
@@ -27,8 +38,18 @@ describe("the colour ramp", () => {
     }
   });
 
+  it("gets lighter in even steps: each is within 10 % of the mean", () => {
+    const steps = 16;
+    const at = (k: number): number => lightness(rampColor(k / steps));
+    const mean = (at(steps) - at(0)) / steps;
+    expect(mean).toBeGreaterThan(0.025);
+    for (let k = 1; k <= steps; k++) {
+      expect(Math.abs((at(k) - at(k - 1)) / mean - 1), `step ${k}`).toBeLessThan(0.1);
+    }
+  });
+
   it("stands out on white paper at every speed", () => {
-    for (const color of colors) expect(contrastOnPaper(color)).toBeGreaterThan(1.9);
+    for (const color of colors) expect(contrastOnPaper(color)).toBeGreaterThan(2.3);
   });
 
   it("has neighbours that differ by little, and ends that differ by much", () => {

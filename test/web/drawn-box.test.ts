@@ -13,7 +13,7 @@ const boxOf = (body: string) => {
 };
 
 describe("the frame that is traced", () => {
-  it("goes around what the pen draws, not around its ways with the pen up", () => {
+  it("goes around what the pen draws, not around its pen-up travel", () => {
     const { box, strokes } = boxOf('<path d="M50 40h60"/><path d="M90 70v30"/>');
     const xs = [...strokes.xy].filter((_, i) => i % 2 === 0);
     const ys = [...strokes.xy].filter((_, i) => i % 2 === 1);
@@ -24,7 +24,7 @@ describe("the frame that is traced", () => {
     expect(box?.xMm).toBeGreaterThan(1);
   });
 
-  it("is none where nothing is drawn", () => {
+  it("is absent if nothing is drawn", () => {
     expect(boxOf("").box).toBeNull();
   });
 });

@@ -20,7 +20,7 @@ const pageWith = (job: Job, more: Partial<PageState> = {}): PageState => ({
 });
 const live = { jobId: "a", plotterId: "virtual", planS: 1.5, xMm: 0, yMm: 0, penUp: false };
 
-describe("how far the drawing on the paper is drawn", () => {
+describe("how much of the drawing on the paper is drawn", () => {
   it.each(["paused", "interrupted"] as const)("is the job's place while it is %s", (state) => {
     const second = drawnUntilS(pageWith(makeJob("a", { state, place: { strokeIndex: 1, alongMm: 50 } })))!;
     const first = drawnUntilS(
@@ -32,14 +32,14 @@ describe("how far the drawing on the paper is drawn", () => {
     expect(second).toBeLessThan(trajectory.totalS);
   });
 
-  it("is what was told last while it plots, or its progress before anything was told", () => {
+  it("is the last report while it plots, or its progress before the first report", () => {
     const job = makeJob("a", { state: "plotting", progress: 0.25 });
     expect(drawnUntilS(pageWith(job, { live }))).toBe(1.5);
     expect(drawnUntilS(pageWith(job))).toBe(trajectory.totalS / 4);
     expect(drawnUntilS(pageWith(job, { live: { ...live, jobId: "b" } }))).toBe(trajectory.totalS / 4);
   });
 
-  it("is not known of a job that waits or has ended, nor of another drawing: all of it is shown", () => {
+  it("is unknown for a job that waits or has ended, and for another drawing: all of it is shown", () => {
     expect(drawnUntilS(pageWith(makeJob("a")))).toBeNull();
     expect(drawnUntilS(pageWith(makeJob("a", { state: "done", progress: 1 })))).toBeNull();
     const job = makeJob("a", { state: "paused", progress: 0.5 });

@@ -1,4 +1,4 @@
-/** What a first visit fetches, against the limit that keeps it quick on a slow line. */
+/** What a first visit loads, compared with the limit that keeps it fast on a slow connection. */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
@@ -11,7 +11,7 @@ const read = (file: string): string => readFileSync(path.join(folder, file), "ut
 const gzippedBytes = (file: string): number =>
   gzipSync(readFileSync(path.join(folder, file)), { level: 9 }).length;
 
-/** Scripts and style sheets that the page names, those it imports at once among them. */
+/** Scripts and style sheets named by the page, including their static imports. */
 const named = (): string[] =>
   [...read("index.html").matchAll(/assets\/[\w.-]+\.(?:js|css)/g)].map(([file]) => file);
 const worker = (name: "plan" | "draw"): string =>
@@ -25,7 +25,7 @@ describe("the first load of the built page", () => {
     expect(files.reduce((sum, file) => sum + gzippedBytes(file), 0)).toBeLessThanOrEqual(LIMIT_BYTES);
   });
 
-  it("fetches nothing at once that those files leave for later", () => {
+  it("loads nothing at once that those files load later", () => {
     for (const file of named().filter((name) => name.endsWith(".js"))) {
       const imported = [...read(file).matchAll(/\b(?:import|from)\s*["']\.\/([\w.-]+)["']/g)].map(
         ([, name]) => `assets/${name}`,

@@ -31,7 +31,7 @@ describe("durations", () => {
     expect(plain(formatDuration(7199))).toBe("2 h");
   });
 
-  it("show a dash for what is no duration", () => {
+  it("show a dash for an invalid duration", () => {
     expect(formatDuration(Number.NaN)).toBe("–");
     expect(formatDuration(-1)).toBe("–");
   });
@@ -43,25 +43,25 @@ describe("times of day", () => {
   const past = (...[year, month, day, hour, minute]: [number, number, number, number, number]): string =>
     formatWhen(new Date(year, month, day, hour, minute).toISOString(), nowMs);
 
-  it("are on one clock of 24 hours, in the past as to come", () => {
+  it("are in 24-hour format, in the past and the future", () => {
     expect(past(2026, 10, 20, 6, 5)).toBe("06:05");
     expect(past(2026, 10, 20, 18, 40)).toBe("18:40");
     expect(formatClockIn(nowMs, 60)).toBe("18:42");
   });
 
-  it("tell the day where it is not today", () => {
+  it("include the day if it is not today", () => {
     expect(formatClockIn(nowMs, 22 * 3600)).toBe("Sat 16:41");
     expect(formatClockIn(nowMs, 46.8 * 3600)).toBe("Sun 17:29");
     expect(past(2026, 10, 19, 23, 59)).toBe("Thu 23:59");
   });
 
-  it("tell the date where the name of the day could be another's", () => {
+  it("include the date if the name of the day would be ambiguous", () => {
     expect(past(2026, 10, 13, 18, 41)).toBe("13 Nov 18:41");
     expect(formatClockIn(nowMs, 7 * 24 * 3600)).toBe("27 Nov 18:41");
     expect(past(2025, 10, 3, 14, 5)).toBe("3 Nov 2025 14:05");
   });
 
-  it("are a dash for what is no time", () => {
+  it("are a dash for an invalid time", () => {
     expect(formatWhen("soon", nowMs)).toBe("–");
   });
 });

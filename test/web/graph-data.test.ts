@@ -14,7 +14,7 @@ const trajectory = plan(
 );
 
 describe("the graph's data", () => {
-  it("covers the span asked for, evenly", () => {
+  it("covers the requested span evenly", () => {
     const { tS } = graphData(trajectory, 1, 3, 201);
     expect(tS[0]).toBe(1);
     expect(tS[200]).toBeCloseTo(3, 9);
@@ -29,7 +29,7 @@ describe("the graph's data", () => {
     expect(Math.max(...accelMmPerS2)).toBeLessThanOrEqual(travel.accelMmPerS2 * 1.001);
   });
 
-  it("keeps a short peak in sight when the whole plot is shown", () => {
+  it("keeps a short peak visible when the whole plot is shown", () => {
     const wide = graphData(trajectory, 0, trajectory.totalS, 40);
     expect(Math.max(...wide.speedMmPerS)).toBeGreaterThan(DEFAULT_MOTION.draw.speedMmPerS * 0.9);
   });

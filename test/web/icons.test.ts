@@ -1,4 +1,4 @@
-/** The icons of a home screen: files that are there, of the size that the page and its manifest say. */
+/** The icons of a home screen: the files exist, in the sizes that the page and its manifest state. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
@@ -26,11 +26,11 @@ function sizeOf(png: Buffer): string {
 }
 
 describe("icons", () => {
-  it.each(pngs)("$src is there, $sizes", ({ src, sizes }) => {
+  it.each(pngs)("$src exists, $sizes", ({ src, sizes }) => {
     expect(sizeOf(read("public", src))).toBe(sizes);
   });
 
-  it("are those that home screens ask for", () => {
+  it("are those that home screens need", () => {
     const named = pngs.map(({ sizes, purpose }) => `${purpose} ${sizes}`);
     for (const wanted of ["any 192x192", "any 512x512", "maskable 512x512", "apple 180x180"]) {
       expect(named).toContain(wanted);

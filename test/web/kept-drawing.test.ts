@@ -29,7 +29,7 @@ function makePage() {
 }
 
 describe("the last drawing", () => {
-  it("is kept once it is planned, and again when it has become a job", async () => {
+  it("is stored once it is planned, and again when it has become a job", async () => {
     const { store, storage, written, plan } = makePage();
     store.setState({ drawing: { key: "drawing-1", ...SHEET } });
     expect(written).toEqual([]);
@@ -42,7 +42,7 @@ describe("the last drawing", () => {
     expect(await readKeptDrawing(storage)).toEqual({ ...SHEET, jobId: "job-7" });
   });
 
-  it("stays while another one can't be read", () => {
+  it("stays if another one can't be read", () => {
     const { store, written, plan } = makePage();
     store.setState({ drawing: { key: "drawing-1", ...SHEET } });
     plan("drawing-1");
@@ -55,7 +55,7 @@ describe("the last drawing", () => {
     ["nothing", () => Promise.resolve(undefined)],
     ["what is no drawing", () => Promise.resolve({ name: "waves", text: 7 })],
     ["a refusal", () => Promise.reject(new Error("a private window"))],
-  ])("is none where the browser gives %s", async (_what, read) => {
+  ])("is absent if the browser gives %s", async (_what, read) => {
     expect(await readKeptDrawing({ read, write: () => Promise.resolve() })).toBeNull();
   });
 });

@@ -35,7 +35,7 @@ const shownIn = (settings: PlotSettings): string[] =>
   rows.filter((row) => isLayerShown(settings, row)).map(({ id }) => id);
 
 describe("switching layers", () => {
-  it("goes by hand before what their names say", () => {
+  it("by hand overrides their names", () => {
     expect(shownIn(DEFAULTS)).toEqual(["sky", "sun"]);
     const all = showAll(showLayer(DEFAULTS, sky, false), rows);
     expect(shownIn(all)).toEqual(["sky", "guides", "sun"]);
@@ -59,8 +59,8 @@ describe("the order of layers", () => {
   });
 });
 
-describe("what a layer has of its own", () => {
-  it("is kept field by field, and gone when the last field is", () => {
+describe("a layer's own settings", () => {
+  it("are stored field by field, and removed with the last field", () => {
     const fast = setLayerMotion(DEFAULTS, "sky", { speedMmPerS: 80 });
     const both = setLayerMotion(fast, "sky", { accelMmPerS2: 900 });
     expect(both.motion.layers).toEqual({ sky: { speedMmPerS: 80, accelMmPerS2: 900 } });
@@ -70,7 +70,7 @@ describe("what a layer has of its own", () => {
     expect(low.pen.layers).toEqual({ sun: { downPct: 10, beforeMs: 2_000 } });
   });
 
-  it("is as for all again with null", () => {
+  it("follow the common settings again with null", () => {
     const own = hatchLayer(stopBefore(repeatLayer(DEFAULTS, "sky", 3), "sky", true), "sky", {
       spacingMm: 1,
       angleDeg: 30,
@@ -84,7 +84,7 @@ describe("what a layer has of its own", () => {
 });
 
 describe("pens", () => {
-  it("are made of the layers' colours, each once, and given to the layers", () => {
+  it("are made of the layers' colours, each once, and assigned to the layers", () => {
     const red: LayerRow = { id: "roof", name: "roof", color: "#ffaa00" };
     const made = pensFromColors(DEFAULTS, [...rows, red], (color) => color?.toUpperCase() ?? "Any");
     expect(made.pens.map(({ name, color }) => [name, color])).toEqual([
@@ -92,13 +92,13 @@ describe("pens", () => {
       ["Any", null],
       ["#FFAA00", "#ffaa00"],
     ]);
-    // A layer without a colour too: without a pen it would be drawn with the one before, and without a stop.
+    // A layer without a colour too: without a pen it would be drawn with the previous one, without a stop.
     const [blue, any, orange] = made.pens.map(({ id }) => id);
     expect(made.layerPens).toEqual({ sky: blue, guides: any, sun: orange, roof: orange });
     expect(pensFromColors(made, rows, String).pens).toEqual(made.pens);
   });
 
-  it("have ids that no other pen has, also after one was removed", () => {
+  it("have unique ids, also after one was removed", () => {
     const two = addPen(addPen(DEFAULTS, { name: "a" }), { name: "b" });
     const again = addPen(removePen(two, two.pens[0].id), { name: "c" });
     expect(new Set(again.pens.map(({ id }) => id)).size).toBe(2);
@@ -113,7 +113,7 @@ describe("pens", () => {
 });
 
 describe("another drawing on the paper", () => {
-  it("knows nothing of the last one's layers, but of colours and pens", () => {
+  it("does not reuse the last one's layers, but its colours and pens", () => {
     let settings = addPen(DEFAULTS, { name: "a" });
     for (const id of ["sky", "#ff0000"]) {
       settings = setLayerPen(setLayerMotion(settings, id, { speedMmPerS: 9 }), id, "pen-1");
@@ -133,7 +133,7 @@ describe("another drawing on the paper", () => {
 });
 
 describe("a preset", () => {
-  it("brings pens, layers and their order back, and leaves the paper alone", () => {
+  it("restores pens, layers and their order, and does not change the paper", () => {
     const kept = moveLayer(setLayerPen(addPen(DEFAULTS, { name: "Brush" }), "sky", "pen-1"), rows, "sun", 0);
     const [preset] = withPreset([], "Dawn", kept);
     const now = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, marginMm: 3 } };
@@ -141,7 +141,7 @@ describe("a preset", () => {
     expect(taken).toEqual({ ...kept, prepare: { ...kept.prepare, marginMm: 3 } });
   });
 
-  it("from before there were pens leaves those as they are", () => {
+  it("from before there were pens does not change them", () => {
     const now = addPen(DEFAULTS, { name: "Brush" });
     const { name, motion, pen } = withPreset([], "Old", DEFAULTS)[0];
     expect(fromPreset(now, { name, motion, pen })).toEqual(now);

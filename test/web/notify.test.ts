@@ -9,7 +9,7 @@ const moon = (more: Partial<Job>): Job => makeJob("moon", { name: "Moon", ...mor
 const plotting = moon({ state: "plotting" });
 
 describe("notices of jobs", () => {
-  it("are for ends and interruptions, not for what the user does", () => {
+  it("are for ends and interruptions, not for the user's actions", () => {
     expect(noticeOfChange(plotting, moon({ state: "done" }))).toContain("Moon");
     expect(noticeOfChange(plotting, moon({ state: "failed" }))).toContain("Moon");
     expect(noticeOfChange(plotting, moon({ state: "interrupted" }))).toContain("Moon");
@@ -27,7 +27,7 @@ describe("notices of jobs", () => {
     expect(noticeOfChange(plotting, nameless)).toContain("Sun");
   });
 
-  it("are said once, and not for the history that a first snapshot brings", () => {
+  it("are shown once, and not for the history in a first snapshot", () => {
     const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
     const said: string[] = [];
     watchJobs(store, (sentence) => said.push(sentence));

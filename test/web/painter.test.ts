@@ -22,7 +22,7 @@ const sceneOf = (count: number): Picture => ({
 });
 
 class TurnClock implements PainterClock {
-  /** Called at each turn; what the page does meanwhile. */
+  /** Called at each turn; the page's work in between. */
   onTurn: (turn: number) => void = () => undefined;
   #turns = 0;
   #ms = 0;
@@ -37,7 +37,7 @@ class TurnClock implements PainterClock {
   }
 }
 
-/** A card that draws so many pieces a millisecond of the clock, and remembers what it was made to do. */
+/** A card that draws that many pieces per millisecond of the clock, and records what it drew. */
 class Card implements SceneRenderer {
   readonly parts: number[] = [];
   readonly shown: { offsetX: number; detail: Detail; pieces: number }[] = [];
@@ -95,13 +95,13 @@ const start = (card: Card, count: number) => {
   painter.setScene(sceneOf(count));
   return { painter, told };
 };
-/** Lets everything that is under way come to its end. */
+/** Runs all pending work to its end. */
 const settle = async (): Promise<void> => {
   for (let i = 0; i < 200_000; i++) await Promise.resolve();
 };
 
 describe("the painter", () => {
-  it("draws a small drawing whole and at once", async () => {
+  it("draws a small drawing completely and at once", async () => {
     const card = new Card(50);
     const { painter, told } = start(card, 2_000);
     painter.show(frame(1));
@@ -125,7 +125,7 @@ describe("the painter", () => {
     ]);
   });
 
-  it("comes to draw all at once on a fast card", async () => {
+  it("reaches drawing everything at once on a fast card", async () => {
     const card = new Card(200_000);
     const { painter } = start(card, 1_000_000);
     painter.show(frame(1));
@@ -137,7 +137,7 @@ describe("the painter", () => {
     expect(card.parts).toEqual([1_000_000]);
   });
 
-  it("keeps the parts short on a card that turns out slow, and gives it one at a time", async () => {
+  it("keeps the parts short on a card that turns out slow, and sends it one at a time", async () => {
     const card = new Card(20);
     const { painter } = start(card, 100_000);
     painter.show(frame(1));
@@ -148,7 +148,7 @@ describe("the painter", () => {
     expect(card.mostPartsAtOnce).toBe(1);
   });
 
-  it("always shows something of a view that keeps moving, and all of it where it comes to rest", async () => {
+  it("always shows something of a view that keeps moving, and all of it where it stops", async () => {
     const card = new Card(100);
     const { painter } = start(card, 1_000_000);
     card.clock.onTurn = (turn) => {
@@ -162,7 +162,7 @@ describe("the painter", () => {
     expect(card.shown.at(-1)).toEqual({ offsetX: 3_000, detail: "whole", pieces: 1_000_000 });
   });
 
-  it("never shows what was begun of one drawing as another", async () => {
+  it("never shows the begun picture of one drawing as another", async () => {
     const card = new Card(100);
     const { painter } = start(card, 1_000_000);
     card.clock.onTurn = (turn) => {
@@ -175,7 +175,7 @@ describe("the painter", () => {
     expect(card.shown).toEqual([{ offsetX: 2, detail: "whole", pieces: 500 }]);
   });
 
-  it("draws the last frame again when the card was taken away and is back", async () => {
+  it("draws the last frame again when the card was lost and is back", async () => {
     const card = new Card(100);
     const { painter, told } = start(card, 100_000);
     card.clock.onTurn = (turn) => {

@@ -21,8 +21,8 @@ const memoryStore = (): TextStore & { value: string | null } => ({
 });
 const defaults = { settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW };
 
-describe("what the page remembers", () => {
-  it("comes back as it was kept", () => {
+describe("the page's stored settings", () => {
+  it("are restored as stored", () => {
     const store = memoryStore();
     const kept = {
       settings: { ...DEFAULT_PLOT_SETTINGS, prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, marginMm: 22 } },
@@ -32,7 +32,7 @@ describe("what the page remembers", () => {
     expect(readRemembered(store)).toEqual(kept);
   });
 
-  it("keeps layer switches, for the drawing that comes back with them", () => {
+  it("include layer switches, for the drawing that is restored with them", () => {
     const store = memoryStore();
     const settings = {
       ...DEFAULT_PLOT_SETTINGS,
@@ -42,12 +42,12 @@ describe("what the page remembers", () => {
     expect(readRemembered(store).settings.prepare.hiddenLayers).toEqual(["sky"]);
   });
 
-  it("is the defaults on a first visit", () => {
+  it("are the defaults on a first visit", () => {
     expect(readRemembered(memoryStore())).toEqual(defaults);
     expect(readRemembered(null)).toEqual(defaults);
   });
 
-  it("keeps the parts that still fit and replaces those that do not", () => {
+  it("keep the valid parts and replace the others", () => {
     const stored = JSON.stringify({
       settings: { pen: { upPct: 70, downPct: 20, liftMs: 100, dropMs: 100 }, motion: { mode: "warp" } },
       view: { theme: "dark" },
@@ -58,7 +58,7 @@ describe("what the page remembers", () => {
     expect(view).toEqual({ ...DEFAULT_VIEW, theme: "dark" });
   });
 
-  it("replaces a single value that does not fit, and nothing beside it", () => {
+  it("replace a single invalid value, and nothing else", () => {
     const { prepare, motion } = DEFAULT_PLOT_SETTINGS;
     const pen = { id: "p1", name: "Blue", color: "#0000ff", widthMm: 0.3, offsetXMm: 0, offsetYMm: 0 };
     const kept = {
@@ -90,13 +90,13 @@ describe("what the page remembers", () => {
     expect(view).toEqual({ ...DEFAULT_VIEW, showTravel: true, openGroups: ["paper"] });
   });
 
-  it("keeps the most that the page's fields offer", () => {
+  it("keep the maximum that the page's fields allow", () => {
     const prepare = { ...DEFAULT_PLOT_SETTINGS.prepare, smoothRounds: PREPARE_TABLE.smoothRounds.max };
     const { settings } = parseRemembered(JSON.stringify({ settings: { prepare } }));
     expect(settings.prepare).toEqual(prepare);
   });
 
-  it("never throws and never lets an invalid setting in", () => {
+  it("never throw and never accept an invalid setting", () => {
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json(), fc.constant(null)), (stored) => {
         const { settings } = parseRemembered(stored);
@@ -106,7 +106,7 @@ describe("what the page remembers", () => {
     );
   });
 
-  it("survives a browser that refuses to store", () => {
+  it("survive a browser that refuses to store", () => {
     const refusing: TextStore = {
       getItem() {
         throw new Error("denied");

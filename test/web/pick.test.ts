@@ -22,7 +22,7 @@ const mm = fc.integer({ min: 0, max: 400 }).map((n) => n / 2);
 const lines = fc.array(fc.tuple(mm, mm, mm, mm), { minLength: 1, maxLength: 60 });
 
 describe("picking", () => {
-  it("finds the nearest piece, as a look at every one of them does", () => {
+  it("finds the nearest piece, like a search of all of them", () => {
     fc.assert(
       fc.property(lines, mm, mm, fc.double({ min: 0.5, max: 30, noNaN: true }), (drawn, x, y, reachMm) => {
         const pieces = piecesOf(drawn);
@@ -35,7 +35,7 @@ describe("picking", () => {
     );
   });
 
-  it("prefers what is drawn later where strokes lie on each other", () => {
+  it("prefers the later one if strokes overlap", () => {
     const pieces = piecesOf([
       [0, 0, 10, 0],
       [0, 0, 10, 0],

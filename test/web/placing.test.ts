@@ -29,7 +29,7 @@ const way = fc.double({ min: -600, max: 600, noNaN: true });
 const ORIGIN = { x: 0, y: 0 };
 const OPPOSITE: Record<CornerPart, CornerPart> = { nw: "se", ne: "sw", sw: "ne", se: "nw" };
 
-describe("taking hold of the drawing", () => {
+describe("grabbing the drawing", () => {
   it("finds knob and corners before the inside, and nothing outside", () => {
     expect(framePartAt(frame, 20, 30, 4, 10)).toBe("nw");
     expect(framePartAt(frame, 139, 111, 4, 10)).toBe("se");
@@ -38,7 +38,7 @@ describe("taking hold of the drawing", () => {
     expect(framePartAt(frame, 10, 70, 4, 10)).toBeNull();
   });
 
-  it("finds them where they stand once the frame is turned", () => {
+  it("finds them where they are once the frame is turned", () => {
     fc.assert(
       fc.property(frames, (given) => {
         const knob = knobOf(given, 30);
@@ -55,7 +55,7 @@ describe("taking hold of the drawing", () => {
 });
 
 describe("dragging", () => {
-  it("by a corner keeps the proportions, the opposite corner, and a size that can be held", () => {
+  it("by a corner keeps the proportions, the opposite corner, and a minimum size", () => {
     fc.assert(
       fc.property(frames, fc.constantFrom(...CORNER_PARTS), way, way, (start, part, dx, dy) => {
         const end = draggedFrame(start, part, ORIGIN, dx, dy);
@@ -70,12 +70,12 @@ describe("dragging", () => {
     );
   });
 
-  it("follows the pointer when a corner is drawn along the diagonal", () => {
+  it("follows the pointer when a corner is dragged along the diagonal", () => {
     const end = draggedFrame(frame, "se", ORIGIN, 60, 40);
     expect(end).toEqual({ xMm: 20, yMm: 30, widthMm: 180, heightMm: 120, turnDeg: 0 });
   });
 
-  it("by the knob turns about the middle, as far as the pointer goes round it", () => {
+  it("by the knob turns about the middle, by the pointer's angle", () => {
     const end = draggedFrame(frame, "turn", { x: 80, y: 20 }, 50, 50);
     expect(end).toEqual({ ...frame, turnDeg: 90 });
     fc.assert(
@@ -96,11 +96,11 @@ describe("dragging", () => {
   });
 });
 
-describe("drawing a dragged frame to lines", () => {
+describe("snapping a dragged frame to lines", () => {
   const margins = { topMm: 10, rightMm: 10, bottomMm: 10, leftMm: 10 };
   const lines = snapLinesOf({ width: 297, height: 210 }, margins);
 
-  it("lays the nearest edge or middle on a margin or the paper's middle, and tells which", () => {
+  it("snaps the nearest edge or middle to a margin or the paper's middle, and reports which", () => {
     const near = { ...frame, xMm: 11.5, yMm: 64.2 };
     const { frame: snapped, lines: on } = snapFrame(near, "move", lines, 3);
     expect([snapped.xMm, snapped.widthMm, snapped.heightMm]).toEqual([10, 120, 80]);
@@ -109,7 +109,7 @@ describe("drawing a dragged frame to lines", () => {
     expect(snapFrame(near, "move", lines, 0.5)).toEqual({ frame: near, lines: { xs: [], ys: [] } });
   });
 
-  it("lays a dragged corner on a line and keeps the proportions", () => {
+  it("snaps a dragged corner to a line and keeps the proportions", () => {
     const { frame: snapped } = snapFrame({ ...frame, widthMm: 123, heightMm: 82 }, "se", lines, 4);
     // 147 across lies 1.5 from the paper's middle; 112 down lies 7 from it.
     const wide = snapFrame({ ...frame, widthMm: 127, heightMm: (127 * 2) / 3 }, "se", lines, 4).frame;
@@ -125,7 +125,7 @@ describe("drawing a dragged frame to lines", () => {
     expect(boxAround(snapped).x0).toBeCloseTo(10, 9);
   });
 
-  it("turns in steps of 15° when near one, and by any angle else", () => {
+  it("turns in steps of 15° when near one, and otherwise by any angle", () => {
     const degAt = (turnDeg: number): number =>
       snapFrame({ ...frame, turnDeg }, "turn", lines, 3).frame.turnDeg;
     expect([degAt(44), degAt(-2.5), degAt(179), degAt(52), degAt(20)]).toEqual([45, 0, 180, 52, 20]);
@@ -133,7 +133,7 @@ describe("drawing a dragged frame to lines", () => {
 });
 
 describe("places of the report", () => {
-  it("lie around what the page's box becomes on the paper", () => {
+  it("lie around the page's box on the paper", () => {
     const quarterTurn = { a: 0, b: 2, c: -2, d: 0, e: 100, f: 5 };
     expect(paperBoxOf([0, 0, 10, 20], quarterTurn)).toEqual({ xMm: 60, yMm: 5, widthMm: 40, heightMm: 20 });
   });

@@ -81,14 +81,14 @@ describe("the planner", () => {
     expect(worker().asked.map(({ text }) => text)).toEqual(["<svg/>", null, "<svg></svg>"]);
   });
 
-  it("says for which board", () => {
+  it("reports for which board", () => {
     const { planner, worker } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }, "2.4.4"));
     planner.request(taskOf({ key: "a", text: "a" }));
     expect(worker().asked.map(({ firmware }) => firmware)).toEqual(["2.4.4", null]);
   });
 
-  it("hands on the newest plan only", () => {
+  it("passes on only the newest plan", () => {
     const { planner, worker, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "" }));
     planner.request(taskOf({ key: "b", text: "" }));
@@ -98,7 +98,7 @@ describe("the planner", () => {
     expect(heard).toEqual(["b"]);
   });
 
-  it("ends a worker that stays with what was overtaken, and asks a new one", () => {
+  it("ends a worker that is busy with an outdated request, and asks a new one", () => {
     const { planner, workers, runTimers, asked, worker, heard } = setUp();
     planner.request(taskOf({ key: "huge", text: "huge" }));
     planner.request(taskOf({ key: "small", text: "small" }));
@@ -110,7 +110,7 @@ describe("the planner", () => {
     expect(heard).toEqual(["small"]);
   });
 
-  it("lets a worker that has turned to the newest request finish", () => {
+  it("lets a worker that has started on the newest request finish", () => {
     const { planner, workers, runTimers, asked, worker } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }));
     planner.request(taskOf({ key: "b", text: "b" }));
@@ -119,7 +119,7 @@ describe("the planner", () => {
     expect(workers).toHaveLength(1);
   });
 
-  it("asks for the prepared drawing as text, and hands it on", () => {
+  it("asks for the prepared drawing as text, and passes it on", () => {
     const { planner, worker, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }));
     planner.export("svg", "3.0.3");
@@ -128,7 +128,7 @@ describe("the planner", () => {
     expect(heard).toEqual(["svg <svg/>"]);
   });
 
-  it("ends a worker that reads a file for too long, and says so; not one that has read it", () => {
+  it("ends a worker that reads a file for too long, and reports it; not one that has read it", () => {
     const { planner, workers, timers, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     workers[0].reply({ type: "started", id: 1 });
@@ -144,7 +144,7 @@ describe("the planner", () => {
     expect(workers[1].asked.map(({ drawingKey }) => drawingKey)).toEqual(["c"]);
   });
 
-  it("says that the worker died, and starts another for the next request", () => {
+  it("reports that the worker died, and starts another for the next request", () => {
     const { planner, workers, worker, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }));
     worker().onerror?.({ message: "out of memory" } as ErrorEvent);

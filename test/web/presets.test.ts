@@ -14,7 +14,7 @@ const storeWith = (value: string | null): TextStore & { value: string | null } =
 });
 
 describe("presets", () => {
-  it("come back as they were kept", () => {
+  it("are restored as stored", () => {
     const store = storeWith(null);
     const presets = withPreset([], " Fineliner ", DEFAULT_PLOT_SETTINGS);
     writePresets(store, presets);

@@ -7,11 +7,11 @@ const withActive = (state: "plotting" | "paused" | "interrupted") =>
   makeJob("active", { state, expectedS: 900, remainingS: 600 });
 
 describe("the time of a queue", () => {
-  it("is what is left of the running plot and all of those that wait", () => {
+  it("is the rest of the running plot plus all that wait", () => {
     expect(queueTime([withActive("plotting"), waiting], true)).toEqual({ totalS: 4_200, isRunning: true });
   });
 
-  it.each(["paused", "interrupted"] as const)("has no end that could be told while a plot is %s", (state) => {
+  it.each(["paused", "interrupted"] as const)("has no known end while a plot is %s", (state) => {
     expect(queueTime([withActive(state), waiting], true).isRunning).toBe(false);
     expect(queueTime([withActive(state)], false).isRunning).toBe(false);
   });
@@ -20,7 +20,7 @@ describe("the time of a queue", () => {
     expect(queueTime([waiting], true).isRunning).toBe(false);
   });
 
-  it("has none where it stops for paper between two plots", () => {
+  it("has none if it stops for paper between two plots", () => {
     expect(queueTime([withActive("plotting"), waiting], false).isRunning).toBe(false);
     expect(queueTime([withActive("plotting")], false).isRunning).toBe(true);
   });

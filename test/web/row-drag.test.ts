@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { placeAfterMove, placeOfDrop } from "../../web/ui/row-drag.js";
 
-/** What the server makes of "put id before that one". */
+/** The server's result for "put id before that one". */
 const moved = (ids: readonly string[], id: string, beforeId: string | null): string[] => {
   const others = ids.filter((other) => other !== id);
   const at = beforeId === null ? others.length : others.indexOf(beforeId);
@@ -11,7 +11,7 @@ const moved = (ids: readonly string[], id: string, beforeId: string | null): str
 describe("a row of the queue", () => {
   const ids = ["a", "b", "c", "d"];
 
-  it("comes to stand at every place it is moved to", () => {
+  it("reaches every place it is moved to", () => {
     for (const id of ids) {
       for (let place = 0; place < ids.length; place++) {
         const beforeId = placeAfterMove(ids, id, place);
@@ -26,7 +26,7 @@ describe("a row of the queue", () => {
     expect(placeAfterMove(ids, "d", 4)).toBeUndefined();
   });
 
-  it("that is let go between two others lands between them", () => {
+  it("that is dropped between two others lands between them", () => {
     expect(placeOfDrop([10, 30, 50], 0)).toBe(0);
     expect(placeOfDrop([10, 30, 50], 40)).toBe(2);
     expect(placeOfDrop([10, 30, 50], 90)).toBe(3);

@@ -7,6 +7,7 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
+import { strokeFigures } from "../../web/preview/stroke.js";
 import { hoverAt } from "../../web/scene/hover.js";
 import type { Planned } from "../../web/worker/protocol.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "../../web/scene/pieces.js";
@@ -42,7 +43,7 @@ const pieceAt = (pieces: Pieces, i: number) => {
 };
 const allOf = (pieces: Pieces) => Array.from({ length: pieces.count }, (_, i) => pieceAt(pieces, i));
 
-/** A quarter circle as one block of constant acceleration across: the curve that corners are blended with. */
+/** A quarter circle as one block of constant acceleration: the curve that blends corners. */
 const parabola = (): Trajectory => ({
   blockCount: 1,
   durationS: Float64Array.of(1),
@@ -89,13 +90,13 @@ describe("the scene", () => {
       const { vx, vy } = stateAt(trajectory, inside);
       const low = Math.min(piece.speed0, piece.speed1) * scene.topDrawMmPerS;
       const high = Math.max(piece.speed0, piece.speed1) * scene.topDrawMmPerS;
-      // In the middle of a corner's curve the pen is a little slower than at both ends of a piece.
+      // In the middle of a corner's curve the pen is slightly slower than at both ends of a piece.
       expect(Math.hypot(vx, vy)).toBeGreaterThan(low - 0.01 * scene.topDrawMmPerS);
       expect(Math.hypot(vx, vy)).toBeLessThan(high + 0.2);
     }
   });
 
-  it("lets the speed change by little within a piece that can be seen", () => {
+  it("limits the change of speed within a visible piece", () => {
     for (const piece of allOf(scene.draw)) {
       const length = Math.hypot(piece.x1 - piece.x0, piece.y1 - piece.y0);
       if (length > 0.5) expect(Math.abs(piece.speed1 - piece.speed0)).toBeLessThan(0.12);
@@ -109,7 +110,7 @@ describe("the scene", () => {
     for (let i = 2; i < wave.length; i += 2) {
       expectedMm += Math.hypot(wave[i] - wave[i - 2], wave[i + 1] - wave[i - 1]);
     }
-    // Corners are drawn as small curves within the corner tolerance: the way is a hair shorter.
+    // Corners are drawn as small curves within the corner tolerance: the path is slightly shorter.
     expect(drawMm).toBeLessThan(expectedMm + 0.01);
     expect(drawMm).toBeGreaterThan(expectedMm - 0.5);
   });
@@ -120,7 +121,7 @@ describe("the scene", () => {
     expect(dots[0]).toMatchObject({ x0: 80, y0: 80, x1: 80, y1: 80 });
   });
 
-  it("cuts a curve finely enough that its chords stay on it", () => {
+  it("cuts a curve so finely that its chords stay on it", () => {
     const curve = parabola();
     const { draw } = buildScene(curve, Uint16Array.of(0));
     expect(draw.count).toBeGreaterThan(10);
@@ -131,7 +132,7 @@ describe("the scene", () => {
     }
   });
 
-  it("counts what is drawn before a moment", () => {
+  it("counts what is drawn before a time", () => {
     expect(piecesBefore(scene.draw, -1)).toBe(0);
     expect(piecesBefore(scene.draw, scene.totalS + 1)).toBe(scene.draw.count);
     const half = piecesBefore(scene.draw, scene.totalS / 2);
@@ -156,7 +157,7 @@ describe("hovering", () => {
   const hover = (xMm: number, yMm: number) =>
     hoverAt(planned, { xPx: 0, yPx: 0, isRight: false, isLow: false, xMm, yMm }, 4);
 
-  it("tells speed, time, stroke and layer of the plan at that place", () => {
+  it("returns speed, time, stroke and layer of the plan at that place", () => {
     const found = hover(30, 10.2)!;
     expect(found.layerName).toBe("Layer 0");
     expect(found.strokeNumber).toBe(1);
@@ -166,11 +167,30 @@ describe("hovering", () => {
     expect(found.speedMmPerS).toBeCloseTo(Math.hypot(state.vx, state.vy), 9);
   });
 
-  it("knows the number of a dot", () => {
+  it("returns the number of a dot", () => {
     expect(hover(80.5, 80)).toMatchObject({ strokeNumber: 3, layerName: "Layer 2" });
   });
 
-  it("is silent beside the strokes", () => {
+  it("returns nothing beside the strokes", () => {
     expect(hover(200, 200)).toBeNull();
+  });
+});
+
+describe("one stroke of a plan", () => {
+  it("has its own line and no other's, its length and its time", () => {
+    const { lengthMm, points, startS, durationS } = strokeFigures({ scene, trajectory }, 0)!;
+    // Its corners are rounded, by a little.
+    expect(lengthMm).toBeGreaterThan(115);
+    expect(lengthMm).toBeLessThanOrEqual(118.001);
+    expect([...points.slice(0, 2), ...points.slice(-2)].map(Math.round)).toEqual([10, 10, 30, 12]);
+    expect(stateAt(trajectory, startS + durationS / 2).y).toBeGreaterThan(9);
+    const next = strokeFigures({ scene, trajectory }, 1)!;
+    expect(next.startS).toBeGreaterThan(startS + durationS - 1e-9);
+    expect(Math.min(...next.points)).toBeGreaterThan(19);
+  });
+
+  it("is a point for a dot, and nothing beyond the last", () => {
+    expect([...strokeFigures({ scene, trajectory }, 2)!.points]).toEqual([80, 80, 80, 80]);
+    expect(strokeFigures({ scene, trajectory }, 3)).toBeNull();
   });
 });

@@ -58,7 +58,7 @@ describe("server events", () => {
     expect(activeJob(state)?.id).toBe("a");
   });
 
-  it("an order event sorts, whatever ids it names", () => {
+  it("an order event sorts, even with unknown ids", () => {
     const state = after(start(), snapshot("a", "b", "c"), { type: "order", ids: ["c", "ghost", "a"] });
     expect(state.jobs.map(({ id }) => id)).toEqual(["c", "a", "b"]);
   });
@@ -83,12 +83,12 @@ describe("server events", () => {
     expect(after(start(), snapshot("a", "b"), { type: "job-removed", id: "a" }).jobs).toHaveLength(1);
   });
 
-  it("new expected times change the jobs that they name, and no others", () => {
+  it("new expected times change only the jobs that they name", () => {
     const state = after(start(), snapshot("a", "b"), { type: "expected", expectedS: { b: 99 } });
     expect(state.jobs.map(({ expectedS }) => expectedS)).toEqual([makeJob("a").expectedS, 99]);
   });
 
-  it("what is no event of ours is left out", () => {
+  it("an unknown event is ignored", () => {
     expect(parseServerEvent("not json")).toBeNull();
     expect(parseServerEvent('{"type":"weather"}')).toBeNull();
     expect(parseServerEvent('{"type":"job-removed","id":"a"}')).toEqual({ type: "job-removed", id: "a" });

@@ -1,4 +1,4 @@
-/** What the page offers to do with a job of the queue that several servers share. */
+/** The actions that the page offers for a job of a shared queue. */
 import { describe, expect, it } from "vitest";
 import {
   SERVER_LOST_AFTER_MS,
@@ -30,13 +30,13 @@ describe("a shared job", () => {
     expect(wayOut(job({ state: "withdrawn" }), NOW_MS)).toBeNull();
   });
 
-  it("is left with a server that is there", () => {
+  it("is left with a server that is running", () => {
     const there = job({ ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS - 1_000) });
     expect(isServerGone(there, NOW_MS)).toBe(false);
     expect(wayOut(there, NOW_MS)).toBeNull();
   });
 
-  it("can be given back when its server has gone, unless its plot has begun", () => {
+  it("can be returned when its server has gone, unless its plot has begun", () => {
     const lost = { ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS + 1_000) };
     expect(wayOut(job(lost), NOW_MS)).toBe("give-back");
     expect(wayOut(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");
@@ -44,7 +44,7 @@ describe("a shared job", () => {
     expect(wayOut(job({ ...lost, hasBegun: true }), NOW_MS)).toBeNull();
   });
 
-  it("names the plotters that it does not go to only since their model was never said", () => {
+  it("names the plotters that are left out only because their model is not set", () => {
     const plotter = (id: string, machine: string | null): Plotter =>
       ({ id, name: id, machine }) as Partial<Plotter> as Plotter;
     const plotters = [plotter("new", null), plotter("big", "axidraw-v3-a3"), plotter("fits", "axidraw-v3")];

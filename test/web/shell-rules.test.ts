@@ -12,7 +12,7 @@ describe("the service worker", () => {
     expect(asked("/icon.svg")).toBe("kept");
   });
 
-  it("never answers for the API, however it is asked", () => {
+  it("never answers for the API, whatever the request", () => {
     for (const path of [
       "/api/v1/state",
       "/api/v1/events",
@@ -25,12 +25,12 @@ describe("the service worker", () => {
     }
   });
 
-  it("leaves pairing, other pages and other sites alone", () => {
+  it("ignores pairing, other pages and other sites", () => {
     expect(asked("/pair?token=x", { mode: "navigate" })).toBeNull();
     expect(asked("http://camera.local/picture.png")).toBeNull();
   });
 
-  it("keeps the version before, for pages that are still open", () => {
+  it("keeps the previous version for pages that are still open", () => {
     const names = ["plotwright-1", "other", "plotwright-2", "plotwright-3"];
     expect(cachesToDrop(names, "plotwright-", "plotwright-3")).toEqual(["plotwright-1"]);
     expect(cachesToDrop(["plotwright-3"], "plotwright-", "plotwright-3")).toEqual([]);

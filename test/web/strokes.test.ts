@@ -11,7 +11,7 @@ class WorkerByHand implements DrawWorkerLike {
   onmessage: ((event: MessageEvent<DrawReply>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
 
-  /** Moves what is transferred, as a browser does. */
+  /** Moves transferred objects, as a browser does. */
   postMessage(message: DrawRequest, transfer: Transferable[]): void {
     this.asked.push(structuredClone(message, { transfer: transfer as ArrayBuffer[] }));
   }
@@ -74,7 +74,7 @@ const setUp = () => {
 };
 
 describe("strokes drawn by a worker", () => {
-  it("are given the copy of the scene, not the page's own", () => {
+  it("get the copy of the scene, not the page's own", () => {
     const { worker, strokes } = setUp();
     const own = scene();
     const copy = picture();
@@ -84,7 +84,7 @@ describe("strokes drawn by a worker", () => {
     expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
   });
 
-  it("copy the page's own where the copy was given away before", () => {
+  it("copy the page's own if the copy was given away before", () => {
     const copy = picture();
     setUp().strokes.setScene(scene(), copy);
     const { worker, strokes } = setUp();
@@ -94,7 +94,7 @@ describe("strokes drawn by a worker", () => {
     expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
   });
 
-  it("are shown with the frame that they were drawn for, and are done when that is the newest and whole", () => {
+  it("are shown with the frame that they were drawn for, and are done when that is the newest and complete", () => {
     const { worker, put, shown, strokes } = setUp();
     const frames = [frame(1), frame(2), frame(3)];
     for (const one of frames) strokes.show(one);
@@ -110,7 +110,7 @@ describe("strokes drawn by a worker", () => {
     expect(put[2]).toBe(last);
   });
 
-  it("never go back to an older frame", () => {
+  it("never return to an older frame", () => {
     const { worker, put, strokes } = setUp();
     strokes.show(frame(1));
     strokes.show(frame(2));
@@ -120,7 +120,7 @@ describe("strokes drawn by a worker", () => {
     expect(late.isClosed).toBe(true);
   });
 
-  it("are drawn on the page where the worker does not start", () => {
+  it("are drawn on the page if the worker does not start", () => {
     const { worker, onPage, strokes } = setUp();
     const own = scene();
     const [first, second] = [frame(1), frame(2)];

@@ -47,7 +47,7 @@ describe("pinching", () => {
     );
   });
 
-  it("doubles the size when the fingers are twice as far apart", () => {
+  it("doubles the scale when the fingers are twice as far apart", () => {
     const view = { scale: 2, offsetX: 10, offsetY: 20 };
     expect(pinched(view, { x: 100, y: 0 }, { x: 200, y: 0 }, { x: 0, y: 0 }).scale).toBeCloseTo(4, 12);
   });

@@ -2,12 +2,13 @@
 import { describe, expect, it, vi } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type Trajectory } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
+import { shortcutsFor } from "../../web/app/shortcuts.js";
 import { BackendFault } from "../../web/backend/backend.js";
 import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { inkBox } from "../../web/drawing/crop-picture.js";
 import { jobUntilS } from "../../web/preview/drawn-until.js";
 import { rowsOf } from "../../web/queue/copies.js";
-import { createActions } from "../../web/state/actions.js";
+import { createActions, type Actions } from "../../web/state/actions.js";
 import { openWatch } from "../../web/state/open-watch.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore, shownView, watchedJob } from "../../web/state/store.js";
@@ -53,6 +54,21 @@ describe("Watch", () => {
     const store = makeStore();
     store.setState({ me: { role: "watch", id: null, name: null } });
     expect(shownView(store.getState())).toBe("watch");
+  });
+});
+
+describe("keys for what is laid out", () => {
+  it("are silent in Watch, where it is out of sight", () => {
+    const store = makeStore();
+    const actions = { queueDrawing: vi.fn(), undo: vi.fn() } as unknown as Actions;
+    const shortcuts = shortcutsFor({ store, actions, player: { toggle: vi.fn() } });
+    const press = (key: string): void => shortcuts.find(({ keys }) => keys === key)!.run();
+    store.setState({ pageView: "watch" });
+    press("Q");
+    expect(actions.queueDrawing).not.toHaveBeenCalled();
+    store.setState({ pageView: "prepare" });
+    press("Q");
+    expect(actions.queueDrawing).toHaveBeenCalledTimes(1);
   });
 });
 

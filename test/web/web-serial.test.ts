@@ -11,7 +11,7 @@ import {
 
 interface Port extends WebSerialPort {
   isOpen: boolean;
-  /** As a cable that is pulled out: reading and writing fail. */
+  /** Like an unplugged cable: reading and writing fail. */
   unplug(): void;
 }
 
@@ -58,7 +58,7 @@ const codeOf = async (work: Promise<unknown>): Promise<string> =>
   );
 
 describe("a board on Web Serial", () => {
-  it("says who it is, and gives the port back when the session is closed", async () => {
+  it("identifies itself, and releases the port when the session is closed", async () => {
     const port = portOfVirtualBoard();
     const session = new BoardSession(await openWebSerial(port), { clock: browserClock() });
     expect((await session.identify()).firmware).toBe("2.8.1");
@@ -68,7 +68,7 @@ describe("a board on Web Serial", () => {
     expect(port.writable?.locked).toBe(false);
   });
 
-  it("tells the session when the cable is pulled out, and refuses to write then", async () => {
+  it("notifies the session when the cable is unplugged, and refuses to write then", async () => {
     const port = portOfVirtualBoard();
     const transport = await openWebSerial(port);
     const closed = new Promise<Error | undefined>((resolve) => transport.onClose(resolve));
@@ -77,14 +77,14 @@ describe("a board on Web Serial", () => {
     expect(await codeOf(transport.write(new Uint8Array([86, 13])))).toBe("disconnected");
   });
 
-  it("tells a plain close as no error", async () => {
+  it("reports a plain close without an error", async () => {
     const transport = await openWebSerial(portOfVirtualBoard());
     const closed = new Promise<Error | undefined>((resolve) => transport.onClose(resolve));
     await transport.close();
     expect(await closed).toBeUndefined();
   });
 
-  it("asks for an EiBotBoard by its USB numbers", async () => {
+  it("asks for an EiBotBoard by its USB ids", async () => {
     let asked: unknown;
     const serial: WebSerial = {
       requestPort: (options) => {
@@ -96,7 +96,7 @@ describe("a board on Web Serial", () => {
     expect(asked).toEqual({ filters: [{ usbVendorId: 0x04d8, usbProductId: 0xfd92 }] });
   });
 
-  it("says what to do when nothing was chosen, the port is taken, or the browser can't", async () => {
+  it("explains what to do if nothing was chosen, the port is taken, or the browser has no support", async () => {
     const nothingChosen = new Error("No port selected by the user.");
     expect(await codeOf(requestBoard({ requestPort: () => Promise.reject(nothingChosen) }))).toBe("no-board");
     const taken = { ...portOfVirtualBoard(), open: () => Promise.reject(new Error("Failed to open")) };

@@ -3,7 +3,7 @@ import type { Player } from "../preview/player.js";
 import { historyText, shortcutsText } from "./text.js";
 import { plotText } from "../queue/text.js";
 import type { Actions } from "../state/actions.js";
-import { activeJob, type PageStore } from "../state/store.js";
+import { activeJob, shownView, type PageStore } from "../state/store.js";
 
 export interface Shortcut {
   /** As shown in the help sheet. */
@@ -32,7 +32,18 @@ interface ShortcutDeps {
 
 const words = shortcutsText;
 
-export const shortcutsFor = ({ store, actions, player }: ShortcutDeps): readonly Shortcut[] => [
+/** Keys for what is laid out are silent in Watch, where it is out of sight. */
+export const shortcutsFor = (deps: ShortcutDeps): readonly Shortcut[] => [
+  ...prepareShortcuts(deps).map((shortcut) => ({
+    ...shortcut,
+    run: () => {
+      if (shownView(deps.store.getState()) === "prepare") shortcut.run();
+    },
+  })),
+  ...pageShortcuts(deps),
+];
+
+const prepareShortcuts = ({ store, actions, player }: ShortcutDeps): readonly Shortcut[] => [
   { keys: "Ctrl Z", label: historyText.undo, matches: withCtrl("z", false), run: actions.undo },
   { keys: "Ctrl Shift Z", label: historyText.redo, matches: withCtrl("z", true), run: actions.redo },
   { keys: "Space", label: words.play, matches: plain(" "), run: () => player.toggle() },
@@ -49,6 +60,9 @@ export const shortcutsFor = ({ store, actions, player }: ShortcutDeps): readonly
     run: () => actions.changeView({ showGraph: !store.getState().view.showGraph }),
   },
   { keys: "Q", label: plotText.addToQueue, matches: plain("q"), run: () => void actions.queueDrawing() },
+];
+
+const pageShortcuts = ({ store, actions }: ShortcutDeps): readonly Shortcut[] => [
   {
     keys: "P",
     label: words.pause,

@@ -64,7 +64,10 @@ const OperatorStrip = () => {
   );
 };
 
-/** What went wrong with nobody asking, such as a file in the watched folder; stays until somebody has read it. */
+/**
+ * Errors without a request by this page, such as a file in the watched folder; shown until somebody closes
+ * them.
+ */
 const ServerNotices = () => {
   const notices = usePageState((state) => state.serverNotices);
   const { dismissServerNotice } = useActions();

@@ -23,7 +23,7 @@ export const pairingText = {
   title: "Pair this device",
   why: "This device is new to this plotter’s computer. Let it in once, and it is let in from then on.",
   steps: [
-    "On a device that is paired already, or on the plotter’s own computer, open “Sharing” at the top of the page.",
+    "On the computer that the plotter is plugged into, open plotwright and press “Sharing, plotters, camera”.",
     "Scan the code there with this device’s camera, or open the link on it.",
   ],
   terminal: "The link is also printed in the window in which plotwright was started.",

@@ -55,7 +55,7 @@ export const PaperPanel = () => {
           { value: CUSTOM, label: words.custom },
         ]}
         onChange={(value) => {
-          // A size of one's own begins a hair beside the named one, so that its fields show.
+          // A custom size starts slightly larger than the named one, so that its fields appear.
           if (value !== CUSTOM) change("paper", { paper: PAPER_SIZES[value] });
           else change("paper", { paper: { ...paper, widthMm: paper.widthMm + 1 } });
         }}

@@ -38,7 +38,7 @@ interface LayerDetailsProps {
   onMove(place: number): void;
 }
 
-/** What one layer does in its own way; empty fields are as for all, or as its name asks. */
+/** One layer's own settings; an empty field uses the common setting, or the code in the layer's name. */
 export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) => {
   const change = useChange();
   return (

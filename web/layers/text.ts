@@ -31,7 +31,7 @@ export const layersText = {
   stopBefore: "Stop before it",
   stops: { auto: "By its pen", yes: "Always", no: "Never" },
   reset: (label: string) => `${label} as for all`,
-  codes: (codes: string) => `Its name asks for ${codes}. What you set here goes before.`,
+  codes: (codes: string) => `Its name asks for ${codes}. Your settings here override it.`,
   code: {
     skip: "no drawing",
     pause: "a stop before",

@@ -1,4 +1,4 @@
-/** A plan is one for a board's firmware: another board that moves otherwise has it planned anew. */
+/** A plan is for one board's firmware: for another board that moves differently, plans again. */
 import { findMachine, isPlannedAlike } from "../../src/internal.js";
 import { boardFirmware, type PageStore } from "../state/store.js";
 

@@ -8,7 +8,7 @@ const words = jogText;
 const STEPS_MM = ["0.1", "1", "10", "50"] as const;
 type StepMm = (typeof STEPS_MM)[number];
 
-/** x to the right, y down the page, towards whoever stands before the plotter. */
+/** x to the right, y down the page, towards a person in front of the plotter. */
 const WAYS = [
   ["upLeft", -1, -1],
   ["up", 0, -1],

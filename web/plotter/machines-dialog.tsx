@@ -60,7 +60,7 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
   );
 };
 
-/** A file's own id where it is free, or is that of a machine of one's own, which it is to replace. */
+/** A file's own id if it is free, or if it belongs to a custom machine, which the file then replaces. */
 const idOf = ({ id, name }: MachineProfile, taken: readonly string[]): string =>
   MACHINES.some((machine) => machine.id === id) ? freeId(name, taken) : id;
 

@@ -1,21 +1,48 @@
 import { useMemo } from "react";
-import { usePageState } from "../state/use-store.js";
-import { previewText } from "./text.js";
-import { formatDuration, formatNumber } from "../ui/format.js";
+import { penOf } from "../../src/internal.js";
+import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { legendStops, rampColor } from "../scene/color-map.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { Segments } from "../ui/choice.js";
+import { formatDuration, formatNumber } from "../ui/format.js";
+import type { Planned } from "../worker/protocol.js";
+import { legendEntries } from "./looks.js";
+import { previewText } from "./text.js";
 
 const words = previewText;
 const LABELS = 5;
+const SHOWN_ENTRIES = 6;
 
-/** What the colours mean. `data-stops` holds the scale as JSON, for whoever reads the page by program. */
-export const Legend = () => {
+const OPTIONS = COLOR_MODES.map((value) => ({ value, label: words.looks[value] }));
+
+/** The ways to look at the drawing, and what the colours of the chosen one mean. */
+export const Looks = () => {
   const colorBy = usePageState((state) => state.view.colorBy);
-  const scene = usePageState((state) => state.planned?.scene ?? null);
-  const topMmPerS = scene?.topDrawMmPerS ?? 0;
+  const planned = usePageState((state) => state.planned);
+  const { changeView } = useActions();
+  return (
+    <div className="looks">
+      {planned && planned.scene.draw.count > 0 && <Legend colorBy={colorBy} planned={planned} />}
+      <Segments
+        label={words.colorBy}
+        isLabelHidden
+        value={colorBy}
+        options={OPTIONS}
+        onChange={(chosen) => changeView({ colorBy: chosen })}
+      />
+    </div>
+  );
+};
+
+const Legend = ({ colorBy, planned }: { colorBy: ColorMode; planned: Planned }) => {
+  if (colorBy === "speed") return <SpeedLegend topMmPerS={planned.scene.topDrawMmPerS} />;
+  if (colorBy === "order") return <OrderLegend totalS={planned.scene.totalS} />;
+  return <ListLegend colorBy={colorBy} planned={planned} />;
+};
+
+/** `data-stops` holds the scale as JSON, for programs that read the page. */
+const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
   const stops = useMemo(() => legendStops(topMmPerS), [topMmPerS]);
-  if (!scene || scene.draw.count === 0) return null;
-  if (colorBy === "order") return <OrderLegend totalS={scene.totalS} />;
-  if (colorBy !== "speed") return null;
   return (
     <figure className="legend" role="img" aria-label={words.legend} data-stops={JSON.stringify(stops)}>
       <figcaption aria-hidden="true">
@@ -42,6 +69,35 @@ const OrderLegend = ({ totalS }: { totalS: number }) => (
     </div>
   </figure>
 );
+
+type ListedMode = Exclude<ColorMode, "speed" | "order">;
+
+/** Layers, pens or inks by name. */
+const ListLegend = ({ colorBy, planned }: { colorBy: ListedMode; planned: Planned }) => {
+  const settings = usePageState((state) => state.settings);
+  const entries = legendEntries({ planned, settings }, colorBy, (layer, { widthMm }) => {
+    const mm = formatNumber(widthMm, 2);
+    if (colorBy === "layer") return layer.name;
+    if (colorBy === "ink") return words.ofWidth(layer.color ?? words.noColor, mm);
+    const pen = penOf(settings, layer);
+    return pen ? words.ofWidth(pen.name, mm) : words.noPen(layer.name);
+  });
+  const restCount = entries.length - SHOWN_ENTRIES;
+  return (
+    <figure className="legend">
+      <figcaption>{words.lookTitles[colorBy]}</figcaption>
+      <ul className="legend-list">
+        {entries.slice(0, SHOWN_ENTRIES).map(({ color, label }) => (
+          <li key={`${color} ${label}`}>
+            <span className="swatch" style={{ backgroundColor: color }} />
+            {label}
+          </li>
+        ))}
+        {restCount > 0 && <li>{words.moreEntries(restCount)}</li>}
+      </ul>
+    </figure>
+  );
+};
 
 const GRADIENT_STOPS = 16;
 const gradient = `linear-gradient(90deg, ${Array.from({ length: GRADIENT_STOPS + 1 }, (_, i) =>

@@ -1,5 +1,4 @@
 import type { RefObject } from "react";
-import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { previewText } from "./text.js";
 import { Icon, type IconName } from "../ui/icon.js";
@@ -9,34 +8,12 @@ import type { Stage } from "./stage.js";
 const words = previewText;
 const ZOOM_STEP = 1.5;
 
-const COLOR_WORDS: Record<ColorMode, string> = {
-  speed: words.colorBySpeed,
-  order: words.colorByOrder,
-  layer: words.colorByLayer,
-  pen: words.colorByPen,
-  ink: words.colorByInk,
-};
-
 /** The few controls that lie on the desk beside the paper. */
 export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
-  const { colorBy, showTravel } = usePageState((state) => state.view);
+  const showTravel = usePageState((state) => state.view.showTravel);
   const { changeView } = useActions();
   return (
     <div className="preview-tools">
-      <label className="tool-select">
-        <span className="visually-hidden">{words.colorBy}</span>
-        <select
-          value={colorBy}
-          title={words.colorBy}
-          onChange={(event) => changeView({ colorBy: event.target.value as ColorMode })}
-        >
-          {COLOR_MODES.map((mode) => (
-            <option key={mode} value={mode}>
-              {COLOR_WORDS[mode]}
-            </option>
-          ))}
-        </select>
-      </label>
       <button
         type="button"
         className="tool tool-wide"

@@ -1,26 +1,28 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
-import { findMachine, penOf, type StrokeLayer } from "../../src/internal.js";
+import { findMachine } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { previewText } from "./text.js";
-import { layerColor } from "../scene/color-map.js";
 import type { Desk } from "./backdrop.js";
+import { paintCutOff } from "./cut-off.js";
 import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
-import { Legend } from "./legend.js";
+import { Looks } from "./legend.js";
+import { isTrueToWidth, layerLooks } from "./looks.js";
 import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
-import { mmFromScreen } from "../scene/view.js";
+import { StrokeCard } from "./stroke-card.js";
+import { selectionPainter } from "./stroke.js";
+import { mmFromScreen, type View } from "../scene/view.js";
 
 const words = previewText;
-const DEFAULT_LINE_MM = 0.35;
 
 /** The paper with the drawing on it, as it will be plotted. */
 export const Preview = () => {
@@ -36,10 +38,13 @@ export const Preview = () => {
         <canvas ref={strokes} role="img" aria-label={words.canvas} />
         <canvas ref={overlay} aria-hidden="true" />
       </div>
-      <Legend />
-      <PreviewTools stage={stage} />
+      <div className="preview-foot">
+        <Looks />
+        <PreviewTools stage={stage} />
+      </div>
       <PaperMessage />
       <HoverTip />
+      <StrokeCard />
     </section>
   );
 };
@@ -68,6 +73,11 @@ const useStage = (
       const found = at && planned ? hoverUnder(made, planned, at) : null;
       if (found !== hover) store.setState({ hover: found });
     };
+    const select = (at: { x: number; y: number }): void => {
+      const { planned } = store.getState();
+      const hover = planned && hoverUnder(made, planned, at);
+      store.setState({ hover: null, selected: planned && hover ? { of: planned, hover } : null });
+    };
     const stopShowing = showState(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,
@@ -76,7 +86,7 @@ const useStage = (
       grab: (at) => grabFrame(made, store, actions, at),
       nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
       hover: (at) => pointAt(at),
-      tap: (at) => pointAt(at),
+      tap: (at) => select(at),
     });
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     const recolor = (): void => made.recolor();
@@ -116,11 +126,20 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (
       state.planned !== before?.planned ||
       state.settings !== before?.settings ||
+      state.selected !== before?.selected ||
       state.noteBoxes !== before?.noteBoxes ||
       state.snapLines !== before.snapLines
     ) {
       const frame = frameNow(state);
-      stage.setPainter(painterOf(state), frame && boxAround(frame));
+      const cutOff = state.planned?.cutOff ?? null;
+      const selection = selectionPainter(state);
+      const rest = painterOf(state);
+      const paint = (context: CanvasRenderingContext2D, view: View): void => {
+        if (cutOff) paintCutOff(context, view, cutOff);
+        selection?.(context, view);
+        rest?.(context, view);
+      };
+      stage.setPainter(paint, frame && boxAround(frame));
     }
   };
   show(store.getState(), null);
@@ -147,28 +166,21 @@ const deskOf = ({ settings }: PageState): Desk => {
   };
 };
 
-const lookOf = (state: PageState): FrameLook => ({
-  colorBy: state.view.colorBy,
-  showTravel: state.view.showTravel,
-  lineMm: DEFAULT_LINE_MM,
-  layerColors: state.planned ? colorsOf(state, state.planned.drawnLayers) : [],
-  layerWidthsMm:
-    state.view.colorBy === "pen" && state.planned ? widthsOf(state, state.planned.drawnLayers) : null,
-  // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
-  untilS: state.momentS ?? drawnUntilS(state),
-});
-
-export const layerColorsOf = (layers: readonly StrokeLayer[]): string[] =>
-  layers.map(({ color }, index) => color ?? layerColor(index));
-
-const colorsOf = ({ view, settings }: PageState, layers: readonly StrokeLayer[]): string[] => {
-  const own = layerColorsOf(layers);
-  if (view.colorBy !== "pen") return own;
-  return layers.map((layer, index) => penOf(settings, layer)?.color ?? own[index]);
+const lookOf = (state: PageState): FrameLook => {
+  const { planned, settings } = state;
+  const { colorBy, showTravel } = state.view;
+  const looks = planned ? layerLooks(colorBy, { planned, settings }) : [];
+  return {
+    colorBy,
+    showTravel,
+    lineMm: Math.max(0, ...looks.map(({ widthMm }) => widthMm)),
+    layerColors: looks.map(({ color }) => color),
+    layerWidthsMm: looks.map(({ widthMm }) => widthMm),
+    lineGapMm: planned && !isTrueToWidth(colorBy) ? planned.lineGapMm : undefined,
+    // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
+    untilS: state.momentS ?? drawnUntilS(state),
+  };
 };
-
-const widthsOf = ({ settings }: PageState, layers: readonly StrokeLayer[]): number[] =>
-  layers.map((layer) => penOf(settings, layer)?.widthMm ?? DEFAULT_LINE_MM);
 
 const markerOf = (state: PageState): Marker | null => {
   if (state.momentS !== null && state.planned) {

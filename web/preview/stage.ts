@@ -22,8 +22,10 @@ export interface StageCanvases {
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
-/** The legend and the tools lie here. */
-const BELOW_PX = 54;
+/** The looks with their legend, and the tools, lie here. */
+const BELOW_PX = 88;
+/** On a low screen they may lie over the paper: the share of its height that is kept free for them. */
+const MOST_BELOW = 0.18;
 const MAX_RATIO = 2;
 
 export class Stage {
@@ -88,7 +90,7 @@ export class Stage {
     this.setView(zoomAt(this.#view, factor, this.#size.width / 2, this.#size.height / 2));
   }
 
-  /** `copy` is for whoever draws it, and is given away. */
+  /** `copy` is passed to the code that draws, which may transfer it. */
   setScene(scene: Scene | null, copy: Picture | null): void {
     if (scene === this.#scene) return;
     this.#scene = scene;
@@ -156,7 +158,7 @@ export class Stage {
       top: RULER_PX + INSET_PX,
       left: RULER_PX + INSET_PX,
       right: INSET_PX,
-      bottom: INSET_PX + BELOW_PX,
+      bottom: INSET_PX + Math.min(BELOW_PX, MOST_BELOW * this.#size.height),
     };
     this.#view = fitView(this.#desk.paperMm, this.#size, insets);
   }

@@ -12,11 +12,16 @@ export const previewText = {
   travel: "Pen-up moves",
   place: "Place the drawing by hand",
   colorBy: "Colour by",
-  colorBySpeed: "Speed",
-  colorByOrder: "Order",
-  colorByLayer: "Layer",
-  colorByPen: "Pens",
-  colorByInk: "Ink",
+  looks: { speed: "Speed", ink: "Ink", layer: "Layer", order: "Order", pen: "Pen" },
+  lookTitles: {
+    ink: "Colours and widths of the file",
+    layer: "Layers, in the order they are drawn",
+    pen: "Colours and widths of your pens",
+  },
+  ofWidth: (name: string, mm: string) => `${name}, ${mm} mm`,
+  noColor: "No colour",
+  noPen: (layer: string) => `No pen for ${layer}`,
+  moreEntries: (count: number) => `and ${count} more`,
   legend: "Speed legend",
   legendTitle: "Speed with the pen down",
   legendUnit: "mm/s",
@@ -34,6 +39,20 @@ export const hoverText = {
   time: "At",
   stroke: "Stroke",
   strokeOf: (number: string, count: string) => `${number} of ${count}`,
+};
+
+export const strokeText = {
+  title: "Selected stroke",
+  strokeOf: (number: string, count: string) => `Stroke ${number} of ${count}`,
+  close: "Close",
+  length: "Length",
+  width: "Width",
+  takes: "Takes",
+  seconds: (s: string) => `${s} s`,
+  begins: "Begins at",
+  speedHere: "Speed here",
+  plotFrom: "Plot from here",
+  plotFromHint: "It waits above this stroke until you press Resume. What comes before is not drawn.",
 };
 
 export const timeLineText = {

@@ -9,7 +9,7 @@ export const keepPage = (onUpdated: () => void): void => {
     hadOne = true;
   });
   const register = (): void => {
-    // Without it everything works but opening the page offline, so nobody needs to be told.
+    // Without it everything works but opening the page offline, so there is no message.
     serviceWorker.register("/service-worker.js").catch(() => undefined);
   };
   if (document.readyState === "complete") register();

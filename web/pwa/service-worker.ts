@@ -51,7 +51,7 @@ async function takeOver(): Promise<void> {
 
 async function pageOrKept(request: Request): Promise<Response> {
   const fetched = fetch(request);
-  // One that fails after the kept page was shown is nobody's fault to hear of.
+  // If it fails after the stored page was shown, there is no one to notify.
   fetched.catch(() => undefined);
   const late = new Promise<null>((resolve) => setTimeout(() => resolve(null), PATIENCE_MS));
   try {

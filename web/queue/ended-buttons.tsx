@@ -5,7 +5,7 @@ import { queueText } from "./text.js";
 
 const words = queueText;
 
-/** Of a job that waits or has ended: start it, go on with it, or plot it once more. */
+/** Of a job that waits or has ended: start it, resume it, or plot it once more. */
 export const EndedButtons = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
   const isMine = usePageState(mayOperate);

@@ -74,7 +74,7 @@ const EndedJob = ({ job }: { job: Job }) => {
   );
 };
 
-/** When it ended, how long it took, and what had been foretold. */
+/** When it ended, its duration, and the expected duration. */
 const timesOf = (job: Job): string => {
   const parts = job.endedAt === null ? [] : [formatWhen(job.endedAt)];
   parts.push(words.took(formatDuration(job.plottedS ?? job.elapsedS)));

@@ -1,4 +1,4 @@
-/** What a user is told of when a plot ends or waits: here, and by the system's own notifications if they asked for it. */
+/** Notifies the user when a plot ends or waits: on the page, and by system notifications if they are enabled. */
 import type { Job } from "../../src/schema/index.js";
 import { notifyText } from "./text.js";
 import { waitWords } from "../plotter/machine-words.js";
@@ -6,7 +6,7 @@ import type { PageStore } from "../state/store.js";
 
 const words = notifyText;
 
-/** What to say of a job that has changed; null when nobody needs to come. */
+/** The message for a job that has changed; null if the user need not come. */
 export const noticeOfChange = (before: Job | null, now: Job): string | null => {
   if (before === null) return null;
   if (now.state === "paused" && now.wait !== null && before.wait === null) {

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { activeJob, currentPlotter, mayOperate, otherOperator } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
+import { CutOffNote } from "./cut-off-note.js";
 import { plotText } from "./text.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -98,6 +99,7 @@ const Buttons = () => {
           onChange={(count) => setCopies(Math.round(count))}
         />
       </div>
+      <CutOffNote />
       <Words isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
     </div>
   );

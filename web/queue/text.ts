@@ -13,6 +13,12 @@ export const plotText = {
   addCopies: (count: number) => `Add ${count} to queue`,
   sending: "Sending it; the server works out every move. A large drawing takes a while.",
   saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
+  outside: (count: number, number: string) =>
+    count === 1
+      ? "1 line is outside the margins and will not be drawn."
+      : `${number} lines are outside the margins and will not be drawn.`,
+  cutOff: (count: number, number: string) =>
+    count === 1 ? "1 line is cut off at the margins." : `${number} lines are cut off at the margins.`,
   needsDrawing: "Choose a drawing, or try a sample.",
   needsPlotter: "No plotter is connected. The queue waits for one.",
 };

@@ -1,6 +1,6 @@
 /**
  * A large drawing in few pieces, for while it is moved and until the whole is drawn: pieces that follow each other are
- * made into one as long as that is straight enough; where that leaves too many, only every so-manieth is kept.
+ * made into one as long as that is straight enough; if that leaves too many, only every Nth remains.
  */
 import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
 

@@ -1,8 +1,9 @@
 /**
  * The colour ramp for speed and order: computed, not copied.
  *
- * A path through OKLCH (Björn Ottosson's OKLab in polar form) whose lightness only rises, so that
- * the order of the colours can be read in grey too, and ends dark enough to stand on white paper.
+ * A straight path through OKLCH (Björn Ottosson's OKLab in polar form): lightness and hue rise evenly, chroma stays.
+ * So equal differences of speed look equally different, the order can be read in grey too, and even the
+ * lightest colour is dark enough for a thin line on white paper. Screens can show all of these colours.
  *
  *   share 0  deep indigo (slow, first)  …  magenta  …  orange (fast, last)  share 1
  */
@@ -10,14 +11,11 @@ export type Rgb = readonly [r: number, g: number, b: number];
 
 export const RAMP_SIZE = 256;
 
-/** share, lightness, chroma, hue in degrees. */
-const KNOTS: readonly (readonly [number, number, number, number])[] = [
-  [0, 0.3, 0.15, 268],
-  [0.25, 0.42, 0.19, 292],
-  [0.5, 0.53, 0.21, 345],
-  [0.75, 0.64, 0.2, 392],
-  [1, 0.765, 0.165, 425],
-];
+const DARKEST = 0.25;
+const LIGHTEST = 0.725;
+const CHROMA = 0.16;
+const FIRST_HUE_DEG = 268;
+const LAST_HUE_DEG = 425;
 
 /** sRGB 0 … 255 of a colour in OKLCH, cut to what a screen can show. */
 export const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
@@ -40,14 +38,12 @@ const byteFromLinear = (linear: number): number => {
   return Math.round(encoded * 255);
 };
 
-const rampAt = (share: number): Rgb => {
-  let k = 0;
-  while (k < KNOTS.length - 2 && share > KNOTS[k + 1][0]) k++;
-  const [s0, l0, c0, h0] = KNOTS[k];
-  const [s1, l1, c1, h1] = KNOTS[k + 1];
-  const f = (share - s0) / (s1 - s0);
-  return rgbFromOklch(l0 + (l1 - l0) * f, c0 + (c1 - c0) * f, h0 + (h1 - h0) * f);
-};
+const rampAt = (share: number): Rgb =>
+  rgbFromOklch(
+    DARKEST + (LIGHTEST - DARKEST) * share,
+    CHROMA,
+    FIRST_HUE_DEG + (LAST_HUE_DEG - FIRST_HUE_DEG) * share,
+  );
 
 /** RAMP_SIZE × 4 bytes, RGBA. */
 export const rampBytes = (): Uint8Array => {

@@ -15,7 +15,6 @@ import { linkProgram, makeTexture, UNIFORMS, type Uniforms } from "./gl-program.
 import {
   bytesFromHex,
   GHOST_COLOR,
-  INK_COLOR,
   lineWidthPx,
   pictureSize,
   TRAVEL_ALPHA,
@@ -39,7 +38,7 @@ import {
   type Task,
 } from "./tasks.js";
 
-const COLOR_CODE = { speed: 0, order: 1, layer: 2, pen: 2, ink: 3 } as const;
+const COLOR_CODE = { speed: 0, order: 1, layer: 2, pen: 2, ink: 2 } as const;
 /** The palette's alpha is a pen's width, in 255ths of this. */
 const WIDEST_MM = 12.75;
 const PLAIN = 3;
@@ -242,7 +241,6 @@ class GlRenderer implements SceneRenderer {
     gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm && style !== "travel" ? WIDEST_MM : 0);
     if (style === "ghost") this.#setPlain(GHOST_COLOR, 1);
     else if (style === "travel") this.#setPlain(TRAVEL_COLOR, TRAVEL_ALPHA);
-    else if (frame.colorBy === "ink") this.#setPlain(INK_COLOR, 1);
     else gl.uniform1i(this.#uniforms.colorBy, COLOR_CODE[frame.colorBy]);
   }
 

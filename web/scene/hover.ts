@@ -19,6 +19,8 @@ export interface Hover {
   /** From 1, in the order of drawing. */
   readonly strokeNumber: number;
   readonly layerName: string;
+  /** Index in `drawnLayers`. */
+  readonly layer: number;
 }
 
 /** Of a plan, what is pointed at. */
@@ -62,6 +64,7 @@ export const hoverAt = (
     accelMmPerS2: Math.hypot(state.ax, state.ay),
     strokeNumber: strokeAt(planned, tS) + 1,
     layerName: drawnLayers[layer]?.name ?? "",
+    layer,
   };
 };
 

@@ -17,6 +17,11 @@ export interface Frame {
   readonly layerColors: readonly string[];
   /** mm by layer index: how wide its pen draws; null: all lines are `lineMm` wide. */
   readonly layerWidthsMm: readonly number[] | null;
+  /**
+   * The mean distance between a line and the next, mm. From afar, lines that would run into each other are then
+   * drawn thinner than usual; left out: never.
+   */
+  readonly lineGapMm?: number | undefined;
   /** What lies later than this many seconds is shown pale; null shows the whole plot as drawn. */
   readonly untilS: number | null;
 }
@@ -51,6 +56,8 @@ export type StrokesCanvas = HTMLCanvasElement | OffscreenCanvas;
 
 /** Narrowest line, CSS px: thinner ones flicker when zoomed out. */
 export const MIN_LINE_PX = 1.15;
+/** Narrowest line of a dense drawing, CSS px: half of what can be seen of it is still paper. */
+const HAIR_LINE_PX = 0.5;
 export const GHOST_COLOR = "#dcdad4";
 export const TRAVEL_COLOR = "#5b8fa8";
 export const TRAVEL_ALPHA = 0.6;
@@ -63,8 +70,10 @@ export const pictureSize = ({ width, height, ratio }: Frame): readonly [number, 
   Math.max(1, Math.round(height * ratio)),
 ];
 
-export const lineWidthPx = ({ view }: Frame, lineMm: number): number =>
-  Math.max(MIN_LINE_PX, lineMm * view.scale);
+export const lineWidthPx = ({ view, lineGapMm }: Frame, lineMm: number): number => {
+  const halfGapPx = lineGapMm === undefined ? MIN_LINE_PX : (lineGapMm * view.scale) / 2;
+  return Math.max(Math.min(MIN_LINE_PX, Math.max(HAIR_LINE_PX, halfGapPx)), lineMm * view.scale);
+};
 
 export const bytesFromHex = (hex: string): [number, number, number] => {
   const n = Number.parseInt(hex.slice(1), 16);

@@ -12,7 +12,7 @@ import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type
 
 const CHORD_MM = 0.008;
 const SPEED_STEP = 0.05;
-/** Ramps shorter than this need no steps: nobody sees them. */
+/** Ramps shorter than this need no steps: they are invisible. */
 const MIN_PIECE_MM = 0.25;
 const MAX_PIECES = 256;
 

@@ -165,9 +165,8 @@ const lookOf = (frame: Frame, style: Style): Look => {
       return { by: "time", colors: [], alpha: 1, reaches };
     case "layer":
     case "pen":
-      return { by: null, colors: layers.map(bytesFromHex), alpha: 1, reaches };
     case "ink":
-      return { by: null, colors: [bytesFromHex(INK_COLOR)], alpha: 1, reaches };
+      return { by: null, colors: layers.map(bytesFromHex), alpha: 1, reaches };
   }
 };
 

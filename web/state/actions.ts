@@ -6,6 +6,7 @@ import {
   machineProfileSchema,
   type Job,
   type JobChange,
+  type JobPlace,
   type JobPatch,
   type MovePlace,
   type NewJob,
@@ -199,7 +200,7 @@ export const createActions = (deps: ActionDeps) => {
     openDrawing(job.name, svg, job.id);
   };
 
-  const addToQueue = async (copies = 1): Promise<Job | null> => {
+  const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
     const state = store.getState();
     const { drawing, settings } = state;
     if (!drawing) return null;
@@ -209,6 +210,7 @@ export const createActions = (deps: ActionDeps) => {
       settings,
       ...(plotterId ? { plotterId } : {}),
       ...(copies > 1 ? { copies } : {}),
+      ...(from ? { from } : {}),
     };
     const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
     if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
@@ -241,8 +243,9 @@ export const createActions = (deps: ActionDeps) => {
       const job = await addToQueue(copies);
       if (job) notify("info", stateText.added(job.name));
     },
-    plotDrawing: async (): Promise<void> => {
-      const job = await addToQueue();
+    /** From a place on, it waits there with the pen up until it is resumed. */
+    plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
+      const job = await addToQueue(1, from);
       if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
     },
     saveToJob: async (id: string): Promise<void> => {
@@ -267,7 +270,10 @@ export const createActions = (deps: ActionDeps) => {
       if (id) await attempt("queue", () => backend.setQueue(id, settings));
     },
     takeOver: () => attempt("take-over", () => backend.takeOver()),
-    /** Who this browser is; asked anew with each connection, since a server that was started anew may have forgotten. */
+    /**
+     * This browser's identity; requested again with each connection, because a restarted server may have
+     * forgotten it.
+     */
     meet: async (): Promise<void> => {
       try {
         store.setState({ me: await backend.me(), isUnpaired: false });

@@ -42,6 +42,11 @@ interface LivePlot {
   readonly penUp: boolean;
 }
 
+export interface Selected {
+  readonly of: Planned;
+  readonly hover: Hover;
+}
+
 export interface Notice {
   readonly id: number;
   readonly kind: "info" | "error";
@@ -94,6 +99,8 @@ export interface PageState {
   readonly isPlaying: boolean;
   readonly playRate: number;
   readonly hover: Hover | null;
+  /** The stroke that was clicked, of this plan: another plan may number the strokes differently. */
+  readonly selected: Selected | null;
   /** Places on the file's page that a note of the report is about, while it is shown; mm x0 y0 x1 y1. */
   readonly noteBoxes: readonly (readonly [number, number, number, number])[];
   /** The lines on which a dragged drawing has come to lie. */
@@ -109,13 +116,13 @@ export interface PageState {
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
   readonly jobs: readonly Job[];
-  /** How each plotter's queue goes on from job to job, by the plotter's id. */
+  /** How each plotter's queue continues from job to job, by the plotter's id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
   /** Who this browser is to the server; null until it has said. */
   readonly me: Me | null;
-  /** The browser that may change things now; null while nobody has. */
+  /** The browser that may change things now; null: none. */
   readonly operator: Operator | null;
-  /** What went wrong on the server with nobody asking. */
+  /** Errors on the server without a request by this page. */
   readonly serverNotices: readonly ServerNotice[];
   /** The server's name on the network; null while it has none. */
   readonly localName: string | null;
@@ -151,6 +158,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     isPlaying: false,
     playRate: 10,
     hover: null,
+    selected: null,
     noteBoxes: [],
     snapLines: null,
     link: "connecting",
@@ -176,6 +184,10 @@ export const createPageStore = ({ settings, view }: Remembered) =>
   }));
 
 export type PageStore = ReturnType<typeof createPageStore>;
+
+/** The selected stroke, if the plan on the paper is the one that it was selected in. */
+export const selectedStroke = ({ selected, planned }: PageState): Selected | null =>
+  selected !== null && selected.of === planned ? selected : null;
 
 /** The plotter that the page shows and sends to. */
 export const currentPlotter = (state: PageState): Plotter | null =>

@@ -29,7 +29,7 @@ export const AccessSection = () => {
         {(answer ?? []).map((entry) => (
           <EntryRow key={entry.id} entry={entry} onRevoke={() => void revoke(entry.id)} />
         ))}
-        {answer?.length === 0 && <li className="note">{words.nobody}</li>}
+        {answer?.length === 0 && <li className="note">{words.none}</li>}
       </ul>
       {secret !== null && <Secret label={words.keyOnce} value={secret} />}
       <NewKeyForm onAdd={add} />

@@ -15,7 +15,7 @@ export const wayOut = (job: SharedJob, nowMs: number): "withdraw" | "give-back" 
 export const machineWanted = ({ target }: SharedJob): string | null =>
   /^machine (.+)$/.exec(target)?.[1] ?? null;
 
-/** This server's plotters that are not given a job that waits only since nobody has said what model they are. */
+/** This server's plotters that do not get a waiting job only because their model is not set. */
 export const leftOut = (job: SharedJob, plotters: readonly Plotter[]): readonly Plotter[] =>
   job.state === "waiting" && machineWanted(job) !== null
     ? plotters.filter(({ machine }) => machine === null)

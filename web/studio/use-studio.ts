@@ -8,7 +8,7 @@ export const useStudio = (): StudioApi => {
   return useMemo(() => studioApi(backend, actions), [backend, actions]);
 };
 
-/** A list of the server's, and how to ask for it anew; null until it has come. */
+/** A list from the server, and how to request it again; null until it has arrived. */
 export const useAsked = <T>(ask: () => Promise<T | null>): readonly [T | null, () => void] => {
   const [answer, setAnswer] = useState<T | null>(null);
   const [turn, setTurn] = useState(0);

@@ -25,7 +25,7 @@ export const StatusCard = ({ job }: { job: Job }) => {
           <StateBadge job={job} />
         </p>
         <Figures job={job} />
-        {isActive && <LayerLine job={job} />}
+        {isActive && wait === null && <LayerLine job={job} />}
       </div>
       <div className="status-actions">
         {isActive && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}

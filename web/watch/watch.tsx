@@ -25,7 +25,7 @@ export const Watch = () => {
   );
 };
 
-/** Plans whatever is watched; anew when the server is back, since the drawing may not have come. */
+/** Plans the watched job; again when the server is back, since the drawing may not have come. */
 const usePlan = (): void => {
   const store = usePageStore();
   const backend = useBackend();

@@ -24,8 +24,10 @@ import {
   type Placement,
 } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
+import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
+import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 import type {
   ExportRequest,
@@ -49,7 +51,13 @@ let isRunning = false;
 /** The last text that came, until it has been read. */
 let received: { key: string; text: DrawingText } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
-let prepared: { key: string; result: Prepared; placement: Placement; settings: PlanSettings } | null = null;
+let prepared: {
+  key: string;
+  result: Prepared;
+  placement: Placement;
+  cutOff: CutOffPicture | null;
+  settings: PlanSettings;
+} | null = null;
 
 scope.onmessage = (event) => {
   if (event.data.type === "export") return void exportAs(event.data);
@@ -81,13 +89,15 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
-    const { result: ready, placement } = preparedOf(drawingKey, drawing, request);
+    const { result: ready, placement, cutOff } = preparedOf(drawingKey, drawing, request);
     const t2 = performance.now();
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
     const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
+    const stats = trajectoryStats(trajectory);
+    const gapMm = lineGapMm(scene.grid, stats.drawMm);
     const t4 = performance.now();
     const planned: Planned = {
       drawingKey,
@@ -101,11 +111,13 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
       layoutWarnings: ready.warnings,
+      cutOff,
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),
-      stats: trajectoryStats(trajectory),
+      stats,
       trajectory,
       scene,
+      lineGapMm: gapMm,
       picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
@@ -141,7 +153,8 @@ function preparedOf(
   const key = `${drawingKey} ${JSON.stringify(wanted)}`;
   if (prepared?.key !== key) {
     const result = prepare(drawing, wanted);
-    prepared = { key, result, placement: placeDrawing(drawing, wanted), settings };
+    const placement = placeDrawing(drawing, wanted);
+    prepared = { key, result, placement, cutOff: cutOffOf(drawing, wanted, placement), settings };
   }
   prepared.settings = settings;
   return prepared;

@@ -4,7 +4,7 @@
  * A request that overtakes another one lets the worker finish the stage it is in; a worker that has not
  * turned to the new one PATIENCE_MS later is ended and started afresh, so that a huge drawing that was
  * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
- * ended too: a damaged file may keep it for ever.
+ * ended too: a damaged file may keep it busy without end.
  */
 import type { DrawingText } from "./drawing-text.js";
 import type {

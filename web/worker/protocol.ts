@@ -12,6 +12,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import type { Scene } from "../scene/scene.js";
+import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 
 /** The machine's motors bound the plan, so it is part of what is planned with. */
@@ -61,11 +62,15 @@ export interface Planned {
   readonly fileWarnings: readonly DrawingWarning[];
   /** What this paper and these settings leave out. */
   readonly layoutWarnings: readonly string[];
+  /** What the margins cut off. */
+  readonly cutOff: CutOffPicture | null;
   readonly strokeCount: number;
   readonly pointCount: number;
   readonly stats: TrajectoryStats;
   readonly trajectory: Trajectory;
   readonly scene: Scene;
+  /** The mean distance between a line and the next, where there are lines. */
+  readonly lineGapMm: number;
   /** The scene's pieces once more, to be given away to the thread that draws them: copied here, where time is. */
   readonly picture: Picture;
   /** How long the worker took, ms, by stage. */

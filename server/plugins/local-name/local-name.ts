@@ -2,12 +2,12 @@
  * The server's name on the network: http://plotwright.local, or plotwright-2.local if that is taken.
  *
  * mDNS has no authority that assigns names. A host that wants a name probes for it three times and takes it
- * if nobody answers (RFC 6762, 8.1). If two probe at the same time, the one whose records are
+ * if no host answers (RFC 6762, 8.1). If two probe at the same time, the one whose records are
  * lexicographically later wins, and the other probes again (8.2). A host that hears another one use its name
  * probes again as well (9). The last name is probed first after a restart, so that every server gets its own
  * name back after a power cut.
  *
- *   probing ──nobody answers──> announced ──another host uses it, or the network changes──> probing
+ *   probing ──no host answers─> announced ──another host uses it, or the network changes──> probing
  *     └──another host has it──> probing for the next name
  */
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference -- the package has no types

@@ -1,11 +1,11 @@
-/** Grbl as a driver: experimental, a proof that a controller that plans by itself fits the interface. */
+/** Grbl as a driver. Experimental: it shows that a controller that plans by itself fits the interface. */
 import type { Driver } from "../driver.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const grblDriver: Driver = {
-  // The USB chips of these boards are in many other devices too.
+  // Many other devices have the USB chips of these boards.
   usbIds: [],
   identify: async (transport, options) => {
     const session = new GrblSession(transport, options.clock, (error) => options.events.lost(error));

@@ -1,4 +1,7 @@
-/** Strokes to a job for a Grbl: a model of what its planner does, and the lines that it is sent. */
+/**
+ * Makes a job for a Grbl from strokes: a model of the motion that its planner produces, and the lines to
+ * send.
+ */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
 import type { GrblController } from "../../machines/controllers.js";
 import type { MachineProfile } from "../../machines/profile.js";
@@ -17,7 +20,7 @@ import { dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { moveTimeS } from "./model/planner.js";
 
-/** Lines of G-code, the last of which is answered when everything is done. */
+/** Lines of G-code. The last one is answered when everything is done. */
 export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
 }
@@ -34,7 +37,7 @@ export const grblFirmware: FirmwareRules = {
   limitsMotion: () => false,
 };
 
-/** mm, absolute, mm/min. A reset sets some of them back. */
+/** mm, absolute, mm/min. A reset restores the defaults of some of them. */
 export const MODES = "G21G90G94";
 /** Answered when everything before it is done. */
 export const SYNC = "G4P0";
@@ -64,7 +67,7 @@ export function planGrblJob(
   return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
 }
 
-/** The pen as the Z axis moves it: always between the profile's two heights. */
+/** The pen as moved by the Z axis: always between the profile's two heights. */
 function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
   const ms = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
   const { upPct, downPct, layers = {}, contactPct, fullHeightMm } = pen;
@@ -76,7 +79,7 @@ function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
   return { ...heights, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
 }
 
-/** How long the Z axis moves. */
+/** Duration of the move of the Z axis. */
 const penTimeS = ({ penUpZMm, penDownZMm, penSpeedMmPerS, penAccelMmPerS2 }: GrblController): number =>
   moveTimeS(Math.abs(penUpZMm - penDownZMm), penSpeedMmPerS, penAccelMmPerS2);
 
@@ -124,7 +127,7 @@ function writeCommands(
       add(`G1X${number(x)}Y${number(y)}${move.feed === feed ? "" : `F${number(move.feed)}`}`, startS);
       feed = move.feed;
     }
-    // Runs begin at rest, and the planner rounds no corner across this.
+    // Runs begin at rest, so the planner rounds no corner here.
     if (moves.length > 0) add(SYNC, endOfRun(trajectory, run));
   }
   if (lines.length === 0) add(SYNC, 0);

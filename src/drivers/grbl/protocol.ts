@@ -1,24 +1,24 @@
-/** What Grbl says, and the bytes that it obeys at once. */
+/** Grbl's replies, and the bytes that act at once. */
 import { PlotwrightError } from "../../errors.js";
 import type { Axes } from "./model/planner.js";
 
-/** Taken out at receipt: they need no line end and no room, and get no `ok`. */
+/** Removed on receipt: they need no line end and no room, and get no `ok`. */
 export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
 
-/** Characters, with line ends, that may be unanswered: what an Arduino buffers. */
+/** Max unanswered characters, including line ends: the buffer of an Arduino. */
 export const RX_BYTES = 128;
 
 export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
 
-/** "Grbl 1.1h" of a greeting or of the answer to `$I`; null where the line tells no version. */
+/** "Grbl 1.1h" of a greeting or of the reply to `$I`; null if the line has no version. */
 export function versionOf(line: string): string | null {
   const match = /^Grbl(?:HAL)? ([\w.]+)/.exec(line) ?? /^\[VER:([\w.]*[a-z\d])/.exec(line);
   if (!match) return null;
-  // "1.1h.20190830": the date says nothing that the letter does not.
+  // "1.1h.20190830": the date adds nothing to the letter.
   return `Grbl ${match[1].replace(/\.\d{6,}$/, "")}`;
 }
 
-/** The receive buffer that `[OPT:V,15,128]` tells of; null where it tells of none. */
+/** The receive buffer given by `[OPT:V,15,128]`; null if there is none. */
 export function rxBytesOf(line: string): number | null {
   const match = /^\[OPT:[^,\]]*,\d+,(\d+)/.exec(line);
   return match ? Number(match[1]) : null;
@@ -31,10 +31,10 @@ export interface Status {
   readonly at: Axes;
 }
 
-/** Work offset of a report, which not every one has. */
+/** Work offset of a report; not every report has one. */
 export const offsetOf = (line: string): Axes | null => axesOf(/\|WCO:([^|>]+)/.exec(line)?.[1]);
 
-/** A status report; null for another line. `offset`: the last work offset that was told. */
+/** A status report; null for another line. `offset`: the last reported work offset. */
 export function statusOf(line: string, offset: Axes): Status | null {
   const state = /^<([^|>]+)/.exec(line)?.[1];
   if (state === undefined) return null;
@@ -74,5 +74,5 @@ const ALARMS: Readonly<Record<number, string>> = {
 export const alarm = (code: number): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The Grbl has stopped with ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}. Check where the carriage stands, and put it to home before you go on.`,
+    `The Grbl has stopped with ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}. Check the carriage's position, and push it to home before you resume.`,
   );

@@ -31,7 +31,7 @@ export interface StyleSheet {
   readonly faults: readonly string[];
 }
 
-/** Deeper nesting would exhaust the parser's stack; nobody writes it. */
+/** Deeper nesting would exhaust the parser's stack, and does not occur in real files. */
 const MAX_NESTING = 200;
 
 /** `svg|rect` and `*|rect` select elements of a namespace; here there is only one. */

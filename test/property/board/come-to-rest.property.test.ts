@@ -5,7 +5,7 @@ import { comeToRest } from "../../../src/internal.js";
 import { arbitraryGridStroke, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { NearStroke } from "../../support/trajectory-checks.js";
 
-/** As fast as a curve can be taken: drawing speed never is what limits it. */
+/** The maximum speed on a curve: the drawing speed is never the limit. */
 const MOTION = {
   ...DEFAULT_MOTION,
   mode: "blend" as const,
@@ -16,7 +16,7 @@ const LIMITS = {
   travelAccel: MOTION.travel.accelMmPerS2,
 };
 
-/** Largest |a| of all blocks, and largest jump of velocity from block to block, rest at the end included. */
+/** Max |a| of all blocks, and max jump of velocity from block to block, including the rest at the end. */
 function worstOf(rest: Trajectory): { accel: number; jump: number } {
   let accel = 0;
   let jump = 0;
@@ -52,7 +52,7 @@ describe("a stop in the middle of a plan", () => {
     }
   });
 
-  it("stays within the acceleration and on the path, and ends at rest where it says, on any path", () => {
+  it("stays within the acceleration and on the path, and ends at rest at the stated place, on any path", () => {
     fc.assert(
       fc.property(
         fc.array(arbitraryGridStroke, { minLength: 1, maxLength: 3 }),

@@ -97,7 +97,7 @@ describe("the closed form of the accumulator", () => {
       );
     });
 
-    it(`stops a step-limited motor at the very tick that the interrupt does (${arithmetic})`, () => {
+    it(`stops a step-limited motor at the same tick as the interrupt (${arithmetic})`, () => {
       fc.assert(
         fc.property(fc.oneof(gentle, wild), fc.integer({ min: 1, max: 400 }), (command, limit) => {
           const j = arithmetic === "signed" ? command.jerk : 0;

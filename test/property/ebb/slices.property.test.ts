@@ -15,7 +15,7 @@ const stroke: fc.Arbitrary<Point[]> = fc
   })
   .chain((points) => fc.boolean().map((back) => (back ? [...points, ...[...points].reverse()] : points)));
 
-/** Slow enough for the motors: no more than 200 mm/s in any direction. */
+/** Slow enough for the motors: at most 200 mm/s in any direction. */
 const limits = fc.record({
   speedMmPerS: real(10, 200),
   accelMmPerS2: real(100, 3_000),
@@ -31,7 +31,7 @@ const drawing = fc.record({
 });
 
 describe("slices of any plan", () => {
-  it("stay by it in place and in time, and end on its last step", () => {
+  it("stay close to it in place and time, and end on its last step", () => {
     fc.assert(
       fc.property(drawing, ({ strokes, mode, draw, travel }) => {
         const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel }, DEFAULT_PEN);

@@ -18,8 +18,8 @@ const line = fc
   .array(fc.tuple(coordinate, coordinate), { minLength: 2, maxLength: 5 })
   .map((points) => points.flat());
 
-describe("commands for a machine that is wired otherwise", () => {
-  it("take the carriage along the same way: its motors lead back to the same places", () => {
+describe("commands for a machine with different wiring", () => {
+  it("move the carriage along the same path: its motors map back to the same positions", () => {
     fc.assert(
       fc.property(fc.constantFrom(...MACHINES), flips, line, (model, wiring, points) => {
         const machine: MachineProfile = { ...model, ...wiring };

@@ -86,7 +86,7 @@ describe("flattenCubic", () => {
     );
   });
 
-  it("ends exactly at the end point and writes only finite, ever fewer points as the tolerance grows", () => {
+  it("ends exactly at the end point and writes only finite points, fewer as the tolerance grows", () => {
     fc.assert(
       fc.property(curve, tolerance, (c, tol) => {
         const fine = polyline(c, tol);
@@ -102,7 +102,7 @@ describe("flattenCubic", () => {
     );
   });
 
-  it("leaves a straight line written as a curve in one piece", () => {
+  it("keeps a straight line written as a curve in one piece", () => {
     fc.assert(
       fc.property(
         fc.tuple(coordinate, coordinate, coordinate, coordinate),

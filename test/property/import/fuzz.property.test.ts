@@ -1,4 +1,7 @@
-/** Damaged SVGs, 10 000 in the full run: each gives a drawing with finite numbers or a PlotwrightError, and soon. */
+/**
+ * Damaged SVGs, 10 000 in the full run: each gives a drawing with finite numbers or a PlotwrightError, within
+ * a time limit.
+ */
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importSvg } from "../../../src/import/svg/import-svg.js";
@@ -7,7 +10,7 @@ import { generator, mutate } from "./support/mutate.js";
 import { countFor } from "../../support/full-run.js";
 
 const CASES = countFor("PLOTWRIGHT_FUZZ_CASES", 10_000, 1_000);
-/** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
+/** Max processor time per file, and the time after which a file counts as hanging, however loaded the machine. */
 const LONGEST_S = 2;
 const HANGS_MS = 60_000;
 
@@ -16,14 +19,14 @@ const SEEDS = [
   '<svg width="200" height="200"><g inkscape:label="L1" inkscape:groupmode="layer"><path id="p" style="fill:none;stroke:#123456;stroke-width:1.5;transform:scale(2)" d="m 1e1,2e-1 c 1,2 3,4 5,6 z m 3 3"/></g><switch><g systemLanguage="en"><text x="5" y="9" font-size="12">Hi &amp; bye<textPath href="#p" startOffset="10%" side="right">round<tspan dy="2">about</tspan></textPath></text></g></switch><svg x="3" y="4" width="50%" height="50%" viewBox="0 0 1 1" preserveAspectRatio="xMinYMax slice"><ellipse rx=".4" ry=".2"/></svg><image width="5" height="5"/><line x1="1" x2="9" vector-effect="non-scaling-stroke"/></svg>',
 ];
 
-/** Pieces that files break at. */
+/** Pieces at which files often break. */
 const PIECES =
   'NaN|1e300|-1e308|1e-300|Infinity|0|-1|%|"|\'|<|>|</g>|<g>|/>|&|&#0;|&x;|<!--|-->|<![CDATA[|]]>|url(#c)|url(#|#m|use|href="#b"|<use href="#b"/>|<use href="#s"/>|transform="scale(0)"|matrix(1 0 0|rotate(|,|;|}|{|@media|:not(|var(--x)|--x:var(--x);|!important|M|z|a0 0 0 00 0|\u0000|\ufffd|\ud800|em|viewBox="0 0 0 0"|viewBox="0 0 1e-9 1e9"|width="1e9"|display="none"|<svg|<clipPath id="c" clip-path="url(#c)">|marker="url(#m)"|999999999999999999999'.split(
     "|",
   );
 
 describe("importSvg on damaged files", () => {
-  it("would be ended if it hung", () => {
+  it("is interrupted if it hangs", () => {
     expect(() =>
       endWhenOver(50, () => {
         for (;;);
@@ -31,7 +34,7 @@ describe("importSvg on damaged files", () => {
     ).toThrow(/timed out/);
   });
 
-  it(`neither crashes, nor hangs, nor lets a NaN through, ${CASES} times`, () => {
+  it(`never crashes, hangs, or returns a NaN, ${CASES} times`, () => {
     let drawn = 0;
     let refused = 0;
     for (let i = 0; i < CASES; i++) {
@@ -57,7 +60,7 @@ describe("importSvg on damaged files", () => {
         refused++;
       }
     }
-    // Both ways out must be met often, or the mutations test nothing.
+    // Both outcomes must occur often, or the mutations test nothing.
     expect(drawn).toBeGreaterThan(CASES / 10);
     expect(refused).toBeGreaterThan(CASES / 10);
   });

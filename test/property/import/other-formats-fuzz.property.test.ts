@@ -1,6 +1,7 @@
 /**
- * Damaged DXF and HPGL: each gives a drawing with finite numbers or a PlotwrightError, and soon; every tenth is prepared and
- * planned too. PLOTWRIGHT_FUZZ_CASES: how many, PLOTWRIGHT_FUZZ_FIRST: from which seed on.
+ * Damaged DXF and HPGL: each gives a drawing with finite numbers or a PlotwrightError, within a time limit;
+ * every tenth is prepared and planned too. PLOTWRIGHT_FUZZ_CASES: number of cases, PLOTWRIGHT_FUZZ_FIRST:
+ * first seed.
  */
 import { expect, it } from "vitest";
 import { planAndCompile } from "../../../server/planning/stages.js";
@@ -17,7 +18,7 @@ import { countFor } from "../../support/full-run.js";
 const CASES = countFor("PLOTWRIGHT_FUZZ_CASES", 2_000, 300);
 const FIRST = Number(process.env["PLOTWRIGHT_FUZZ_FIRST"] ?? 0);
 const PLANNED_EACH = 10;
-/** Processor time that one file may take; and when a file counts as hanging, on a machine however loaded. */
+/** Max processor time per file, and the time after which a file counts as hanging, however loaded the machine. */
 const LONGEST_S = 2;
 const HANGS_MS = 60_000;
 
@@ -49,7 +50,7 @@ const FILES: readonly (readonly [string, string])[] = [
     "IN;SP1;IP0,0,4000,4000;SC0,10,0,10;PU1,1;PD2,2,3,1;SC;SI0.3,0.45;PU400,500;LBPump 1:50\u0003LO15;DI1,1;SL0.3;LBup\u0003DT#;SR1,2;DR1,1;CP;CP2,1;LBxx\r\ny#PU10,10;PD;AA20,20,90;CI50;EA100,200;PE<=abc;PU;SP0;",
   ],
 ];
-/** The first eight stand in for numbers. */
+/** The first eight replace numbers. */
 const PIECES = [
   ..."NaN 1e300 -1e308 1e-300 -1 0 99999 -0.5 10 72 92 VERTEX SEQEND LAYER ENDTAB ENDBLK ENDSEC HATCH EOF LB PE SI PU ; , % \\P \\S { } %% é".split(
     " ",
@@ -70,7 +71,7 @@ const PLAN_ALL = {
   board: { steps1: 0, steps2: 0, acc1: 0, acc2: 0 },
 };
 
-it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES} times`, () => {
+it(`damaged DXF and HPGL never crash, hang, or return a NaN, ${CASES} times`, () => {
   const drawn = FILES.map(() => 0);
   for (let i = FIRST; i < FIRST + CASES; i++) {
     const [name, file] = FILES[i % FILES.length];
@@ -99,6 +100,6 @@ it(`damaged DXF and HPGL neither crash, nor hang, nor let a NaN through, ${CASES
       if (!(error instanceof PlotwrightError)) throw new Error(`seed ${i}: ${text}`, { cause: error });
     }
   }
-  // Most of HPGL is read whatever it is; a DXF out of step is not.
+  // Nearly any HPGL can be read; a DXF that is out of step cannot.
   expect(Math.min(...drawn)).toBeGreaterThan(CASES / 20);
 });

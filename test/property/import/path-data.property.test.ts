@@ -1,4 +1,7 @@
-/** Our path reader against svgpath, which shares nothing with it, and against itself under changes that mean nothing. */
+/**
+ * Our path reader compared with svgpath, which shares no code with it, and with itself under changes without
+ * meaning.
+ */
 import { describe, expect, it } from "vitest";
 import fc from "fast-check";
 import svgpath from "svgpath";
@@ -116,7 +119,7 @@ describe("path data", () => {
     );
   });
 
-  it("reads the tightest spelling as the widest", () => {
+  it("reads the shortest spelling like the longest", () => {
     fc.assert(
       fc.property(path, (segments) => {
         const wide = read(spaced(segments));
@@ -143,7 +146,7 @@ describe("path data", () => {
     );
   });
 
-  it("begins every subpath with a move and never leaves one alone", () => {
+  it("begins every subpath with a move and never leaves a move alone", () => {
     fc.assert(
       fc.property(path, (segments) => {
         const { verbs } = read(spaced(segments));

@@ -11,7 +11,7 @@ import { cases } from "../../support/full-run.js";
 const RUNS = { numRuns: cases(500) };
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 
-/** Small paths of 0.1 to 50 mm a segment, with turns up to nearly all the way round. */
+/** Small paths of 0.1 to 50 mm per segment, with turns up to nearly a reversal. */
 const smallPath: fc.Arbitrary<Point[]> = fc
   .tuple(
     fc.constantFrom(1, 5, 25),
@@ -62,8 +62,8 @@ function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits)
 }
 
 /**
- * By the definition of the optimum and by brute force: speed² at a place is the least, over all limits, of the
- * limit and 2 A times the way to it; the time is integrated over a fine grid.
+ * By the definition of the optimum and by brute force: speed² at a place is the minimum, over all limits, of
+ * the limit plus 2 A times the distance to it; the time is integrated over a fine grid.
  */
 function fastestProfile(points: readonly Point[], limits: Limits): number {
   const { speed, accel } = limits;
@@ -80,7 +80,7 @@ function fastestProfile(points: readonly Point[], limits: Limits): number {
   const cells = 400;
   for (let i = 0; i + 1 < places.length; i++) {
     const length = places[i + 1] - places[i];
-    // Cells crowd at both ends, where speed changes most.
+    // Cells are denser at both ends, where speed changes most.
     const at = (k: number): number => places[i] + (length * (1 - Math.cos((Math.PI * k) / cells))) / 2;
     for (let k = 0; k < cells; k++) time += (2 * (at(k + 1) - at(k))) / (v(at(k)) + v(at(k + 1)));
   }

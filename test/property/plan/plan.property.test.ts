@@ -21,13 +21,13 @@ const motionIn = (mode: MotionMode): fc.Arbitrary<MotionSettings> =>
 describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
   const arbitraryMotion = motionIn(mode);
 
-  it("keeps its limits at every instant, rests between runs, and leaves no gap", () => {
+  it("stays within its limits at every instant, rests between runs, and leaves no gap", () => {
     fc.assert(
       fc.property(arbitraryStrokeSet, arbitraryMotion, (strokes, motion) => {
         const trajectory = plan(strokes, motion, DEFAULT_PEN);
         const deviation = mode === "junction" ? 0 : motion.draw.cornerMm;
         const worst = worstOf(trajectory, strokes, motion.draw, motion.travel, deviation);
-        // 1e-9 mm, or what double precision leaves of coordinates of a kilometre.
+        // 1e-9 mm, or the double precision of coordinates of a kilometre.
         const size = Math.max(...Array.from(strokes.xy, Math.abs), 1);
         const far = size > 10_000;
         expect(worst.finite).toBe(true);
@@ -108,7 +108,7 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
     );
   });
 
-  it("gives at any instant the state that its blocks give", () => {
+  it("gives at any instant the state computed from its blocks", () => {
     fc.assert(
       fc.property(
         arbitraryStrokeSet,
@@ -131,8 +131,8 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
   });
 });
 
-describe.each(MOTION_MODES)("a fitted plan of any drawing in mode %s", (mode) => {
-  it("keeps the same limits, hits the same end, and leaves the line by no more than ε besides", () => {
+describe.each(MOTION_MODES)("a merged plan of any drawing in mode %s", (mode) => {
+  it("stays within the same limits, has the same end, and leaves the line by at most ε more", () => {
     fc.assert(
       fc.property(arbitraryStrokeSet, motionIn(mode), (strokes, motion) => {
         const size = Math.max(...Array.from(strokes.xy, Math.abs), 1);
@@ -158,7 +158,7 @@ describe.each(MOTION_MODES)("a fitted plan of any drawing in mode %s", (mode) =>
 });
 
 describe("an scurve plan", () => {
-  it("leaves no gap where a line bends so little that speeds differ by no more than rounding", () => {
+  it("leaves no gap where a line bends so little that speeds differ only by rounding", () => {
     const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
     const steps = fc.array(fc.tuple(real(0.005, 3), real(-9, -4)), { minLength: 2, maxLength: 40 });
     fc.assert(
@@ -182,7 +182,7 @@ describe("an scurve plan", () => {
 describe("a junction plan", () => {
   const arbitraryMotion = motionIn("junction");
 
-  it("goes on from any place of the drawing and draws exactly what is left", () => {
+  it("continues from any place of the drawing and draws exactly the rest", () => {
     fc.assert(
       fc.property(
         arbitraryStroke,

@@ -1,4 +1,4 @@
-/** What holds for random drawings, on the real ones that come with plotwright: looked at every few milliseconds. */
+/** The properties of random drawings, checked on the samples of plotwright: sampled every few milliseconds. */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";

@@ -22,7 +22,7 @@ const limits = (speed: number): RunLimits => ({
   easeSpeed: Infinity,
 });
 
-/** Wavy lines of 0.1 to 1 mm a segment, as curves are cut into. */
+/** Wavy lines of 0.1 to 1 mm per segment, like flattened curves. */
 const wavy: fc.Arbitrary<Point[]> = fc
   .array(fc.tuple(real(0.1, 1), real(-0.4, 0.4)), { minLength: 3, maxLength: 60 })
   .map((steps) => {
@@ -37,7 +37,7 @@ const wavy: fc.Arbitrary<Point[]> = fc
   });
 
 describe("the soft line of a wavy one", () => {
-  it("bends less in sum, within δ of it, from the same start to the same end", () => {
+  it("has less total bending, within δ of it, from the same start to the same end", () => {
     fc.assert(
       fc.property(wavy, (points) => {
         const path = pathOf(points);
@@ -75,8 +75,8 @@ describe("the soft line of a wavy one", () => {
   });
 });
 
-describe("the least bending between bounds", () => {
-  it("is nearly that of a search without end, and within the bounds", () => {
+describe("the minimum bending between bounds", () => {
+  it("is close to that of an exhaustive search, and within the bounds", () => {
     const problem = fc.array(fc.tuple(real(0.2, 1), real(-0.3, 0.3), real(0, 0.05), real(0, 0.05)), {
       minLength: 3,
       maxLength: 14,
@@ -106,7 +106,7 @@ describe("the least bending between bounds", () => {
 });
 
 describe("a plan in blend mode", () => {
-  it("tells for every block how far along the drawing it begins: never less than the one before; and stays within δ", () => {
+  it("reports for every block where it begins along the drawing, never decreasing; and stays within δ", () => {
     fc.assert(
       fc.property(fc.oneof(wavy, arbitraryStroke), arbitraryLimits, (points, draw) => {
         const strokes = strokesOf(points);
@@ -129,8 +129,8 @@ describe("a plan in blend mode", () => {
   });
 });
 
-describe("a plan that goes on from a pen beside its line", () => {
-  it("begins where the pen stands, without a travel or a lift, and keeps all limits", () => {
+describe("a plan that resumes with the pen beside its line", () => {
+  it("begins at the pen's position, without a travel or a lift, and stays within all limits", () => {
     fc.assert(
       fc.property(wavy, arbitraryLimits, real(0.05, 0.95), real(0, 6.3), (points, draw, share, way) => {
         const strokes = strokesOf(points);
@@ -178,7 +178,7 @@ function pathOf(points: readonly Point[]): RunPath {
 
 const strokesOf = (points: readonly Point[]): StrokeSet => strokeSetOf([points]);
 
-/** Σ w φ², as the soft line makes it little. */
+/** Σ w φ², which the soft line minimises. */
 function bending({ segmentCount: n, ux, uy, length }: RunPath): number {
   let sum = 0;
   for (let i = 1; i < n; i++) {
@@ -199,7 +199,7 @@ function energyOf(y: readonly number[], turn: readonly number[], length: Float64
   return sum;
 }
 
-/** Point by point to the bottom of its parabola, until nothing moves. */
+/** Coordinate descent: each point to the minimum of its parabola, until nothing moves. */
 function searched(
   turn: readonly number[],
   low: readonly number[],

@@ -25,7 +25,7 @@ const PLAIN: PrepareSettings = {
 };
 
 const place = fc.integer({ min: 4, max: 96 });
-/** Any polygon, crossing itself as it likes. */
+/** Any polygon, also self-intersecting. */
 const ring: fc.Arbitrary<Ring> = fc.array(fc.tuple(place, place), { minLength: 3, maxLength: 6 });
 const rings = fc.array(ring, { minLength: 1, maxLength: 2 });
 const points = fc.array(
@@ -36,13 +36,16 @@ const points = fc.array(
   },
 );
 
-/** Points this near a border, mm, may count either way: Clipper rounds to 0.1 µm, and moves crossings by it. */
+/**
+ * Points this close to a border, mm, may count either way: Clipper rounds to 0.1 µm, and moves crossings by
+ * that.
+ */
 const BORDER = 0.01;
 
 describe("hatch", () => {
   const SPACING = 2;
 
-  it("covers what is inside, keeps half a pen from the border, and leaves the outside alone", () => {
+  it("covers the inside, stays half a pen from the border, and leaves the outside empty", () => {
     fc.assert(
       fc.property(
         rings,
@@ -64,7 +67,7 @@ describe("hatch", () => {
           }
           expect(strayed).toBe(0);
           for (const [x, y] of samples) {
-            // So deep inside that every hatch line near it must be there.
+            // So deep inside that every hatch line near it must exist.
             if (!isInside(shape, evenOdd, x, y) || distanceToRings(shape, x, y) < 1.6 * SPACING) continue;
             expect(distanceToSegments(lines, x, y)).toBeLessThanOrEqual(SPACING / 2 + 1e-3);
           }
@@ -106,7 +109,7 @@ describe("hatch", () => {
   });
 });
 
-/** Looked at around the point: an edge with the area on both sides is no border. */
+/** Sampled around the point: an edge with the area on both sides is not a border. */
 function hasRoomAround(
   shape: readonly Ring[],
   evenOdd: boolean,
@@ -173,7 +176,7 @@ describe("hidden lines", () => {
     );
   });
 
-  it("do not hide anything when their layer is hidden", () => {
+  it("hide nothing if their layer is hidden", () => {
     const square = "M10 10L50 10L50 50L10 50Z";
     const drawing = drawingOf(
       [
@@ -207,7 +210,7 @@ function onlyLayer(
   };
 }
 
-/** Walks along the source line: there must be ink where it is visible, and none where it is not. */
+/** Samples the source line: there must be ink where it is visible, and none where it is hidden. */
 function checkBySampling(
   line: Ring,
   ink: ReturnType<typeof segmentsOf>,

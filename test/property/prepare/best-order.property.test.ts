@@ -18,7 +18,7 @@ const PLAIN: PrepareSettings = {
   order: "none",
 };
 
-/** Places that often coincide or stand in line, as ends of strokes: x, y of end 0, end 1 … */
+/** Places that often coincide or are collinear, as ends of strokes: x, y of end 0, end 1 … */
 const value = fc.oneof(fc.integer({ min: 0, max: 9 }), fc.double({ min: 0, max: 100, noNaN: true }));
 const ends = fc
   .array(fc.tuple(value, value, value, value), { minLength: 2, maxLength: 40 })
@@ -84,7 +84,7 @@ describe("improveBlocks", () => {
     );
   });
 
-  it("works through a ring of many blocks, outside strokes held fast", () => {
+  it("works through a ring of many blocks, with outside strokes fixed", () => {
     const random = randomFrom(7);
     const xy = Float64Array.from({ length: 4 * 300 }, () => 100 * random());
     const ring = startRing(xy);
@@ -117,7 +117,7 @@ describe("order best", () => {
     ),
   );
 
-  it("permutes, turns and re-starts strokes, and is no longer than fast or the file", () => {
+  it("permutes, reverses and re-starts strokes, and is not longer than fast or the file", () => {
     fc.assert(
       fc.property(drawings, (drawing) => {
         const given = prepare(drawing, PLAIN);
@@ -132,7 +132,7 @@ describe("order best", () => {
     );
   });
 
-  it("finds the shortest way through a grid of dots, whose length is known", () => {
+  it("finds the shortest path through a grid of dots, whose length is known", () => {
     // 10 × 10 dots 10 mm apart, home on one of them: a ring of 100 steps exists.
     const random = randomFrom(3);
     const dots = Array.from({ length: 99 }, (_, k) => ({
@@ -158,7 +158,7 @@ describe("order best", () => {
     expect(prepare(drawing, { ...PLAIN, order: "best" }).travelMm).toBeLessThan(0.8 * fast);
   });
 
-  describe("under a clock", () => {
+  describe("with a time limit", () => {
     const random = randomFrom(5);
     const drawing = drawingOf(
       Array.from(
@@ -167,7 +167,7 @@ describe("order best", () => {
       ),
     );
     const settings: PrepareSettings = { ...PLAIN, order: "best", orderS: 3 };
-    /** A clock that runs a tenth of a second each time it is looked at. */
+    /** A clock that advances a tenth of a second each time it is read. */
     const ticking = (): { nowS: () => number; readonly looks: number } => {
       let looks = 0;
       return {
@@ -178,7 +178,7 @@ describe("order best", () => {
       };
     };
 
-    it("stops when its time is up, and longer is no worse", () => {
+    it("stops when its time is up, and more time gives no worse result", () => {
       const short = ticking();
       const long = ticking();
       const a = prepare(drawing, { ...settings, orderS: 0.5 }, short);
@@ -188,7 +188,7 @@ describe("order best", () => {
       expect(b.travelMm).toBeLessThanOrEqual(a.travelMm);
     });
 
-    it("takes what it has when that is enough, and throws when cancelled", () => {
+    it("uses what it has if that is enough, and throws when cancelled", () => {
       const clock = ticking();
       prepare(drawing, settings, { ...clock, enough: { aborted: true } });
       expect(clock.looks).toBeLessThan(8);
@@ -203,7 +203,7 @@ describe("order best", () => {
       );
     });
 
-    it("reports progress that never falls", () => {
+    it("reports progress that never decreases", () => {
       const seen: number[] = [];
       prepare(drawing, settings, { ...ticking(), onProgress: (done) => seen.push(done) });
       expect(seen).toEqual([...seen].sort((p, q) => p - q));
@@ -212,7 +212,7 @@ describe("order best", () => {
   });
 });
 
-/** Strokes by layer and outline, whichever way round and wherever begun. */
+/** Strokes by layer and outline, independent of direction and starting point. */
 function strokeKeys(set: StrokeSet): string[] {
   return Array.from({ length: strokeCount(set) }, (_, i) => {
     const points: string[] = [];

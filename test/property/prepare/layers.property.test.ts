@@ -48,7 +48,7 @@ const lengths = ({ xy, offsets, layer, layers }: StrokeSet): Map<string, number>
 };
 
 describe("layers in any order, repeated and switched off", () => {
-  it("draw each visible layer as often as told, all of it, in the wanted order, at one stretch", () => {
+  it("draw each visible layer as often as set, completely, in the wanted order, in one stretch", () => {
     fc.assert(
       fc.property(lines, settings, (given, more) => {
         const { strokes, layers } = drawn(given, more);

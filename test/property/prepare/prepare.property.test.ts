@@ -17,7 +17,7 @@ const PLAIN: PrepareSettings = {
   order: "none",
 };
 
-/** Coordinates that meet often, lie on margins, and now and then are absurd. */
+/** Coordinates that meet often, lie on margins, and are sometimes absurd. */
 const coordinate = fc.oneof(
   { weight: 6, arbitrary: fc.integer({ min: -20, max: 140 }) },
   { weight: 3, arbitrary: fc.double({ min: -20, max: 140, noNaN: true }) },
@@ -111,13 +111,13 @@ function canonical(set: StrokeSet, i: number): string {
 const canonicalStrokes = (set: StrokeSet): string[] =>
   Array.from({ length: strokeCount(set) }, (_, i) => canonical(set, i)).sort();
 
-describe("prepare, whatever is drawn and asked for", () => {
-  it("gives finite points inside the margins, columns that fit together, and figures that agree", () => {
+describe("prepare, for any drawing and settings", () => {
+  it("gives finite points inside the margins, columns of matching lengths, and consistent figures", () => {
     fc.assert(
       fc.property(drawings, settings, (drawing, s) => {
         const prepared = prepare(drawing, s);
         const { strokes } = prepared;
-        // Cutting by areas rounds to 0.1 µm; where only the margins cut there is no tolerance at all.
+        // Cutting by areas rounds to 0.1 µm; if only the margins cut there is no tolerance at all.
         const slack = s.cropToPage || s.hideCovered || s.hatch.spacingMm > 0 ? 1e-4 : 0;
         expect(strokes.xy.every((v) => v >= s.marginMm - slack && v <= 120 - s.marginMm + slack)).toBe(true);
         expect(strokes.offsets[0]).toBe(0);
@@ -139,7 +139,7 @@ describe("prepare, whatever is drawn and asked for", () => {
     );
   });
 
-  it("orders by permuting, turning and re-starting strokes, and nothing else", () => {
+  it("orders by permuting, reversing and re-starting strokes, and nothing else", () => {
     fc.assert(
       fc.property(saneDrawings, fc.constantFrom(0, 2), (drawing, joinMm) => {
         const given = prepare(drawing, { ...PLAIN, joinMm });
@@ -151,7 +151,7 @@ describe("prepare, whatever is drawn and asked for", () => {
     );
   });
 
-  it("joins by adding at most the join distance at each join, and draws all that was there", () => {
+  it("joins by adding at most the join distance at each join, and draws everything that was there", () => {
     fc.assert(
       fc.property(saneDrawings, fc.constantFrom(0.1, 3), (drawing, joinMm) => {
         const apart = prepare(drawing, PLAIN);
@@ -215,7 +215,7 @@ describe("flattening", () => {
 });
 
 describe("order fast", () => {
-  it("keeps the file's order when that already is the shortest", () => {
+  it("keeps the file's order if that is already the shortest", () => {
     const dots = fc.uniqueArray(fc.tuple(fc.nat(30), fc.nat(30)), {
       minLength: 2,
       maxLength: 5,

@@ -1,4 +1,4 @@
-/** The HTTP server over a temporary folder, with a led plotter: everything real but threads and board. */
+/** The HTTP server over a temporary folder, with a scripted plotter: everything is real but threads and board. */
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -43,7 +43,7 @@ export interface TestApp {
   /** What the OpenAPI document is made of. */
   documented(): readonly ApiRoute[];
   drawingsOnDisk(): string[];
-  /** From now on requests have to come that fast. */
+  /** From now on requests have to arrive that fast. */
   hurry(headersMs: number, wholeMs: number): void;
   close(): Promise<void>;
 }

@@ -16,7 +16,7 @@ export class EventStream {
     return stream;
   }
 
-  /** The first event that fits, of those seen or still to come. */
+  /** The first matching event, of those received or still to come. */
   async find<T extends ServerEvent["type"]>(
     type: T,
     fits: (event: Extract<ServerEvent, { type: T }>) => boolean = () => true,

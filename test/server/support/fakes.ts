@@ -1,4 +1,4 @@
-/** A plotter and a planner without hardware or threads, led by the test. */
+/** A plotter and a planner without hardware or threads, controlled by the test. */
 import type { HandMove } from "../../../server/plotter/hand-moves.js";
 import type { ManagedPlotter } from "../../../server/plotter/plotter-port.js";
 import type { Planning } from "../../../server/planning/planning.js";
@@ -48,7 +48,7 @@ export class LedRun implements LivePlotRun {
     return Promise.resolve();
   }
 
-  /** The driver writes how far the pen has come. */
+  /** The driver records how far the pen has come. */
   record(entry: Partial<JournalEntry>): void {
     const place = { stroke: 0, alongMm: 0 };
     this.#start.journal?.record({ place, xMm: 0, yMm: 0, penUp: true, elapsedS: 0, ...entry });
@@ -145,7 +145,7 @@ export class LedPlotter implements ManagedPlotter {
     return run;
   }
 
-  /** The run that has begun, or that begins next. */
+  /** The current run, or the next one. */
   async nextRun(): Promise<LedRun> {
     const count = this.runs.length;
     if (count === 0) await new Promise<void>((resolve) => this.#onRun.push(resolve));

@@ -1,8 +1,8 @@
 /**
- * PGlite behind a port, for several clients, though it has one session for all. A client has it to itself from the first
- * message of a query to the last, and from BEGIN to the end of the transaction; others wait for their turn. (The package's
- * own server takes turns message by message, so that queries of two clients mix, and stops for good after one error:
- * electric-sql/pglite#1046.)
+ * PGlite behind a port, for several clients, though it has one session for all. A client has it to itself
+ * from the first message of a query to the last, and from BEGIN to the end of the transaction; others wait
+ * for their turn. (The package's own server takes turns message by message, so that queries of two clients
+ * mix, and stops for good after one error: electric-sql/pglite#1046.)
  *
  *   client  ──Parse Bind Execute Sync──>  one turn  ──…ReadyForQuery "I"──>  the next client's turn
  *           ──BEGIN──>                    one turn  ──…ReadyForQuery "T"──>  still its turn
@@ -29,7 +29,7 @@ export class PgliteServer {
     this.#database = database;
   }
 
-  /** On 127.0.0.1; where `port` is 0, on one that is free: `server.port` tells which. */
+  /** On 127.0.0.1; `port` 0: a free one, see `server.port`. */
   static async listen(database: PGlite, port: number): Promise<PgliteServer> {
     const server = new PgliteServer(database);
     server.#server.listen(port, "127.0.0.1");
@@ -41,7 +41,7 @@ export class PgliteServer {
     return (this.#server.address() as AddressInfo).port;
   }
 
-  /** Cuts all connections off. */
+  /** Cuts all connections. */
   async stop(): Promise<void> {
     const closed = once(this.#server, "close");
     this.#server.close();
@@ -67,7 +67,7 @@ export class PgliteServer {
         end = null;
       }
     } catch (error) {
-      // A client that is cut off in the middle of something is no news; what PGlite itself throws is.
+      // A client that disconnects in mid-query is expected; an error of PGlite itself is thrown.
       if (!socket.destroyed) throw error;
     } finally {
       if (end !== null) {
@@ -79,7 +79,7 @@ export class PgliteServer {
     }
   }
 
-  /** Waits for those before it; returns what ends its own turn. */
+  /** Waits for earlier turns; returns the function that ends its own turn. */
   async #begin(): Promise<() => void> {
     const before = this.#turn;
     let end!: () => void;
@@ -89,7 +89,7 @@ export class PgliteServer {
   }
 }
 
-/** Messages up to one that is answered, again and again until the client leaves. */
+/** Handles groups of messages, each up to one that is answered, until the client leaves. */
 async function* batchesOf(socket: Socket): AsyncIterable<Uint8Array[]> {
   let bytes = Buffer.alloc(0);
   let batch: Uint8Array[] = [];

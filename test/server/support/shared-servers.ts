@@ -14,7 +14,10 @@ import {
 import { PgliteServer } from "./pglite-server.js";
 
 export const MACHINE = "axidraw-v3";
-/** The database answers sooner, and a heartbeat is never that old while a server runs, however busy the computer is. */
+/**
+ * The database answers sooner, and a heartbeat is never that old while a server runs, even on a busy
+ * computer.
+ */
 const PATIENCE_MS = 30_000;
 const LOST_AFTER_MS = 3_600_000;
 
@@ -25,7 +28,7 @@ export const linesSvg = (count: number): string =>
     (_, i) => `<path d="M5 ${2 + i / 4}h50"/>`,
   ).join("")}</svg>`;
 
-/** In this process or in one of its own. */
+/** In this process or in its own. */
 export interface AtUrl {
   readonly url: string;
 }
@@ -51,7 +54,7 @@ export async function sharedJobsOf({ url }: AtUrl): Promise<SharedJob[]> {
 export const sharedOf = async (server: AtUrl, name: string): Promise<SharedJob | undefined> =>
   (await sharedJobsOf(server)).find((job) => job.name === name);
 
-/** Gives a server's plotter a name, and says what model it is where that is told. */
+/** Gives a server's plotter a name, and its model if given. */
 export async function introduce({ url }: AtUrl, name: string, machine?: string): Promise<void> {
   const patch = { name, ...(machine === undefined ? {} : { machine }) };
   expect((await send(url, "PATCH", "/plotters/main", patch)).status).toBe(200);
@@ -68,8 +71,8 @@ export async function share(
 }
 
 /**
- * Asks for a job to begin, as "200", or what was said against it. A database that a busy computer keeps waiting counts
- * as away after some seconds: who asks again gets the answer.
+ * Requests the start of a job; returns "200", or the error message. A database delayed by a busy computer
+ * counts as away after some seconds: a second request gets the answer.
  */
 export async function startOf({ url }: AtUrl, id: string): Promise<string> {
   const answer = await send(url, "POST", `/jobs/${id}/start`);
@@ -77,7 +80,7 @@ export async function startOf({ url }: AtUrl, id: string): Promise<string> {
   return answer.ok ? "200" : `${answer.status} ${text}`;
 }
 
-/** Shares a job that this server takes itself, and waits until it has. Returns the shared job's id. */
+/** Shares a job that this server claims itself, and waits until it has. Returns the shared job's id. */
 export async function shareAndTake(server: AtUrl, name: string, target: SharedTarget): Promise<string> {
   await share(server, name, target);
   await expect.poll(() => sharedOf(server, name)).toMatchObject({ state: "stored", hasBegun: false });
@@ -104,7 +107,7 @@ export class SharedDatabase {
     return `postgres://postgres:postgres@127.0.0.1:${this.#port}/postgres`;
   }
 
-  /** Nobody reaches it until `restore`. */
+  /** Cuts the connection to it until `restore`. */
   async cut(): Promise<void> {
     await this.#server.stop();
   }
@@ -124,7 +127,7 @@ export class SharedDatabase {
     }
   }
 
-  /** As if the server that has this job, and runs no more, had gone long ago. */
+  /** As if the server that has this job, and is closed, had gone long ago. */
   async age(jobName: string): Promise<void> {
     await this.query(
       `UPDATE plotwright_servers SET seen_at = seen_at - interval '${2 * LOST_AFTER_MS} milliseconds'

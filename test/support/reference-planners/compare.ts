@@ -1,4 +1,4 @@
-/** One drawing, planned under every system's rules and under ours, at the same A, V and δ. */
+/** One drawing, planned under every system's rules and ours, with the same A, V and δ. */
 import { DEFAULT_PEN, plan, type MotionSettings, type StrokeSet } from "../../../src/index.js";
 import { DEFAULT_FIT, MOTION_MODES } from "../../../src/internal.js";
 import { distinct, worstCurveAccel, type Limits, type Point } from "./polyline.js";
@@ -8,10 +8,10 @@ export interface ComparisonRow {
   readonly planner: string;
   /** Pen down only, s. */
   readonly drawS: number;
-  /** Largest acceleration on curves as a share of A; for plans that keep direction continuous: anywhere. */
+  /** Max acceleration on curves as a share of A; for plans with continuous direction: anywhere. */
   readonly worstAccel: number;
   readonly pieces: number;
-  /** Largest jump of velocity, mm/s. */
+  /** Max jump of velocity, mm/s. */
   readonly worstJump: number;
 }
 
@@ -30,12 +30,12 @@ export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonR
   });
   const ours = MOTION_MODES.flatMap((mode) => [
     ourRow(`plotwright ${mode}`, strokes, limits, { mode, fit: null }),
-    ourRow(`plotwright ${mode}, fitted`, strokes, limits, { mode, fit: DEFAULT_FIT }),
+    ourRow(`plotwright ${mode}, merged`, strokes, limits, { mode, fit: DEFAULT_FIT }),
   ]);
   return [...others, ...ours];
 }
 
-/** The strokes as lists of points, without repeated ones and without dots. */
+/** The strokes as lists of points, without repeated points and dots. */
 export function linesOf(strokes: StrokeSet): Point[][] {
   const lines: Point[][] = [];
   for (let s = 0; s + 1 < strokes.offsets.length; s++) {

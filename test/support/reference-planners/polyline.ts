@@ -1,4 +1,4 @@
-/** What the reference planners share. Written to be read, not to be fast. */
+/** Shared code of the reference planners. Written for readability, not speed. */
 
 export type Point = readonly [number, number];
 
@@ -7,7 +7,7 @@ export interface Limits {
   readonly speed: number;
   /** A, mm/s² */
   readonly accel: number;
-  /** δ, mm: each system's own corner setting is chosen so that it means the same δ. */
+  /** δ, mm: each system's own corner setting is chosen to give the same δ. */
   readonly deviation: number;
 }
 
@@ -20,7 +20,7 @@ export interface Corner {
   readonly after: number;
 }
 
-/** A system, as far as planning a polyline goes. */
+/** A system, as far as planning a polyline is concerned. */
 export interface ReferencePlanner {
   readonly name: string;
   readonly cornerRule: string;
@@ -32,7 +32,7 @@ export interface ReferencePlan {
   readonly timeS: number;
   /** Speed at every point, mm/s. */
   readonly speeds: readonly number[];
-  /** Pieces of constant acceleration (or speed) that it would send. */
+  /** Number of pieces of constant acceleration (or speed) that it would send. */
   readonly pieces: number;
 }
 
@@ -83,8 +83,8 @@ export function planTrapezoids(
 }
 
 /**
- * The largest v² κ on what is a curve (turns below 1 rad), as a share of A: κ is the curvature of the circle
- * that is tangent to both segments at half of the shorter one.
+ * Max v² κ on curves (turns below 1 rad), as a share of A: κ is the curvature of the circle tangent to both
+ * segments at half of the shorter one.
  */
 export function worstCurveAccel(points: readonly Point[], plan: ReferencePlan, accel: number): number {
   let worst = 0;

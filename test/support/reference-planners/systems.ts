@@ -1,6 +1,6 @@
 /**
- * Other systems' rules for corners and speed, written anew from their published descriptions, so that one
- * drawing can be planned under each. φ is the turn, θ = π − φ the angle between the segments.
+ * Other systems' rules for corners and speed, written from their published descriptions, so that one drawing
+ * can be planned under each. φ is the turn, θ = π − φ the angle between the segments.
  */
 import {
   cornersOf,
@@ -24,7 +24,7 @@ const GRBL: ReferencePlanner = {
   plan: (points, limits) => planTrapezoids(points, limits, (corner) => junctionDeviation(corner, limits)),
 };
 
-/** axi takes a reversal as a full stop and anything within 1e-9 of straight on as no corner. */
+/** axi treats a reversal as a full stop, and anything within 1e-9 of straight as no corner. */
 const AXI: ReferencePlanner = {
   name: "axi, motion (Fogleman), saxi",
   cornerRule: "junction deviation",
@@ -36,7 +36,7 @@ const AXI: ReferencePlanner = {
     }),
 };
 
-/** AxiDraw's software: junction deviation as well; what it sends are slices of constant speed, 1/40 s or so long. */
+/** AxiDraw's software: junction deviation as well; it sends slices of constant speed of about 1/40 s. */
 const AXIDRAW_SLICE_S = 0.025;
 const AXIDRAW: ReferencePlanner = {
   name: "AxiDraw software",
@@ -61,8 +61,9 @@ const KLIPPER: ReferencePlanner = {
 };
 
 /**
- * Oquam: a parabola at every corner, entered and left at the same speed, at most half of the shorter segment long
- * and at most δ away; straight pieces between, with trapezoids.
+ * Oquam: a parabola at every corner, entered and left at the same speed, at most half of the shorter segment
+ * long and at most δ away; straight pieces between them, with trapezoids.
+ *
  *   δ:    v² = 2 A δ / sin²(φ/2)         length: v² = A L / sin(φ/2)
  */
 export const OQUAM: ReferencePlanner = {
@@ -77,7 +78,7 @@ export const OQUAM: ReferencePlanner = {
       const v2 = Math.min(speed ** 2, (2 * accel * deviation) / s ** 2, (accel * longest) / s);
       return { s, v2 };
     });
-    // Slower corners, found by look-ahead over what is left of the segments, are shorter too.
+    // Slower corners, found by look-ahead over the rest of the segments, are shorter too.
     const speeds2 = [0, ...corners.map((c) => c.v2), 0];
     const reach = (i: number, v2: number): number => (corners[i - 1] ? (v2 * corners[i - 1].s) / accel : 0);
     const lengths = points.slice(1).map((p, i) => distance(points[i], p));

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { AnswerQueue } from "../../../src/drivers/ebb/stream/answer-queue.js";
 import { LineSplitter } from "../../../src/drivers/line-splitter.js";
 
-/** Lets the commands wait, feeds the bytes, and returns what was settled, in order, and the lines left over. */
+/** Queues the commands, feeds the bytes, and returns what was settled, in order, and the unmatched lines. */
 function settled(commands: readonly string[], bytes: string) {
   const strays: string[] = [];
   const answers: [line: string, answer: string][] = [];
@@ -18,8 +18,8 @@ function settled(commands: readonly string[], bytes: string) {
   return { answers, strays, waitingCount: queue.count };
 }
 
-describe("answers in the syntax of boot", () => {
-  it("belong to commands in the order in which they were sent, a nameless board's empty name too", () => {
+describe("replies in the syntax of boot", () => {
+  it("belong to commands in the order in which they were sent, including an unnamed board's empty name", () => {
     const { answers, strays } = settled(
       ["SP,1,250", "QS", "V", "QM", "QT", "LM,1,2,3,4,5,6"],
       "OK\r\n10,-3\n\rOK\r\nEBBv13_and_above EB Firmware Version 2.8.1\r\nQM,0,0,0,0\n\r\r\nOK\r\nOK\r\n",
@@ -35,7 +35,7 @@ describe("answers in the syntax of boot", () => {
     expect(strays).toEqual([]);
   });
 
-  it("give a surplus parameter, of which the board tells after its OK, to no other command", () => {
+  it("assign a surplus parameter, which the board reports after its OK, to no other command", () => {
     const { answers, strays } = settled(
       ["SM,1,1,1,0,0", "QP"],
       "OK\r\n!7 Err: Extra parameter\r\n1\n\rOK\r\n",
@@ -47,7 +47,7 @@ describe("answers in the syntax of boot", () => {
     expect(strays).toEqual(["!7 Err: Extra parameter (to SM,1,1,1,0,0)"]);
   });
 
-  it("tell of a line that nobody asked for", () => {
+  it("report an unsolicited line", () => {
     expect(settled([], "hello\r\n").strays).toEqual(["hello"]);
     expect(settled(["SP,1"], "noise\r\nOK\r\n")).toMatchObject({
       answers: [["SP,1", ""]],
@@ -56,8 +56,8 @@ describe("answers in the syntax of boot", () => {
   });
 });
 
-describe("answers in the syntax of one line each", () => {
-  it("are taken by their names", () => {
+describe("replies in the syntax of one line each", () => {
+  it("are matched by their names", () => {
     expect(settled(["SP,1", "QS"], "SP\nQS,1,2\n")).toEqual({
       answers: [
         ["SP,1", ""],
@@ -68,7 +68,7 @@ describe("answers in the syntax of one line each", () => {
     });
   });
 
-  it("carry errors behind the name", () => {
+  it("have errors after the name", () => {
     const { answers } = settled(["SM"], "SM,!4 Err: Missing parameter(s)\n");
     expect(answers).toEqual([["SM", "The board refused SM: Missing parameter(s)."]]);
   });

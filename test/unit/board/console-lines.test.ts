@@ -12,12 +12,12 @@ describe("a line for the board", () => {
       ],
       ["sets its queue", ["CU,4,0", "CU,4", "CU,04,-1", "CU,004,32"]],
       [
-        "has numbers that may be read as others",
+        "has numbers that may be read differently",
         ["CU,257,0", "CU,4294967297,0", "CU,,0", "CU", "CU,1x,0", "CU,-1,0"],
       ],
       ["has spaces", ["CU ,1,0", "CU, 1,0", "B L", " BL", "SM,1, 1,1"]],
       ["is more than one line", ["V\rBL", "V\nCU,1,0", "V\tx", ""]],
-      ["sends or writes what nobody asked for", ["T,100,0", "MW,1,2", "C,0,0,0,0,0"]],
+      ["causes unsolicited lines or writes to memory", ["T,100,0", "MW,1,2", "C,0,0,0,0,0"]],
       ["is not answered by every firmware", ["EM", "EM,1", "em,"]],
       ["never ends", ["LM,0,100,0,0,0,0", "LM,1,100,0,0,0,0", "LM,9,0,0,0,5,0", "L3,0,5,0,0,0,0,0,0"]],
       [

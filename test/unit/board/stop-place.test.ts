@@ -7,14 +7,14 @@ import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { seeded } from "../../support/live-plot.js";
 
 const machine = machineById("axidraw-v3");
-/** The same line again and again: its steps are passed ten times, once in every 0.45 s. */
+/** The same line many times: its steps are passed ten times, once in every 0.45 s. */
 const AGAIN = strokeSetOf([Array.from({ length: 11 }, (_, i): Point => [20 + 15 * (i % 2), 30])]);
-/** How far the host's picture of the board's time may be off. */
+/** Max error of the host's estimate of the board's time. */
 const OFF_S = 0.2;
 
 describe("the place of an emergency stop", () => {
   it.each(["2.5.3", "3.0.3"])(
-    "is told by what waited, however late the host believes it to be, on %s",
+    "is found from the number of waiting commands, however late the host's estimate is, on %s",
     (firmware) => {
       const features = firmwareFeatures(firmware);
       const trajectory = plan(AGAIN, { ...DEFAULT_MOTION, mode: "junction" }, DEFAULT_PEN);
@@ -26,7 +26,7 @@ describe("the place of an emergency stop", () => {
       const random = seeded(5);
       for (let i = 1; i < stream.count; i++) {
         if (!/^(LM|LT)/.test(commandLine(stream, i))) continue;
-        // Over just now: then its counters are known.
+        // It has just ended: then its counters are known.
         const waiting = Math.min(3, stream.count - 1 - i);
         const found = placeOfStop(
           {
@@ -52,7 +52,7 @@ describe("the place of an emergency stop", () => {
     ["QG", "2E", 0],
     ["QM", "1,1,0,1", 1],
     ["QM", "1,1,0", null],
-  ])("hears from %s, answered by %s, how many commands wait", (line, reply, count) => {
+  ])("reads from %s, answered by %s, how many commands wait", (line, reply, count) => {
     expect(waitingCount(line, reply)).toBe(count);
   });
 });

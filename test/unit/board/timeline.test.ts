@@ -3,7 +3,7 @@ import { BoardTimeline } from "../../../src/drivers/ebb/stream/timeline.js";
 import { makeStream, wavyRows } from "../../support/make-stream.js";
 import { ManualClock } from "../../support/manual-clock.js";
 
-/** A board with a queue of one that was given so many commands; it has acknowledged some of them. */
+/** A board with a queue of one that received that many commands; it has acknowledged some of them. */
 async function given(durationsS: readonly number[], ackedCount: number, queueDepth = 1) {
   const clock = new ManualClock();
   const timeline = new BoardTimeline(clock, queueDepth, 2);
@@ -20,7 +20,7 @@ async function given(durationsS: readonly number[], ackedCount: number, queueDep
   return { clock, timeline };
 }
 
-/** What pumping does every few ms. */
+/** What the streamer does every few ms. */
 async function pump(clock: ManualClock, timeline: BoardTimeline, forS: number): Promise<void> {
   for (let s = 0; s < forS; s += 0.004) {
     await clock.advance(0.004);
@@ -32,33 +32,33 @@ describe("a board that stops answering", () => {
   it.each([
     ["short", 0.02],
     ["long", 0.12],
-  ])("is never believed to be further than what it has acknowledged: %s commands", async (_, durationS) => {
+  ])("is never estimated to be further than its acknowledgements: %s commands", async (_, durationS) => {
     const { clock, timeline } = await given(Array<number>(12).fill(durationS), 4);
     await pump(clock, timeline, 2);
     expect(timeline.boardS()).toBeLessThanOrEqual(4 * durationS + 1e-9);
   });
 
-  it("is never believed to be further where its queue is deep, either", async () => {
+  it("is never estimated to be further with a deep queue either", async () => {
     const { clock, timeline } = await given(Array<number>(12).fill(0.02), 3, 32);
     await pump(clock, timeline, 2);
     expect(timeline.boardS()).toBeLessThanOrEqual(0.06 + 1e-9);
   });
 
-  it("is believed to play all that it has acknowledged", async () => {
+  it("is estimated to play everything that it has acknowledged", async () => {
     const { clock, timeline } = await given(Array<number>(4).fill(0.02), 4);
     await pump(clock, timeline, 2);
     expect(timeline.boardS()).toBeCloseTo(0.08);
   });
 });
 
-describe("one acknowledgement counted wrongly", () => {
+describe("one miscounted acknowledgement", () => {
   it("moves the board's time by no more than a few ms", async () => {
     const durationS = 0.15;
     const { clock, timeline } = await given(Array<number>(10).fill(durationS), 2);
     await clock.advance(durationS);
     const beforeS = timeline.boardS();
     timeline.acknowledged();
-    // A stray OK: as if the next one had begun already.
+    // A stray OK: as if the next one had already begun.
     timeline.acknowledged();
     expect(timeline.boardS() - beforeS).toBeLessThan(0.01);
     await clock.advance(durationS);

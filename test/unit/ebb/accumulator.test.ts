@@ -114,7 +114,7 @@ describe("LM aimed at a rate of exactly zero", () => {
       Infinity,
     );
 
-  it("accelerates and cruises for the ticks that are known", () => {
+  it("accelerates and cruises for the known ticks", () => {
     expect(ramp("signed")).toMatchObject({ ticks: 2500, acc: 290800, lastRate: 687057561 });
     expect(cruise("signed")).toMatchObject({ ticks: 7500, acc: 288100 });
   });

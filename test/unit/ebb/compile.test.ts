@@ -87,7 +87,7 @@ describe("compile", () => {
     expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual(["S2,7560,5,270,300", "S2,9720,5,360,250"]);
   });
 
-  it("keeps its columns in step: text, times, places", () => {
+  it("keeps its columns consistent: text, times, positions", () => {
     const stream = compiled([LINE, [[100, 100]]], "3.0.3");
     expect(stream.textOffsets[stream.count]).toBe(stream.text.length);
     for (let i = 0; i < stream.count; i++) {
@@ -100,7 +100,7 @@ describe("compile", () => {
     expect(() => commandLine(stream, stream.count)).toThrow(RangeError);
   });
 
-  it("goes on from wherever the board stands", () => {
+  it("continues from any state of the board", () => {
     const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, DEFAULT_PEN, { startX: 5, startY: 5 });
     const start = { steps1: 801, steps2: -1, acc1: 12_345, acc2: 2 ** 31 - 1 };
     for (const firmware of ["2.4.4", "2.5.3", "2.8.1", "3.0.3"]) {
@@ -110,7 +110,7 @@ describe("compile", () => {
     }
   });
 
-  it("never writes a command shorter than a board can take for long, or longer than a hold can wait", () => {
+  it("never writes a command shorter than a board can sustain, or longer than a hold may wait", () => {
     const curve = Array.from({ length: 500 }, (_, i): Point => [
       100 + 30 * Math.cos(i / 80),
       100 + 30 * Math.sin(i / 80),
@@ -130,7 +130,7 @@ describe("compile", () => {
     }
   });
 
-  it("refuses a firmware that is none and a plan that is not finite", () => {
+  it("refuses an invalid firmware and a plan that is not finite", () => {
     const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, DEFAULT_PEN);
     expect(() => compile(trajectory, { machine, firmware: "new", pen: DEFAULT_PEN })).toThrow(/firmware/);
     expect(() =>
@@ -140,7 +140,7 @@ describe("compile", () => {
 });
 
 describe("the commands around a plot", () => {
-  it("switch the motors on, make the counters known and set the pen; and switch off", () => {
+  it("switch the motors on, reset the counters and set the pen; and switch off", () => {
     expect(setUpCommands(machine, DEFAULT_PEN, "2.8.1")[0]).toBe("EM,1,1");
     expect(setUpCommands(machine, DEFAULT_PEN, "2.8.1")).not.toContain("CS");
     expect(setUpCommands(machine, DEFAULT_PEN, "2.5.3")[1]).toBe("CS");

@@ -13,11 +13,11 @@ const QUICK: MotionSettings = {
 };
 
 describe("settings for a firmware", () => {
-  it.each(["2.5.3", "2.8.1", "3.0.3"])("are as they were for %s", (firmware) => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("are unchanged for %s", (firmware) => {
     expect(motionForFirmware(QUICK, firmware)).toBe(QUICK);
   });
 
-  it("have no acceleration over 500 mm/s² where commands are of constant speed, and are else the same", () => {
+  it("have no acceleration over 500 mm/s² if commands have constant speed, and are otherwise the same", () => {
     const gentle = motionForFirmware(QUICK, "2.4.4");
     expect(gentle).toEqual({
       ...QUICK,
@@ -30,7 +30,7 @@ describe("settings for a firmware", () => {
     expect(motionForFirmware(gentle, "2.4.4")).toEqual(gentle);
   });
 
-  it("are refused for what is no version", () => {
+  it("are refused for an invalid version", () => {
     expect(() => motionForFirmware(QUICK, "new")).toThrow('"new" is not a firmware version');
   });
 });

@@ -26,13 +26,13 @@ describe("the firmware table", () => {
     expect(compareFirmware("2.5.3", "2.6.0")).toBe(-1);
   });
 
-  it("reads the version from the board's answer", () => {
+  it("reads the version from the board's reply", () => {
     expect(firmwareFromReply("EBBv13_and_above EB Firmware Version 2.8.1\r\n")).toBe("2.8.1");
     expect(firmwareFromReply("V,EBBv13_and_above EB Firmware Version 3.0.3")).toBe("3.0.3");
     expect(firmwareFromReply("Grbl 1.1h")).toBeNull();
   });
 
-  it("refuses what is no version", () => {
+  it("refuses an invalid version", () => {
     for (const text of ["", "two", "2", "2.8.1; EM", "-1.0.0"]) {
       expect(() => firmwareFeatures(text)).toThrow(/firmware version/);
     }

@@ -20,7 +20,7 @@ describe("lines from the board", () => {
     }
   });
 
-  it("lose bytes that are no text, and do not grow without end", () => {
+  it("lose bytes that are not text, and have a maximum length", () => {
     expect(linesOf("O\x00\x07\xffK\r")).toEqual(["OK"]);
     expect(linesOf(`${"x".repeat(10_000)}\r`)[0].length).toBeLessThan(1_000);
   });

@@ -39,14 +39,14 @@ describe("slices of constant speed", () => {
     expect(compile(trajectory, { machine, firmware: "2.5.3", pen }).warnings).toEqual([]);
   });
 
-  it("are about 10 ms long, but for a run shorter than that", () => {
+  it("are about 10 ms long, except in a run shorter than that", () => {
     const { stream } = compiled([circle(50, 50, 10, 100), circle(90, 50, 0.02, 9)]);
     const lengths = slicesOf(stream).map(([ms]) => ms);
     expect(Math.max(...lengths)).toBeLessThanOrEqual(15);
     expect(lengths.filter((ms) => ms < 8).length / lengths.length).toBeLessThan(0.01);
   });
 
-  it("keep the plan's time, rests and ways of less than a step included", () => {
+  it("keep the plan's time, including rests and moves of less than a step", () => {
     const { trajectory, stream } = compiled([
       [[50, 50]],
       [[50, 50], [50.004, 50]],

@@ -50,14 +50,14 @@ describe("toSvg", () => {
     expect([back.widthMm, back.heightMm]).toEqual([210, 297]);
   });
 
-  it("names layers as it is told, so that codes can be written", () => {
+  it("names layers as requested, so that codes can be written", () => {
     const { strokes } = prepare(drawing, SETTINGS);
     const svg = toSvg(strokes, { ...PAPER, layerNames: ["!1+h30 red"] });
     expect(svg).toContain('inkscape:label="!1+h30 red"');
     expect(svg).toContain('inkscape:label="curves"');
   });
 
-  it("writes what lies on paper, in the pens' colours and widths, without their corrections", () => {
+  it("writes what is on paper, in the pens' colours and widths, without their corrections", () => {
     const pen = { id: "p", name: "Gold", color: "#ccaa00", widthMm: 1.2, offsetXMm: 2, offsetYMm: -1 };
     const job = { ...NO_PENS, pens: [pen], layerPens: { g0: "p" }, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
     const askew = prepare(drawing, prepareSettingsOf({ ...job, prepare: SETTINGS }));
@@ -109,11 +109,11 @@ describe("trajectoryToSvg", () => {
     expect(Math.max(...bands)).toBe(23);
   });
 
-  it("tells the top speed in mm/s", () => {
+  it("shows the top speed in mm/s", () => {
     expect(svg).toContain(">50 mm/s</text>");
   });
 
-  it("covers every stroke's points and shows travel only when asked", () => {
+  it("covers every stroke's points and shows travel only on request", () => {
     const exact = plan(strokes, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
     const reached = [...trajectoryToSvg(exact, PAPER).matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map((m) => [
       Number(m[1]),
@@ -127,7 +127,7 @@ describe("trajectoryToSvg", () => {
     expect(trajectoryToSvg(trajectory, { ...PAPER, showTravel: false })).not.toContain('class="travel"');
   });
 
-  it("holds no NaN, not even for nothing drawn", () => {
+  it("has no NaN, even for an empty drawing", () => {
     expect(svg).not.toContain("NaN");
     expect(trajectoryToSvg(plan(strokeSetOf([]), DEFAULT_MOTION, DEFAULT_PEN), PAPER)).not.toContain("NaN");
   });

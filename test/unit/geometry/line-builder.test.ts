@@ -24,7 +24,7 @@ describe("a line builder", () => {
     }
   });
 
-  it("leaves out a point that repeats the one before it, whichever way it comes", () => {
+  it("leaves out a point that repeats the one before it, however it is added", () => {
     const xy = Float64Array.of(1, 1, 2, 2, 0, 0, 5, 5, 5, 5, 9, 9, 3, 3, 4, 4);
     const lines = { xy, offsets: Uint32Array.of(0, 2, 6, 8), tag: Uint32Array.of(6, 7, 8) };
     const builder = new LineBuilder();

@@ -1,4 +1,4 @@
-/** The model of Grbl's planner against figures worked out from its source, and the virtual Grbl against the model. */
+/** The model of Grbl's planner compared with figures computed from its source, and the virtual Grbl with the model. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, planJob, type MotionSettings } from "../../../src/index.js";
 import {
@@ -33,7 +33,7 @@ describe("a corner", () => {
     expect(Math.sqrt(junctionSpeed2(before, after, limitsOf(accel)))).toBeCloseTo(speed, 4);
   });
 
-  it("back is a stop, straight on is none", () => {
+  it("is a stop if the path reverses, and has no limit if it is straight", () => {
     expect(junctionSpeed2([1, 0, 0], [-1, 0, 0], limitsOf(1_000))).toBe(0);
     expect(junctionSpeed2([1, 0, 0], [1, 0, 0], limitsOf(1_000))).toBe(Infinity);
   });

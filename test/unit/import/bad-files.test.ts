@@ -29,7 +29,7 @@ describe("importSvg on bad files", () => {
     ["<html><body/></html>", "outermost element is <html>"],
     ['<?xml version="1.0"?><gpx/>', "outermost element is <gpx>"],
     ["<!DOCTYPE html><html></html>", "<html>"],
-  ])("says that %j is not an SVG, and what it is", (text, words) => {
+  ])("reports that %j is not an SVG, and what it is", (text, words) => {
     const { message } = failure(text);
     expect(message).toContain("not an SVG");
     expect(message).toContain(words);
@@ -54,7 +54,7 @@ describe("importSvg on bad files", () => {
     expect(drawing.warnings.map((warning) => warning.code)).toEqual(["empty-drawing"]);
   });
 
-  it("ends a path at a coordinate that is no number, keeps what came before and says where", () => {
+  it("ends a path at an invalid coordinate, keeps what came before and reports where", () => {
     const drawing = importSvg(
       '<svg width="96" height="96">\n<path id="p" stroke="red" d="M0 0L9 9L NaN 4"/></svg>',
     );
@@ -79,7 +79,7 @@ describe("importSvg on bad files", () => {
     expect(codes(text)).toContain("coordinates-out-of-range");
   });
 
-  it("refuses a page that no paper could be", () => {
+  it("refuses a page of an impossible size", () => {
     expect(failure('<svg width="1e300" height="5"/>').message).toContain("page");
     expect(failure('<svg viewBox="0 0 1e20 5"/>').message).toContain("page");
   });
@@ -93,13 +93,13 @@ describe("importSvg on bad files", () => {
     expect(drawing.paths.coords[2]).toBeCloseTo(25.4, 9);
   });
 
-  it("does not let entities of the file grow, so a bomb stays small", () => {
+  it("does not expand entities of the file, so a bomb stays small", () => {
     const lines = Array.from({ length: 30 }, (_, i) => `<!ENTITY e${i + 1} "${`&e${i};`.repeat(10)}">`).join(
       "\n",
     );
     const text = `<!DOCTYPE svg [<!ENTITY e0 "boom">${lines}]><svg width="9" height="9"><path stroke="red" d="M0 0h5"/><text>&e30;</text></svg>`;
     const drawing = importSvg(text);
-    // The reference stays as it is written: a few letters.
+    // The reference stays as written: a few letters.
     expect(drawing.paths.count).toBeLessThan(10);
     expect(drawing.warnings.find((warning) => warning.code === "xml-repaired")?.message).toContain("entity");
   });
@@ -118,7 +118,7 @@ describe("importSvg on bad files", () => {
     expect(importSvg(text).paths.count).toBeLessThan(10);
   });
 
-  it("refuses copies of copies that grow without end", () => {
+  it("refuses nested copies that grow without end", () => {
     const levels = Array.from(
       { length: 40 },
       (_, i) => `<g id="l${i + 1}">${`<use href="#l${i}"/>`.repeat(10)}</g>`,
@@ -140,7 +140,7 @@ describe("importSvg on bad files", () => {
     expect([...dot.paths.coords].map((v) => Math.round(v * 1e6) / 1e6)).toEqual([12.7, 12.7, 12.7, 12.7]);
   });
 
-  it("forgives what browsers forgive in pages, and says so", () => {
+  it("accepts errors that browsers accept, and reports them", () => {
     const drawing = importSvg('<svg width=96 height="96"><path stroke="red" d="M0 0h5"/></svg>');
     expect(drawing.paths.count).toBe(1);
     expect(drawing.warnings.map((warning) => warning.code)).toEqual(["xml-repaired"]);

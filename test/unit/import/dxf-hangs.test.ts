@@ -1,4 +1,4 @@
-/** DXF files in which the parser that reads them would wait for ever. */
+/** DXF files on which the underlying parser would hang. */
 import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/index.js";
 import { PlotwrightError } from "../../../src/errors.js";
@@ -7,7 +7,7 @@ import { endWhenOver } from "../../support/watchdog.js";
 
 const HANGS_MS = 20_000;
 
-/** Groups by "|", code and value by a blank. */
+/** Groups separated by "|", code and value by a space. */
 const dxf = (groups: string): string => groups.replace(/\||(?<=(?:^|\|)\d+) /g, "\n");
 const read = (groups: string): Drawing => endWhenOver(HANGS_MS, () => importDrawing("a.dxf", dxf(groups)));
 
@@ -23,7 +23,7 @@ describe("a POLYLINE", () => {
     expect(read(entities(groups)).paths.count).toBe(shapes);
   });
 
-  it("that the file ends in is damage, in few bytes too", () => {
+  it("at which the file ends is damage, even in a few bytes", () => {
     const error: unknown = (() => {
       try {
         return read("0 SECTION|2 ENTITIES|0 POLYLINE|8 0|66 1|0 LINE|0 EOF");
@@ -57,18 +57,18 @@ describe("a table", () => {
     ["LAYER", "0 TABLE|2 LAYER|0 LAYER|2 a|62 1"],
     ["VPORT", "0 TABLE|2 VPORT|0 VPORT|2 a|0 LAYER|2 b|0 ENDTAB"],
     ["LAYER", "0 TABLE|2 LAYER|0 TABLE|2 VPORT|0 LAYER|2 a|0 EOF"],
-  ])("of %ss that another record stands in, or that has no end, is damage", (kind, groups) => {
+  ])("of %ss that contains another record, or has no end, is damage", (kind, groups) => {
     expect(() => read(tables(groups))).toThrow(
       new RegExp(`damaged at line \\d+: the table of ${kind}s has no end`),
     );
   });
 
-  it("is not passed over by ends of lines of several kinds", () => {
+  it("is not skipped because of mixed line ends", () => {
     const mixed = dxf(tables("0 TABLE|2 LAYER|0 LAYER|2 a|0 X|2 b|0 ENDTAB")).replace("LAYER\n0", "LAYER\r0");
     expect(() => endWhenOver(HANGS_MS, () => importDrawing("a.dxf", mixed))).toThrow(/has no end/);
   });
 
-  it("of any kind is read where it is whole", () => {
+  it("of any kind is read if it is complete", () => {
     const whole =
       "0 TABLE|2 VPORT|70 1|0 VPORT|2 a|0 ENDTAB|0 TABLE|2 LTYPE|0 LTYPE|2 c|0 ENDTAB|0 TABLE|2 LAYER|70 2|0 LAYER|2 a|62 1|0 LAYER|2 b|62 2|0 ENDTAB|0 TABLE|2 STYLE|0 STYLE|2 s|0 ENDTAB";
     expect(read(tables(whole)).paths.count).toBe(1);

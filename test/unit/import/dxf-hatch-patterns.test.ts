@@ -1,4 +1,4 @@
-/** Patterns of hatches as lines, and their elliptical borders. On the page y runs down from 100. */
+/** Hatch patterns as lines, and their elliptical borders. On the page y points down from 100. */
 import { describe, expect, it } from "vitest";
 import { drawDxf } from "./support/dxf.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
@@ -41,7 +41,7 @@ describe("the pattern of a HATCH", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("leaves out islands, and what its style leaves out", () => {
+  it("leaves out islands, and what its style excludes", () => {
     const paths = `91 3\n${square(10, 60, 1)}\n${square(20, 50, 16)}\n${square(30, 40)}`;
     const at35 = (style: number): string[] =>
       linesOf(paths, [LEVEL], style).filter((line) => line.includes(" 65 "));
@@ -71,7 +71,7 @@ describe("the pattern of a HATCH", () => {
     ]);
   });
 
-  it("runs at its angle: each line as long as geometry says, one spacing from the next", () => {
+  it("runs at its angle: each line of the computed length, one spacing from the next", () => {
     // 45°, 4 apart, through the circle's middle.
     const step = 4 / Math.SQRT2;
     const lines = numbers(linesOf(`91 1\n${circle}`, [{ angle: 45, base: [50, 50], offset: [-step, step] }]));
@@ -85,7 +85,7 @@ describe("the pattern of a HATCH", () => {
     });
   });
 
-  it("crosses where it has two families of lines", () => {
+  it("crosses if it has two families of lines", () => {
     const upright: Line = { angle: 90, base: [5, 0], offset: [-10, 0] };
     expect(linesOf(`91 1\n${square(10, 30)}`, [LEVEL, upright])).toEqual([
       "10 85 30 85",
@@ -97,10 +97,10 @@ describe("the pattern of a HATCH", () => {
 
   it.each([
     ["has no lines", []],
-    ["has lines upon each other", [{ angle: 0, offset: [1, 0] }]],
+    ["has overlapping lines", [{ angle: 0, offset: [1, 0] }]],
     ["has more lines than a pen could draw", [{ angle: 0, offset: [0, 1e-6] }]],
     ["has more dashes than a pen could draw", [{ ...LEVEL, dashes: [1e-6, -1e-6] }]],
-  ] as [string, Line[]][])("is taken as a filled shape, with a word, where it %s", (_what, lines) => {
+  ] as [string, Line[]][])("is taken as a filled shape, with a warning, if it %s", (_what, lines) => {
     const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, lines));
     expect(shapesOf(drawing)[1]).toBe("M10 90L50 90L50 50L10 50Z");
     expect(drawing.paths.stroke[1]).toBe(-1);
@@ -109,8 +109,8 @@ describe("the pattern of a HATCH", () => {
 });
 
 /**
- * Of the ellipse about 50, 50 with half axes 40 (turned by the tilt) and 20: where the ray at an angle from the
- * long axis meets it, by the polar equation r = ab / √((b cos)² + (a sin)²).
+ * Of the ellipse about 50, 50 with half axes 40 (turned by the tilt) and 20: its intersection with the ray at
+ * an angle from the long axis, by the polar equation r = ab / √((b cos)² + (a sin)²).
  */
 function onRay(deg: number, tiltDeg: number): [number, number] {
   const [angle, tilt] = [(deg * Math.PI) / 180, (tiltDeg * Math.PI) / 180];
@@ -146,7 +146,8 @@ describe("an elliptical edge of a HATCH", () => {
           Math.min(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
         expect(Math.hypot(points[0][0] - start[0], points[0][1] - start[1])).toBeLessThan(1e-3);
         expect(gapTo(end)).toBeLessThan(1e-3);
-        // On the arc that is meant, not on the rest of the ellipse: its middle is there, that of the other is not.
+        // On the given arc, not on the rest of the ellipse: it contains the arc's midpoint, and not the
+        // other's.
         expect(gapTo(middle)).toBeLessThan(0.2);
         expect(gapTo(onRay((from + to) / 2 + 180, tilt))).toBeGreaterThan(5);
       }

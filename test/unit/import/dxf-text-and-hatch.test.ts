@@ -12,11 +12,11 @@ const letters = (entities: string): string[] =>
     .flatMap((shape) => shape.split(/(?=M)/));
 
 describe("TEXT of a DXF", () => {
-  // Height 7 makes an em of 10: boxes of 5 × 7, 7 apart. On the page y runs down from 100.
+  // Height 7 makes an em of 10: boxes of 5 × 7, 7 apart. On the page y points down from 100.
   const text = (more: string, written = "a"): string[] =>
     letters(`0 TEXT\n8 0\n10 10\n20 20\n40 7\n1 ${written}${more}`);
 
-  it("stands with its baseline on its point, its height that of capitals", () => {
+  it("has its baseline on its point, and capitals as high as its height", () => {
     expect(text("")).toEqual(["M10 80L15 80L15 73L10 73Z"]);
     expect(text("", "a b")[1]).toBe("M24 80L29 80L29 73L24 73Z");
   });
@@ -41,20 +41,20 @@ describe("TEXT of a DXF", () => {
     expect(text(`\n11 50\n21 60\n72 ${halign}\n73 ${valign}`, "ab")[0]).toBe(first);
   });
 
-  it("is fitted between two points: in size, or in width alone", () => {
+  it("is fitted between two points: in size, or only in width", () => {
     // 14 wide on 28: twice as large.
     expect(text("\n11 38\n21 20\n72 3", "ab")[1]).toBe("M24 80L34 80L34 66L24 66Z");
     expect(text("\n11 38\n21 20\n72 5", "ab")[1]).toBe("M24 80L34 80L34 73L24 73Z");
   });
 
-  it("reads codes for signs", () => {
+  it("reads codes for symbols", () => {
     const drawing = drawDxf("0 TEXT\n8 0\n10 10\n20 20\n40 5\n1 %%c20%%p0.1 %%uA%%u 45%%d \\U+00C4 %%065");
     expect(codes(drawing)).toEqual(["text-substituted"]);
     expect(text("", "%%uA%%u")).toHaveLength(1);
     expect(text("", "50%%%")).toHaveLength(3);
   });
 
-  it("is drawn in single strokes by default, in its colour, and says so at its place", () => {
+  it("is drawn in single strokes by default, in its colour, and reports its place", () => {
     const drawing = drawDxf("0 TEXT\n8 0\n62 1\n10 10\n20 20\n40 7\n1 H");
     expect(drawing.colors[drawing.paths.stroke[1]]).toBe("#ff0000");
     expect(drawing.paths.fill[1]).toBe(-1);
@@ -64,13 +64,13 @@ describe("TEXT of a DXF", () => {
     expect(drawing.warnings[0].boxes[0][3]).toBeCloseTo(80, 6);
   });
 
-  it("is reported where text is not wanted, and where the font has not its characters", () => {
+  it("is reported if text is excluded, and if the font lacks its characters", () => {
     const entity = "0 TEXT\n8 0\n10 10\n20 20\n40 7\n1 ";
     expect(codes(drawDxf(`${entity}H`, { text: "none" }))).toEqual(["text-not-drawn"]);
     expect(codes(drawDxf(`${entity}漢`))).toEqual(["glyphs-missing"]);
   });
 
-  it("has the answers of blocks, but not what they ask for", () => {
+  it("has the values of block attributes, but not their prompts", () => {
     const blocks =
       "0 BLOCK\n8 0\n2 B\n70 2\n10 0\n20 0\n3 B\n0 ATTDEF\n8 0\n10 0\n20 0\n40 7\n1 x\n2 TAG\n3 Which?\n70 0\n0 ENDBLK";
     const insert = "0 INSERT\n8 0\n2 B\n66 1\n10 5\n20 5";
@@ -87,7 +87,7 @@ describe("MTEXT of a DXF", () => {
   const mtext = (written: string, more = ""): string[] =>
     letters(`0 MTEXT\n8 0\n10 50\n20 60\n40 7${more}\n1 ${written}`);
 
-  it("hangs from its point, line under line at 5/3 of its height", () => {
+  it("hangs from its point, lines spaced at 5/3 of its height", () => {
     expect(mtext("a\\Pb")).toEqual([
       "M50 47L55 47L55 40L50 40Z",
       "M50 58.6667L55 58.6667L55 51.6667L50 51.6667Z",
@@ -133,7 +133,7 @@ describe("MTEXT of a DXF", () => {
     expect(mtext(written)).toHaveLength(count);
   });
 
-  it("puts its pieces together", () => {
+  it("joins its pieces", () => {
     expect(mtext("c", "\n3 a\n3 b")).toHaveLength(3);
   });
 });
@@ -153,7 +153,7 @@ describe("HATCH of a DXF", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("says that a pattern is taken as one colour", () => {
+  it("reports that a pattern is drawn as one colour", () => {
     expect(codes(drawDxf(hatch(`91 1\n${square(10, 50)}`, 0)))).toEqual(["gradient-fill"]);
   });
 
@@ -166,7 +166,7 @@ describe("HATCH of a DXF", () => {
     expect(Math.max(...points.map(([, y]) => y))).toBeCloseTo(60, 2);
   });
 
-  it("chains edges that stand either way round into one ring", () => {
+  it("chains edges in either direction into one ring", () => {
     const line = (...at: number[]): string => `72 1\n10 ${at[0]}\n20 ${at[1]}\n11 ${at[2]}\n21 ${at[3]}`;
     const path = ["92 1", "93 3", line(30, 10, 10, 10), line(30, 10, 30, 30), line(10, 10, 30, 30), "97 0"];
     expect(shapesOf(drawDxf(hatch(`91 1\n${path.join("\n")}`)))[1]).toBe("M10 90L30 90L30 70L10 90Z");
@@ -199,7 +199,7 @@ describe("HATCH of a DXF", () => {
     expect(shapesOf(drawing)[1]).toBe("M10 90C10 10 90 10 90 90L10 90Z");
   });
 
-  it("is passed over where its boundary is damaged", () => {
+  it("is skipped if its boundary is damaged", () => {
     expect(drawDxf(hatch("91 1\n92 1\n93 1\n72 1")).paths.count).toBe(1);
     expect(drawDxf("0 HATCH\n8 0").paths.count).toBe(1);
   });

@@ -12,22 +12,22 @@ describe("the encoding of a file", () => {
   it.each([
     ["UTF-8", new TextEncoder().encode(SVG)],
     ["UTF-8 with a mark", new TextEncoder().encode(`\ufeff${SVG}`)],
-    ["UTF-16, little end first", bytesOf(`\ufeff${SVG}`, true)],
-    ["UTF-16, big end first", bytesOf(`\ufeff${SVG}`, false)],
+    ["UTF-16, little endian", bytesOf(`\ufeff${SVG}`, true)],
+    ["UTF-16, big endian", bytesOf(`\ufeff${SVG}`, false)],
     ["UTF-16 without a mark", bytesOf(SVG, true)],
-    ["UTF-16, big end first, without a mark", bytesOf(SVG, false)],
+    ["UTF-16, big endian, without a mark", bytesOf(SVG, false)],
   ])("%s", (_name, bytes) => {
     expect(textOfBytes(bytes)).toBe(SVG);
   });
 
-  it("is what the XML declaration says", () => {
+  it("follows the XML declaration", () => {
     const text = `<?xml version='1.0' encoding="ISO-8859-1"?>${SVG}`;
     const bytes = Uint8Array.from(Buffer.from(text, "latin1"));
     expect(encodingOf(bytes)).toBe("iso-8859-1");
     expect(textOfBytes(bytes)).toBe(text);
   });
 
-  it("is UTF-8 where the declaration names none that is known", () => {
+  it("is UTF-8 if the declaration names an unknown one", () => {
     const text = `<?xml version="1.0" encoding="klingon"?>${SVG}`;
     expect(textOfBytes(new TextEncoder().encode(text))).toBe(text);
   });

@@ -81,9 +81,9 @@ describe("path data", () => {
     ["after z a relative move is from the start", "m1 1h2v2zm5 5h1", "M1 1L3 1L3 3ZM6 6L7 6"],
     ["subpaths", "M0 0h1M5 5h1", "M0 0L1 0M5 5L6 5"],
     ["arc with a zero radius is a line", "M0 0A0 5 0 0 1 9 9", "M0 0L9 9"],
-    ["arc to where it is draws nothing", "M1 1A5 5 0 0 1 1 1L2 2", "M1 1L2 2"],
+    ["arc to its own start draws nothing", "M1 1A5 5 0 0 1 1 1L2 2", "M1 1L2 2"],
     ["keeps what comes before a fault", "M0 0L1 1L2", "M0 0L1 1"],
-    ["keeps what comes before a strange letter", "M0 0L1 1K5 5", "M0 0L1 1"],
+    ["keeps what comes before an unknown letter", "M0 0L1 1K5 5", "M0 0L1 1"],
     ["numbers may have leading zeros", "M007 01L010.50 2", "M7 1L10.5 2"],
   ])("%s", (_name, d, expected) => {
     expect(shapes(`<path d="${d}"/>`)).toEqual([expected]);
@@ -114,7 +114,7 @@ describe("path data", () => {
     expect(compact).toEqual(shapes('<path d="M0 0a10 10 0 0 1 10 10a5 5 0 1 0 .5 -3"/>'));
   });
 
-  it("grows radii that are too small to reach", () => {
+  it("enlarges radii that are too small", () => {
     for (const [x, y] of pointsOf(draw('<path d="M10 50A1 1 0 0 1 30 50"/>'))) {
       expect(Math.hypot(x - 20, y - 50)).toBeCloseTo(10, 4);
     }
@@ -156,13 +156,13 @@ describe("transforms", () => {
     ).toEqual(["M8 22L8 24"]);
   });
 
-  it("ignores a malformed transform and says so", () => {
+  it("ignores a malformed transform and reports it", () => {
     const drawing = draw('<path d="M1 0H2" transform="rotate(90,)scale("/>');
     expect(shapesOf(drawing)).toEqual(["M1 0L2 0"]);
     expect(codes(drawing)).toEqual(["attribute-fault"]);
   });
 
-  it("draws nothing that is scaled to nothing", () => {
+  it("draws nothing that is scaled to zero", () => {
     expect(shapes('<g transform="scale(0)"><path d="M1 0H2"/></g>')).toEqual([]);
   });
 
@@ -187,7 +187,7 @@ describe("units and viewports", () => {
     ["width alone keeps the ratio", 'width="50mm" viewBox="0 0 10 20"', 50, 100],
     ["height alone keeps the ratio", 'height="50mm" viewBox="0 0 10 20"', 25, 50],
     ["CSS width before the attribute", 'width="10mm" height="10mm" style="width:20mm"', 20, 10],
-    ["a size of zero is no size", 'width="0" height="0" viewBox="0 0 96 96"', 25.4, 25.4],
+    ["a size of zero is ignored", 'width="0" height="0" viewBox="0 0 96 96"', 25.4, 25.4],
   ])("page size in %s", (_name, attributes, width, height) => {
     const drawing = importSvg(`<svg ${attributes}><path stroke="red" d="M0 0h1"/></svg>`);
     expect(drawing.widthMm).toBeCloseTo(width, 9);
@@ -220,7 +220,7 @@ describe("units and viewports", () => {
     expect(points[0][0]).toBeCloseTo(60, 6);
   });
 
-  it("takes other resolutions for px when asked, and leaves mm alone", () => {
+  it("uses another resolution for px on request, and leaves mm unchanged", () => {
     const px = importSvg('<svg width="72" height="72"><path stroke="red" d="M0 0h72"/></svg>', {
       pxPerInch: 72,
     });
@@ -230,7 +230,7 @@ describe("units and viewports", () => {
     expect(mm.widthMm).toBe(10);
   });
 
-  it("takes the page from the drawing where the file says nothing, and says so", () => {
+  it("takes the page from the drawing if the file has none, and reports that", () => {
     const drawing = importSvg('<svg><path stroke="red" d="M96 96h96v192"/></svg>');
     expect(drawing.widthMm).toBeCloseTo(25.4, 9);
     expect(drawing.heightMm).toBeCloseTo(50.8, 9);
@@ -262,7 +262,7 @@ describe("units and viewports", () => {
     expect(shapes(body)).toEqual(["M10 20L30 20"]);
   });
 
-  it("means the nested viewport by percent", () => {
+  it("takes percentages from the nested viewport", () => {
     expect(shapes('<svg x="10" width="40" height="20"><line x2="100%" y2="50%"/></svg>')).toEqual([
       "M10 0L50 10",
     ]);
@@ -277,11 +277,11 @@ describe("units and viewports", () => {
     expect(draw(nested('overflow="visible"')).clips.length).toBe(0);
   });
 
-  it("leaves out the clip where it cuts nothing", () => {
+  it("omits a clip that cuts nothing", () => {
     expect(draw('<svg x="10" y="10" width="20" height="20"><path d="M5 5h5"/></svg>').clips).toEqual([]);
   });
 
-  it("keeps curves in tiny user units as true as large ones", () => {
+  it("keeps the precision of curves in tiny user units", () => {
     const text =
       '<svg width="100mm" height="100mm" viewBox="0 0 1 1"><circle stroke="red" cx=".5" cy=".5" r=".4"/></svg>';
     for (const [x, y] of pointsOf(importSvg(text))) {
@@ -289,7 +289,7 @@ describe("units and viewports", () => {
     }
   });
 
-  it("reads elements that carry SVG's prefix", () => {
+  it("reads elements with SVG's prefix", () => {
     const text =
       '<s:svg xmlns:s="http://www.w3.org/2000/svg" width="96" height="96"><s:path stroke="red" d="M0 0h96"/></s:svg>';
     expect(shapesOf(importSvg(text))).toEqual(["M0 0L25.4 0"]);

@@ -6,11 +6,11 @@ import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
 const ETX = "\u0003";
 
-/** A frame of 100 × 100 mm, then the commands; letters of 4 × 8 mm unless told: 6 mm from one to the next. */
+/** A frame of 100 × 100 mm, then the commands; letters of 4 × 8 mm by default: 6 mm from one to the next. */
 const draw = (commands: string, options: ImportOptions = {}) =>
   importDrawing("a.plt", `IN;SP1;PU0,0;EA4000,4000;SI0.4,0.8;${commands}`, options);
 
-/** Every letter is a box of the size of a plain capital, in the middle of a place of the same width. */
+/** Every letter is a box of the size of a plain capital, in the middle of a cell of the same width. */
 const boxes: TextFont = {
   kind: "outline",
   layout: (line) => ({
@@ -24,7 +24,7 @@ const boxes: TextFont = {
   }),
 };
 
-/** The boxes as "left bottom" mm on the page, whose y runs down from 100 at the plotter's 0. */
+/** The boxes as "left bottom" mm on the page, whose y points down from 100 at the plotter's 0. */
 const feet = (commands: string): string[] =>
   shapesOf(draw(commands, { text: "outline", font: boxes }))
     .slice(1)
@@ -32,7 +32,7 @@ const feet = (commands: string): string[] =>
     .map((box) => /^M([^L]*)/.exec(box)![1]);
 
 describe("labels of HPGL", () => {
-  it("stand on the pen's place in letters of the size that SI gives", () => {
+  it("are at the pen's position in letters of the size that SI sets", () => {
     const drawing = draw(`PU400,800;LBH${ETX}`);
     const points = pointsOf(drawing, 1);
     const round = (values: number[]): number[] => values.map((v) => Math.round(v * 1e4) / 1e4);
@@ -47,11 +47,11 @@ describe("labels of HPGL", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("have one and a half letters from one to the next, and leave the pen behind the last", () => {
+  it("advance by one and a half letters, and leave the pen behind the last", () => {
     expect(feet(`PU400,800;LBab c${ETX}LBd${ETX}`)).toEqual(["10 80", "16 80", "28 80", "34 80"]);
   });
 
-  it("are text, whatever commands they look like, up to their end", () => {
+  it("are text up to their end, whatever commands they contain", () => {
     expect(feet(`PU400,800;LBPD;PU1${ETX}`)).toHaveLength(6);
     expect(feet(`DT#;PU400,800;LBa;b#PU0,0;LBc#`)).toEqual(["10 80", "16 80", "22 80", "0 100"]);
     expect(feet(`DTA;DT;PU400,800;LBA${ETX}`)).toHaveLength(1);
@@ -65,7 +65,7 @@ describe("labels of HPGL", () => {
     expect(feet(`PU400,1600;CP2,-0.5;LBa${ETX}`)).toEqual(["22 68"]);
   });
 
-  // "ab" is 10 wide and 8 high; the pen stands at 50, 50 on the page.
+  // "ab" is 10 wide and 8 high; the pen is at 50, 50 on the page.
   it.each([
     [1, "50 50"],
     [2, "50 54"],
@@ -81,7 +81,7 @@ describe("labels of HPGL", () => {
     [15, "45 54"],
     [17, "38 46"],
     [19, "38 62"],
-  ])("stand about the pen's place by LO%i", (origin, first) => {
+  ])("are placed about the pen's position by LO%i", (origin, first) => {
     expect(feet(`LO${origin};PU2000,2000;LBab${ETX}`)[0]).toBe(first);
   });
 
@@ -100,18 +100,18 @@ describe("labels of HPGL", () => {
     ["down", "DV1;LO3", ["50 58", "50 74"], ["50 90"]],
     ["to the left", "DV2;LO7", ["46 50", "40 50"], ["34 50"]],
     ["up", "DV3;LO1", ["50 50", "50 34"], ["50 18"]],
-  ])("run %s, and the next label goes on from there", (_way, settings, first, next) => {
+  ])("run %s, and the next label continues from there", (_way, settings, first, next) => {
     expect(feet(`${settings};PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual([...first, ...next]);
   });
 
-  it("stand with their whole column about the pen's place, which stays where they do not begin there", () => {
+  it("have their whole column placed about the pen's position, which stays if they do not begin there", () => {
     // 24 high: 8, 16 apart.
     expect(feet(`DV1;LO1;PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual(["50 34", "50 50", "50 50"]);
     expect(feet(`DV1;LO5;PU2000,2000;LBab${ETX}`)).toEqual(["48 46", "48 62"]);
     expect(feet(`DV3;LO9;PU2000,2000;LBab${ETX}`)).toEqual(["46 74", "46 58"]);
   });
 
-  it("begin a new line clockwise from the way they run, or the other way round", () => {
+  it("begin a new line clockwise from their direction, or the other way round", () => {
     expect(feet(`DV1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "44 58"]);
     expect(feet(`DV1,1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "56 58"]);
     expect(feet(`DV0,1;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "50 34"]);
@@ -120,7 +120,7 @@ describe("labels of HPGL", () => {
     expect(feet(`DV1,1;IN;SP1;SI0.4,0.8;PU2000,2000;LBab${ETX}`)).toEqual(["50 50", "56 50"]);
   });
 
-  it("run and lean the way they are told", () => {
+  it("have the given direction and slant", () => {
     const box = (commands: string): string =>
       shapesOf(draw(`${commands};PU2000,2000;LBa${ETX}`, { text: "outline", font: boxes }))[1];
     expect(box("DI0,1")).toBe("M50 50L50 46L42 46L42 50Z");
@@ -130,13 +130,13 @@ describe("labels of HPGL", () => {
     expect(box("DI0,1;DI")).toBe("M50 50L54 50L54 42L50 42Z");
   });
 
-  it("are drawn with the pen up, by the pen in the holder, and not by none", () => {
+  it("are drawn with the pen up, by the pen in the holder, and not without one", () => {
     const drawing = draw(`SP2;PU400,800;LBH${ETX}SP0;PU800,800;LBH${ETX}`);
     expect(drawing.paths.count).toBe(2);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Pen 1", "Pen 2"]);
   });
 
-  it("are reported where text is not wanted, and where the letters are missing", () => {
+  it("are reported if text is excluded, and if letters are missing", () => {
     expect(codes(draw(`PU400,800;LBH${ETX}PD500,800;`, { text: "none" }))).toEqual(["text-not-drawn"]);
     expect(codes(draw(`PU400,800;LBA漢${ETX}`))).toEqual(["glyphs-missing"]);
   });

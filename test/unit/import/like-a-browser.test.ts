@@ -3,7 +3,7 @@ import { beforeAll, describe, expect, it } from "vitest";
 import { disagreement } from "./support/disagreement.js";
 import { loadResvg } from "./support/resvg-shapes.js";
 
-/** Of the page's side. */
+/** Fraction of the page's side. */
 const TOLERANCE = 0.0005;
 
 beforeAll(loadResvg);
@@ -18,7 +18,7 @@ describe("markers", () => {
     '<path d="M20 20L60 40L30 80" fill="none" stroke="red" stroke-width="2" marker-end="url(#m)"/>';
   it.each([
     [
-      "inherit from where they stand, not from the shape",
+      "inherit from their parent, not from the shape",
       `<g fill="none" stroke="blue"><marker id="m" markerWidth="5" markerHeight="5"><path d="M1 1L3 2L1 3"/></marker></g>${LINE}`,
     ],
     [

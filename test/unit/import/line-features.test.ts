@@ -13,7 +13,7 @@ describe("clips", () => {
   const clip = (inner: string, attributes = ""): string =>
     `<clipPath id="c" ${attributes}>${inner}</clipPath>`;
 
-  it("cuts to a shape, given once for all that it cuts", () => {
+  it("cuts to a shape, stored once for everything that it cuts", () => {
     const drawing = draw(
       `${clip('<circle cx="50" cy="50" r="10"/>')}<g clip-path="url(#c)"><path d="M0 50h100"/><path d="M50 0v100"/></g>`,
     );
@@ -22,14 +22,14 @@ describe("clips", () => {
     expect(drawing.clips[0].parent).toBe(-1);
   });
 
-  it("leaves out a rectangle that cuts nothing", () => {
+  it("omits a rectangle that cuts nothing", () => {
     const drawing = draw(
       `${clip('<rect width="100" height="100"/>')}<g clip-path="url(#c)"><path d="M0 50h100"/></g>`,
     );
     expect(drawing.clips).toEqual([]);
   });
 
-  it("maps the region with the element that it clips", () => {
+  it("maps the region with the clipped element", () => {
     const drawing = draw(
       `${clip('<rect width="10" height="10"/>')}<g transform="translate(20 0) scale(2)" clip-path="url(#c)"><path d="M0 5h50"/></g>`,
     );
@@ -79,7 +79,7 @@ describe("clips", () => {
     expect(shapes(`${clip("")}<path clip-path="url(#c)" d="M0 0h90"/>`)).toEqual([]);
   });
 
-  it("draws unclipped where the clip is missing, circular or a CSS shape, and says so", () => {
+  it("draws unclipped if the clip is missing, circular or a CSS shape, and reports it", () => {
     for (const value of ["url(#no)", "circle(40%)"]) {
       const drawing = draw(`<path style="clip-path:${value}" d="M0 0h9"/>`);
       expect(shapesOf(drawing)).toEqual(["M0 0L9 0"]);
@@ -125,7 +125,7 @@ describe("markers", () => {
   const marked = (attributes: string, path: string): string[] =>
     shapes(`${marker(attributes)}<path ${path} />`).slice(1);
 
-  it("stands at start, middles and end", () => {
+  it("are placed at start, middles and end", () => {
     expect(marked("", 'd="M10 10h10v10" style="marker:url(#m)"')).toEqual([
       "M10 10L12 10",
       "M20 10L22 10",
@@ -133,48 +133,48 @@ describe("markers", () => {
     ]);
   });
 
-  it("turns with the line", () => {
+  it("turn with the line", () => {
     expect(marked('orient="auto"', 'd="M10 10v10" marker-end="url(#m)"')).toEqual(["M10 20L10 22"]);
   });
 
-  it("turns round at the start when asked", () => {
+  it("are reversed at the start on request", () => {
     expect(marked('orient="auto-start-reverse"', 'd="M10 10v10" marker-start="url(#m)"')).toEqual([
       "M10 10L10 8",
     ]);
   });
 
-  it("halves the angle in the middle", () => {
+  it("bisect the angle in the middle", () => {
     const [shape] = marked('orient="auto"', 'd="M10 10h10v10" marker-mid="url(#m)"');
     expect(shape).toBe("M20 10L21.4142 11.4142");
   });
 
-  it("turns by a fixed angle", () => {
+  it("turn by a fixed angle", () => {
     expect(marked('orient="90"', 'd="M10 10h10" marker-end="url(#m)"')).toEqual(["M20 10L20 12"]);
   });
 
-  it("lays its reference point on the vertex and fits its viewBox", () => {
+  it("put their reference point on the vertex and fit their viewBox", () => {
     expect(marked('viewBox="0 0 2 2" refX="1" refY="1"', 'd="M10 10h10" marker-end="url(#m)"')).toEqual([
       "M18 8L22 8",
     ]);
   });
 
-  it("grows with the line's width by default", () => {
+  it("scale with the line's width by default", () => {
     const body = `<marker id="m" overflow="visible"><path stroke="red" d="M0 0h2"/></marker><path d="M10 10h10" stroke-width="3" marker-end="url(#m)"/>`;
     expect(shapes(body)[1]).toBe("M20 10L26 10");
   });
 
-  it("does not stand inside an arc", () => {
+  it("are not placed inside an arc", () => {
     expect(marked("", 'd="M10 10A10 10 0 0 1 30 10" marker-mid="url(#m)"')).toEqual([]);
   });
 
-  it("takes the line's colour when asked", () => {
+  it("take the line's colour on request", () => {
     const drawing = draw(
       `<marker id="m"><path fill="none" stroke="context-stroke" d="M0 0h2"/></marker><path d="M10 10h10" stroke="blue" marker-end="url(#m)"/>`,
     );
     expect(strokes(drawing)).toEqual(["#0000ff", "#0000ff"]);
   });
 
-  it("stops at markers on markers", () => {
+  it("do not nest", () => {
     const body = `<marker id="m" overflow="visible"><path d="M0 0h2" marker-end="url(#m)"/></marker><path d="M10 10h10" marker-end="url(#m)"/>`;
     expect(shapes(body)).toEqual(["M10 10L20 10", "M20 10L22 10"]);
   });

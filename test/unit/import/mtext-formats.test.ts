@@ -1,4 +1,7 @@
-/** What the codes inside an MTEXT do to its letters. Height 7 makes an em of 10: boxes of 5 × 7, 7 from one to the next. */
+/**
+ * The effect of the codes inside an MTEXT on its letters. Height 7 makes an em of 10: boxes of 5 × 7, 7 from
+ * one to the next.
+ */
 import { describe, expect, it } from "vitest";
 import type { ImportOptions } from "../../../src/import/import-options.js";
 import type { TextFont } from "../../../src/import/text/text-font.js";
@@ -8,7 +11,7 @@ import { codes, shapesOf } from "./support/shapes.js";
 /** The text hangs from 10, 10 of the page. */
 const draw = (written: string, more = "", options: ImportOptions = { text: "outline", font: boxes }) =>
   drawDxf(`0 MTEXT\n8 0\n10 10\n20 90\n40 7${more}\n1 ${written}`, options);
-/** Corners of letters and bars, in the order in which they are drawn. */
+/** Corners of letters and bars, in drawing order. */
 const drawn = (written: string, more = ""): string[] =>
   shapesOf(draw(written, more))
     .slice(1)
@@ -30,19 +33,19 @@ describe("formats inside an MTEXT", () => {
     expect(feet("\\T2;ab")).toEqual(["10 17", "24 17"]);
   });
 
-  it("stand smaller letters on the base line, in the middle, or under the top of their line", () => {
+  it("put smaller letters on the base line, in the middle, or at the top of their line", () => {
     const small = (align: number): string => feet(`\\A${align};a{\\H3.5;b}`)[1];
     expect([0, 1, 2].map(small)).toEqual(["17 17", "17 15.25", "17 13.5"]);
   });
 
-  it("lay lines as far apart as their tallest letters need", () => {
+  it("space lines as their tallest letters need", () => {
     // 5/3 of 14 below the first, whose letters are 7 high; then 5/3 of 7.
     expect(feet("a\\P\\H14;b\\P\\H7;c")).toEqual(["10 17", "10 40.3333", "10 52"]);
     // Standing on its point; the page grows to where its top is.
     expect(feet("\\H14;a\\P\\H7;b", "\n71 7")).toEqual(["10 14", "10 25.6667"]);
   });
 
-  it("stack fractions over a bar, in the middle of each other", () => {
+  it("stack fractions over a bar, centred on each other", () => {
     // The bar is 0.1 heights longer on both sides; parts are 0.4 heights apart.
     expect(drawn("\\S12/3;")).toEqual([
       "M10.7 17L15.7 17L15.7 10L10.7 10Z",
@@ -62,7 +65,7 @@ describe("formats inside an MTEXT", () => {
     ]);
   });
 
-  it("keep lines apart that stacks would reach over", () => {
+  it("keep lines apart that stacks would overlap", () => {
     // 4.9 below the first base line, then 0.4 heights, then 7.
     const [a, , , , b] = feet("\\A1;a\\S1/2;\\Pb").map((foot) => Number(foot.split(" ")[1]));
     expect(b - a).toBeCloseTo(4.9 + 2.8 + 7, 3);
@@ -91,14 +94,14 @@ describe("formats inside an MTEXT", () => {
     expect(feet("a\\~a b", "\n41 25")).toEqual(["10 17", "24 17", "10 28.6667"]);
   });
 
-  it("set colours by index and as RGB, each a shape of its own, and the text's own again", () => {
+  it("set colours by index and as RGB, each as its own shape, and restore the text's colour", () => {
     const { paths, colors } = draw("a{\\C1;b\\c65280;c}\\C7;d\\C256;e", "\n62 5");
     const fills = Array.from({ length: paths.count - 1 }, (_, i) => colors[paths.fill[i + 1]]);
     expect(fills).toEqual(["#0000ff", "#ff0000", "#00ff00", "#000000"]);
     expect(shapesOf(draw("a{\\C1;b}c"))[1].match(/M/g)).toHaveLength(2);
   });
 
-  it("are left out without their letters where they are not known or broken off", () => {
+  it("are left out without their letters if they are unknown or incomplete", () => {
     expect(feet("a\\Zb\\M+1D7F0c")).toEqual(["10 17", "17 17", "24 17"]);
     expect(feet("a\\Hb}}")).toEqual(["10 17", "17 17"]);
     expect(feet("{{{a\\W;b\\H-3;c\\Q")).toEqual(["10 17", "17 17", "24 17"]);

@@ -30,7 +30,7 @@ describe("the registry of formats", () => {
 });
 
 describe("DXF", () => {
-  it("turns y over and takes the page from the drawing", () => {
+  it("flips y and takes the page from the drawing", () => {
     const drawing = draw("0 LINE 8 0 10 10 20 20 11 30 21 60");
     expect([drawing.widthMm, drawing.heightMm]).toEqual([20, 40]);
     expect(shapesOf(drawing)).toEqual(["M0 40L20 0"]);
@@ -46,7 +46,7 @@ describe("DXF", () => {
     expect(drawing.widthMm).toBeCloseTo(mm, 9);
   });
 
-  it("says so where units are missing", () => {
+  it("reports missing units", () => {
     expect(codes(draw(FRAME, { header: "9 $ACADVER 1 AC1009" }))).toEqual(["page-size"]);
   });
 
@@ -87,7 +87,7 @@ describe("DXF", () => {
     expect(shapesOf(draw(apart))).toEqual(["M0 10L10 0"]);
   });
 
-  it("draws a cubic B-spline as the curve that its knots say", () => {
+  it("draws a cubic B-spline according to its knots", () => {
     // Clamped, one span: a Bézier curve.
     const knots = "40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1";
     const points = "10 0 20 0 10 0 20 100 10 100 20 100 10 100 20 0";
@@ -103,7 +103,7 @@ describe("DXF", () => {
     expect(spline).toBe("M0 100C0 40 25 20 50 20C75 20 100 40 100 100");
   });
 
-  it("makes layers of layers, with their colours, and leaves out the hidden", () => {
+  it("makes layers of layers, with their colours, and omits the hidden ones", () => {
     const tables =
       "0 LAYER 2 cut 70 0 62 1 6 CONTINUOUS 0 LAYER 2 fold 70 0 62 5 6 CONTINUOUS 0 LAYER 2 off 70 0 62 -3 6 CONTINUOUS 0 LAYER 2 ice 70 1 62 3 6 CONTINUOUS";
     const line = (layer: string): string => `0 LINE 8 ${layer} 10 0 20 0 11 9 21 9`;
@@ -156,7 +156,7 @@ describe("a damaged DXF", () => {
 describe("HPGL", () => {
   const hpgl = (text: string) => importDrawing("a.plt", text);
 
-  it("draws by pen, in plotter units of 0.025 mm, y turned over", () => {
+  it("draws by pen, in plotter units of 0.025 mm, with y flipped", () => {
     const drawing = hpgl("IN;SP1;PU0,0;PD400,0,400,800;PU;SP2;PA0,0;PD;PA400,800;PU;SP0;");
     expect([drawing.widthMm, drawing.heightMm]).toEqual([10, 20]);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Pen 1", "Pen 2"]);
@@ -164,7 +164,7 @@ describe("HPGL", () => {
     expect([...drawing.paths.group]).toEqual([0, 1]);
   });
 
-  it("goes relative and back", () => {
+  it("switches between relative and absolute", () => {
     expect(shapesOf(hpgl("IN;SP1;PU400,400;PR;PD400,0,0,400;PA;PD0,0;"))).toEqual(["M10 10L20 10L20 0L0 20"]);
   });
 
@@ -235,7 +235,7 @@ describe("JSON polylines", () => {
     [{ layers: [{ strokes: [[1, null]] }] }],
     [{ widthMm: -1, heightMm: 5, layers: [] }],
     [{ layers: [{ color: "nope", strokes: [] }] }],
-  ])("refuses %j with the form that it should have", (value) => {
+  ])("refuses %j and shows the expected form", (value) => {
     expect(() => json(value)).toThrow(/widthMm/);
   });
 });
@@ -256,7 +256,7 @@ describe("importDrawing", () => {
     expect(formatOf(name, text)).toBe(format);
   });
 
-  it("says what it can read when it can read nothing", () => {
+  it("lists the readable formats if it can read nothing", () => {
     expect(() => importDrawing("notes.txt", "just words")).toThrow(/notes\.txt.*SVG, DXF, HPGL/);
     expect(() => importDrawing("a.pdf", "%PDF-1.4")).toThrow(/PDF/);
   });

@@ -1,4 +1,4 @@
-/** Our import against resvg on real icons and on tricky files: same shapes, same order, same places. */
+/** Our import compared with resvg on real icons and on tricky files: same shapes, same order, same places. */
 import { readdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
@@ -36,7 +36,7 @@ describe("agreement with an independent renderer", () => {
     }
   });
 
-  it("fails when a shape is a little off, so the comparison can fail", () => {
+  it("fails if a shape is slightly off, so the comparison can fail", () => {
     const theirs = resvgShapes(
       '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><path stroke="red" d="M10 10h50"/></svg>',
     ).shapes[0];

@@ -1,4 +1,7 @@
-/** Features of SVG that browsers know and resvg does not, or not in its printed tree: each draws as a plainer file does. */
+/**
+ * Features of SVG that browsers support but resvg does not, or not in its printed tree: each draws like a
+ * simpler file.
+ */
 import { describe, expect, it } from "vitest";
 import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { draw, page, shapes, shapesOf } from "./support/shapes.js";
@@ -78,14 +81,14 @@ describe("transforms", () => {
     expect(shapes(turned)).toEqual(shapes(BOX.replace("/>", ` transform="rotate(30 ${at})"/>`)));
   });
 
-  it("turn about the shape's own box, where that is asked for", () => {
+  it("turn about the shape's own box on request", () => {
     const style = "transform:rotate(30deg);transform-box:fill-box;transform-origin:center";
     expect(shapes(BOX.replace("/>", ` style="${style}"/>`))).toEqual(
       shapes(BOX.replace("/>", ' transform="rotate(30 40 30)"/>')),
     );
   });
 
-  it("with two commas in a row are none", () => {
+  it("with two commas in a row are ignored", () => {
     expect(shapes(`<g transform="translate(1,,2)">${BOX}</g>`)).toEqual(shapes(BOX));
   });
 
@@ -124,7 +127,7 @@ describe("what is not drawn", () => {
     expect(warning?.message).toContain(detail);
   });
 
-  it("is dashed as it was before it was stretched", () => {
+  it("is dashed as before it was stretched", () => {
     const [dash] = draw('<path transform="scale(4 1)" stroke-dasharray="1" d="M0 0h9"/>').dashes;
     expect(dash).toEqual({ lengths: [2, 2], offset: 0, measure: { a: 0.5, b: -0, c: -0, d: 2 } });
     expect(
@@ -171,13 +174,13 @@ describe("the file", () => {
     expect(shapesOf(importSvg(text))).toEqual(shapes(BOX));
   });
 
-  it("may hold elements of other vocabularies, which are not drawn", () => {
+  it("may have elements of other vocabularies, which are not drawn", () => {
     expect(shapes(`<g xmlns="http://example.org/other"><rect width="9" height="9"/></g>${BOX}`)).toEqual(
       shapes(BOX),
     );
   });
 
-  it("may write href both ways: the plain one counts", () => {
+  it("may write href both ways: the plain one has priority", () => {
     const defs = '<defs><path id="a" d="M0 0h1"/><path id="b" d="M0 0h2"/></defs>';
     for (const both of ['xlink:href="#a" href="#b"', 'href="#b" xlink:href="#a"']) {
       expect(shapes(`${defs}<use ${both}/>`)).toEqual(shapes('<path d="M0 0h2"/>'));
@@ -201,7 +204,7 @@ describe("the file", () => {
     expect(shapes(body)).toEqual([]);
   });
 
-  it("draws in spite of display none on the outermost element, a clip path or a marker", () => {
+  it("ignores display none on the outermost element, a clip path or a marker", () => {
     expect(shapesOf(importSvg(page(BOX, 'display="none"')))).toEqual(shapes(BOX));
     expect(
       draw(
@@ -213,7 +216,7 @@ describe("the file", () => {
     expect(shapes(marker)).toHaveLength(2);
   });
 
-  it("paints no line without height in a gradient that goes by its box, but in the colour behind that", () => {
+  it("paints no line of height 0 with a gradient relative to its box, but in the fallback colour", () => {
     const gradient = '<linearGradient id="g"><stop stop-color="red"/></linearGradient>';
     expect(shapes(`${gradient}<path d="M0 0h9" stroke="url(#g)"/>`)).toEqual([]);
     expect(draw(`${gradient}<path d="M0 0h9" stroke="url(#g) blue"/>`).colors).toEqual(["#0000ff"]);
@@ -242,7 +245,7 @@ describe("clips", () => {
     expect(clipsOf(body)).toEqual([[23, 24, 43, 24, 43, 34, 23, 34]]);
   });
 
-  it("of a clipPath go by the box of the shape", () => {
+  it("of a clipPath are relative to the box of the shape", () => {
     const body = `<clipPath id="d" clip-path="url(#c)"><rect width="90" height="90"/></clipPath>${clip('clipPathUnits="objectBoundingBox"')}<g clip-path="url(#d)">${BOX}</g>`;
     expect(clipsOf(body)).toEqual([[20, 20, 40, 20, 40, 30, 20, 30]]);
   });
@@ -255,18 +258,18 @@ describe("clips", () => {
     expect([Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)]).toEqual([30, 50, 30, 50]);
   });
 
-  it("that go in circles come to an end", { timeout: 20_000 }, () => {
+  it("that refer to themselves come to an end", { timeout: 20_000 }, () => {
     const children = '<rect clip-path="url(#c)" transform="scale(.9)" width="50" height="50"/>'.repeat(10);
     const drawing = draw(`<clipPath id="c">${children}</clipPath><g clip-path="url(#c)">${BOX}</g>`);
     expect(drawing.warnings.map(({ code }) => code)).toContain("clip-ignored");
   });
 
-  it("inherit their rule from where they stand", () => {
+  it("inherit their rule from their parent", () => {
     const body = `<g clip-rule="evenodd"><clipPath id="c"><path d="M0 0h50v50z"/></clipPath></g><g clip-path="url(#c)">${BOX}</g>`;
     expect([...draw(body).clips[0].rule]).toEqual([1]);
   });
 
-  it("hold for texts in parts of their box", () => {
+  it("apply to texts in parts of their box", () => {
     const body = `${clip('clipPathUnits="objectBoundingBox"')}<text clip-path="url(#c)" x="10" y="50" font-size="20">HHHH</text>`;
     const [[x0, y0, x1, , , y2]] = clipsOf(body);
     expect(x0).toBeCloseTo(10);
@@ -274,7 +277,7 @@ describe("clips", () => {
     expect([y0, y2].map(Math.round)).toEqual([32, 43]);
   });
 
-  it("hold for the outermost element", () => {
+  it("apply to the outermost element", () => {
     const text = page(
       `<clipPath id="c"><rect width="30" height="30"/></clipPath>${BOX}`,
       'clip-path="url(#c)"',

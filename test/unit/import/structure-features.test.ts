@@ -44,7 +44,7 @@ describe("copies", () => {
     expect(shapes(body)).toEqual(expected);
   });
 
-  it("inherits style from the copy, not from where the original stands", () => {
+  it("inherits style from the copy, not from the parent of the original", () => {
     const drawing = draw(
       `<defs stroke="blue"><path id="a" ${PATH}/></defs><g stroke="red"><use href="#a"/></g>`,
     );
@@ -58,7 +58,7 @@ describe("copies", () => {
     expect(strokes(drawing)).toEqual(["#ff0000"]);
   });
 
-  it("warns of missing and of outside originals", () => {
+  it("warns of missing and external originals", () => {
     expect(codes(draw('<use href="#no"/>'))).toContain("reference-missing");
     expect(codes(draw('<use href="other.svg#a"/>'))).toContain("reference-external");
   });
@@ -78,12 +78,12 @@ describe("layers", () => {
     expect(names(g('id="Layer_x5F_1"') + g('id="_x31_0_x20_mm"'))).toEqual(["Layer_1", "10 mm"]);
   });
 
-  it("looks through one outer group, and through several", () => {
+  it("skips one outer group, and several", () => {
     expect(names(g('id="all"', g('id="a"') + g('id="b"')))).toEqual(["a", "b"]);
     expect(names(g('id="o"', g('id="p"', g('id="a"') + g('id="b"'))))).toEqual(["a", "b"]);
   });
 
-  it("looks through a switch as Illustrator writes it", () => {
+  it("skips a switch as Illustrator writes it", () => {
     const body = `<switch><foreignObject requiredExtensions="x"/><g>${g('id="a"')}${g('id="b"')}</g></switch>`;
     expect(names(body)).toEqual(["a", "b"]);
   });
@@ -92,12 +92,12 @@ describe("layers", () => {
     expect(names(g('id="only"'))).toEqual(["only"]);
   });
 
-  it("keeps a single Inkscape layer whose groups are no layers", () => {
+  it("keeps a single Inkscape layer whose groups are not layers", () => {
     const body = g('inkscape:groupmode="layer" inkscape:label="Ink"', g('id="a"') + g('id="b"'));
     expect(names(body)).toEqual(["Ink"]);
   });
 
-  it("takes only Inkscape's layers for layers where there are any", () => {
+  it("treats only Inkscape's layers as layers if there are any", () => {
     const body = g('inkscape:groupmode="layer" inkscape:label="Ink"') + g('id="a"') + g('id="b"');
     const drawing = draw(body);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Ink", "Layer 2"]);
@@ -116,7 +116,7 @@ describe("layers", () => {
     expect(ids[0]).toBe("a");
   });
 
-  it("lists a hidden layer, does not draw it and says so", () => {
+  it("lists a hidden layer, does not draw it and reports it", () => {
     const drawing = draw(g('inkscape:label="Off" style="display:none"') + g('inkscape:label="On"'));
     expect(drawing.groups.map(({ name, hidden }) => [name, hidden])).toEqual([
       ["Off", true],
@@ -126,7 +126,7 @@ describe("layers", () => {
     expect(drawing.warnings[0].message).toContain("Off");
   });
 
-  it("takes hundreds of groups for data, not layers", () => {
+  it("treats hundreds of groups as data, not layers", () => {
     const drawing = draw(g("").repeat(500));
     expect(drawing.groups.length).toBe(1);
     expect(codes(drawing)).toEqual(["too-many-layers"]);

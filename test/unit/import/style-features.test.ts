@@ -34,7 +34,7 @@ describe("colours", () => {
     expect(strokes(drawing)).toEqual([expected]);
   });
 
-  it("keeps what was inherited where a colour is malformed", () => {
+  it("keeps the inherited value if a colour is malformed", () => {
     expect(strokes(draw(`<path ${PATH} stroke="#ggg"/>`))).toEqual(["#000000"]);
   });
 
@@ -46,7 +46,7 @@ describe("colours", () => {
     expect(fills(drawing)).toEqual(["-", "-", "#ff0000"]);
   });
 
-  it("draws a gradient stroke in its first colour, found through href, and says so", () => {
+  it("draws a gradient stroke in its first colour, found through href, and reports it", () => {
     const drawing = draw(
       `<defs><linearGradient id="a"><stop stop-color="teal"/><stop stop-color="red"/></linearGradient><linearGradient id="b" xlink:href="#a"/></defs><path d="M0 0l9 9" stroke="url(#b)"/>`,
     );
@@ -137,7 +137,7 @@ describe("the cascade", () => {
     expect(strokes(draw(body)).filter((color) => color === "#ff0000").length).toBe(24_999);
   });
 
-  it("reads style sheets in CDATA, and those that come last", () => {
+  it("reads style sheets in CDATA, and those at the end", () => {
     expect(strokes(draw(`<path ${PATH}/><style><![CDATA[ g > x, path { stroke: red } ]]></style>`))).toEqual([
       "#ff0000",
     ]);
@@ -157,7 +157,7 @@ describe("the cascade", () => {
   });
 });
 
-describe("what is not seen is not drawn", () => {
+describe("what is invisible is not drawn", () => {
   it.each([
     ["display:none", `<path ${PATH} display="none"/>`],
     ["display:none above", `<g style="display:none"><g><path ${PATH}/></g></g>`],
@@ -205,14 +205,14 @@ describe("what is not seen is not drawn", () => {
       "filter-ignored",
       [1, 2, 4, 6],
     ],
-  ])("says what is lost and where: %s", (_name, body, code, box) => {
+  ])("reports what is lost and where: %s", (_name, body, code, box) => {
     const [warning] = draw(body).warnings;
     expect(warning.code).toBe(code);
     expect(warning.boxes[0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual(box);
     expect(warning.message).toMatch(/\.$/);
   });
 
-  it("counts what it warns of and names only the first places", () => {
+  it("counts its warnings and names only the first places", () => {
     const [warning] = draw('<image x="1" width="1" height="1"/>'.repeat(50)).warnings;
     expect(warning.count).toBe(50);
     expect(warning.boxes.length).toBe(20);

@@ -34,7 +34,7 @@ describe("baselines", () => {
     expect(Math.abs(bottom(body) - expected)).toBeLessThanOrEqual(1);
   });
 
-  it("shift further in each element inside", () => {
+  it("accumulate shifts of nested elements", () => {
     expect(bottom(text('<tspan baseline-shift="2"><tspan baseline-shift="3">H</tspan></tspan>'))).toBe(450);
   });
 });
@@ -51,14 +51,14 @@ describe("decorations", () => {
     expect(added[0].startsWith(begin)).toBe(true);
   });
 
-  it("have the colour of the element that asks for them", () => {
+  it("have the colour of the requesting element", () => {
     const drawing = draw(text('<tspan fill="blue">H</tspan>', 'text-decoration="underline"'));
     expect(drawing.colors).toEqual(["#ff0000", "#0000ff"]);
   });
 });
 
 describe("widths", () => {
-  it("are what textLength says, by gaps or by wider letters", () => {
+  it("have the given textLength, by gaps or by wider letters", () => {
     const plain = width(text("HHHH"));
     const gaps = width(text("HHHH", 'textLength="60"'));
     const glyphs = width(text("HHHH", 'textLength="60" lengthAdjust="spacingAndGlyphs"'));
@@ -70,19 +70,19 @@ describe("widths", () => {
     );
   });
 
-  it("hold in a tspan for its own letters alone", () => {
+  it("apply in a tspan only to its own letters", () => {
     const all = text('A<tspan textLength="40">HH</tspan>B');
     const [, , x1] = extent(all);
     expect(x1).toBeGreaterThan(extent(text("AHHB"))[2] + 150);
   });
 
-  it("stay as they are for lengths that browsers do not heed", () => {
+  it("ignore lengths that browsers ignore", () => {
     for (const attributes of ['textLength="0"', 'dominant-baseline="text-top"']) {
       expect(shapes(text("HH", attributes))).toEqual(shapes(text("HH")));
     }
   });
 
-  it("grow with word-spacing at each blank", () => {
+  it("grow with word-spacing at each space", () => {
     expect(width(text("H H H", 'word-spacing="5"')) - width(text("H H H"))).toBe(100);
   });
 });
@@ -103,7 +103,7 @@ describe("spaces", () => {
 });
 
 describe("letters", () => {
-  it("are small capitals where that is asked for", () => {
+  it("are small capitals on request", () => {
     expect(shapes(text("Hh", 'font-variant="small-caps"'))).toEqual(
       shapes(text('H<tspan font-size="7">H</tspan>')),
     );
@@ -114,7 +114,7 @@ describe("letters", () => {
     expect(shapes(text("ab cd", 'style="text-transform:capitalize"'))).toEqual(shapes(text("Ab Cd")));
   });
 
-  it("run down the page in vertical text, turned by a quarter", () => {
+  it("run down the page in vertical text, turned by 90°", () => {
     const [x0, y0, x1, y1] = extent(text("HHHH", 'writing-mode="tb"'));
     expect(x1 - x0).toBe(70);
     expect(x0).toBeLessThan(100);
@@ -123,7 +123,7 @@ describe("letters", () => {
     expect(y1 - y0).toBe(width(text("HHHH")));
   });
 
-  it("end at the text's place where they run from the right", () => {
+  it("end at the text's position if they run from the right", () => {
     const [, , x1] = extent(text("HHHH", 'direction="rtl"'));
     expect(x1).toBeLessThan(100);
   });

@@ -19,7 +19,7 @@ function extent(drawing: Drawing): [number, number, number, number] {
 }
 
 describe("single-stroke letters", () => {
-  it("stand on the baseline, capitals 0.7 em high, as strokes in the text's colour", () => {
+  it("are on the baseline, capitals 0.7 em high, as strokes in the text's colour", () => {
     const drawing = draw(text("H"));
     const [x0, y0, x1, y1] = extent(drawing);
     expect([y0, y1]).toEqual([43, 50]);
@@ -30,13 +30,13 @@ describe("single-stroke letters", () => {
     expect([...drawing.paths.fill]).toEqual([-1]);
   });
 
-  it("say that they stand in for the file's font, and where", () => {
+  it("report that they replace the file's font, and where", () => {
     const { warnings } = draw(text("Hi"));
     expect(warnings.map((warning) => warning.code)).toEqual(["text-substituted"]);
     expect(warnings[0].boxes[0][0]).toBeGreaterThan(10);
   });
 
-  it("follow one another by their widths and by letter-spacing", () => {
+  it("advance by their widths and by letter-spacing", () => {
     const width = (attributes: string): number => {
       const [x0, , x1] = extent(draw(text("HH", `x="10" y="50" ${attributes}`)));
       return x1 - x0;
@@ -53,14 +53,14 @@ describe("single-stroke letters", () => {
     expect((x0 + x1) / 2).toBeCloseTo(50, 6);
   });
 
-  it("begin anew at a tspan's place and go on after its shift", () => {
+  it("start again at a tspan's position and continue after its shift", () => {
     const drawing = draw(text('H<tspan x="30" y="70">H</tspan><tspan dy="-10">H</tspan>'));
     const feet = [0, 1, 2].map((i) => Math.max(...pointsOf(drawing, i).map(([, y]) => y)));
     expect(feet).toEqual([50, 70, 60]);
     expect(Math.min(...pointsOf(drawing, 1).map(([x]) => x))).toBeGreaterThan(30);
   });
 
-  it("take a place each from lists", () => {
+  it("take one position each from lists", () => {
     const drawing = draw(text("HHH", 'x="10 30 60" y="50"'));
     const lefts = [0, 1, 2].map((i) => Math.min(...pointsOf(drawing, i).map(([x]) => x)));
     expect(lefts[1] - lefts[0]).toBeCloseTo(20, 6);
@@ -74,7 +74,7 @@ describe("single-stroke letters", () => {
     expect(y1 - y0).toBeCloseTo(14, 6);
   });
 
-  it("obey the style of the span they stand in", () => {
+  it("follow the style of their span", () => {
     const drawing = draw(
       text('H<tspan fill="blue" font-size="20">H</tspan><tspan visibility="hidden">H</tspan>'),
     );
@@ -84,7 +84,7 @@ describe("single-stroke letters", () => {
     expect(Math.max(...ys) - Math.min(...ys)).toBeCloseTo(14, 6);
   });
 
-  it("take runs of blanks for one, unless they are preserved", () => {
+  it("collapse spaces, unless they are preserved", () => {
     const left = (body: string, attributes = ""): number =>
       Math.min(...pointsOf(draw(text(body, `x="10" y="50" ${attributes}`)), 1).map(([x]) => x));
     expect(left("H \n\t H")).toBeCloseTo(left("H H"), 9);
@@ -98,7 +98,7 @@ describe("single-stroke letters", () => {
     expect(extent(draw(text("É")))[1]).toBeLessThan(extent(draw(text("E")))[1] - 1);
   });
 
-  it("name the characters that they have not", () => {
+  it("name the missing characters", () => {
     const drawing = draw(text("A漢字B"));
     expect(drawing.paths.count).toBe(2);
     const missing = drawing.warnings.find((warning) => warning.code === "glyphs-missing");
@@ -106,7 +106,7 @@ describe("single-stroke letters", () => {
     expect(missing?.message).toContain("漢");
   });
 
-  it("are in script where the font is", () => {
+  it("are in script if the font is", () => {
     expect(shapesOf(draw(text("a", 'x="10" y="50" font-family="Brush Script"')))).not.toEqual(
       shapesOf(draw(text("a"))),
     );
@@ -119,7 +119,7 @@ describe("single-stroke letters", () => {
     expect(codes(drawing)).toEqual(["text-substituted"]);
   });
 
-  it("are left out when text is not wanted, with a warning at its place", () => {
+  it("are left out if text is excluded, with a warning at its place", () => {
     const drawing = draw(text("Hi"), { text: "none" });
     expect(drawing.paths.count).toBe(0);
     expect(drawing.warnings[0].code).toBe("text-not-drawn");
@@ -145,7 +145,7 @@ describe("outlines of a font", () => {
     expect(drawing.warnings).toEqual([]);
   });
 
-  it("refuse bytes that are no font", async () => {
+  it("refuse bytes that are not a font", async () => {
     await expect(openOutlineFont(new Uint8Array([1, 2, 3, 4, 5, 6, 7, 8]))).rejects.toThrow(PlotwrightError);
   });
 
@@ -180,7 +180,7 @@ describe("text on a path", () => {
       font: square,
     });
 
-  it("stands on it letter by letter, as on a line where the path is straight", () => {
+  it("follows it letter by letter, as on a line if the path is straight", () => {
     const drawing = onPath("ab", 'href="#level"');
     expect(shapesOf(drawing)).toEqual(["M10 50L20 50L20 40L10 40Z", "M25 50L35 50L35 40L25 40Z"]);
     expect(codes(drawing)).toEqual([]);
@@ -193,7 +193,7 @@ describe("text on a path", () => {
   it.each([
     ["a length", 'startOffset="20"', ["M30 50L40 50L40 40L30 40Z"]],
     ["a share of the path", 'startOffset="50%"', ["M50 50L60 50L60 40L50 40Z"]],
-    ["a length by the path's own count", 'href="#counted" startOffset="2"', ["M30 50L40 50L40 40L30 40Z"]],
+    ["a length in the path's own units", 'href="#counted" startOffset="2"', ["M30 50L40 50L40 40L30 40Z"]],
   ])("begins %s along", (_what, attributes, shapes) => {
     const href = attributes.includes("href") ? "" : 'href="#level"';
     expect(shapesOf(onPath("a", `${href} ${attributes}`))).toEqual(shapes);
@@ -202,7 +202,7 @@ describe("text on a path", () => {
   it("is anchored about its start offset", () => {
     const anchored = (anchor: string): string[] =>
       shapesOf(onPath("ab", 'href="#level" startOffset="50%"', `text-anchor="${anchor}"`));
-    // 30 wide with what follows the second letter.
+    // 30 wide with the gap after the second letter.
     expect(anchored("middle")[0]).toBe("M35 50L45 50L45 40L35 40Z");
     expect(anchored("end")[0]).toBe("M20 50L30 50L30 40L20 40Z");
   });
@@ -219,7 +219,7 @@ describe("text on a path", () => {
   });
 
   it("runs around a circle, upright outside of it, and over its seam", () => {
-    // Clockwise from the right: twelve letters of 15 on a way of 188.5.
+    // Clockwise from the right: twelve letters of 15 on a path of 188.5.
     const drawing = onPath("abcdefghijkl", 'href="#round" startOffset="25%" text-anchor="middle"');
     expect(drawing.paths.count).toBe(12);
     for (let i = 0; i < 12; i++) {
@@ -231,7 +231,7 @@ describe("text on a path", () => {
     }
   });
 
-  it("stands on the other side and runs back with side right", () => {
+  it("is on the other side and runs backwards with side right", () => {
     expect(shapesOf(onPath("a", 'href="#level" side="right"'))).toEqual(["M90 50L80 50L80 60L90 60Z"]);
   });
 
@@ -240,7 +240,7 @@ describe("text on a path", () => {
     expect(shapesOf(onPath("ab", 'xlink:href="#two"'))[1]).toBe("M45 60L55 60L55 50L45 50Z");
   });
 
-  it("is followed by what comes after it, at the path's end", () => {
+  it("is followed by the next text at the path's end", () => {
     const drawing = draw(`${PATHS}${text('<textPath href="#short">a</textPath>b', "")}`, {
       text: "outline",
       font: square,
@@ -248,22 +248,19 @@ describe("text on a path", () => {
     expect(shapesOf(drawing)[1]).toBe("M30 50L40 50L40 40L30 40Z");
   });
 
-  it("obeys spans inside of it, in single strokes too", () => {
+  it("follows the style of inner spans, in single strokes too", () => {
     const body = text('<textPath href="#down">H<tspan fill="blue" font-size="20">H</tspan></textPath>', "");
     const drawing = draw(PATHS + body);
     expect(drawing.colors).toEqual(["#ff0000", "#0000ff"]);
-    // Capitals are 0.7 em high, and stand to the right of a path that leads down.
+    // Capitals are 0.7 em high, to the right of a path that points down.
     expect(extent(drawing).map((mm) => Math.round(mm * 1e6) / 1e6)[0]).toBe(50);
     expect(extent(drawing)[2]).toBeCloseTo(64, 6);
     expect(codes(drawing)).toEqual(["text-substituted"]);
   });
 
-  it.each(['href="#nowhere"', "", 'href="other.svg#p"'])(
-    "is reported where its path is missing: %j",
-    (href) => {
-      const drawing = onPath("along", href);
-      expect(drawing.paths.count).toBe(0);
-      expect(codes(drawing)).toContain("text-not-drawn");
-    },
-  );
+  it.each(['href="#nowhere"', "", 'href="other.svg#p"'])("is reported if its path is missing: %j", (href) => {
+    const drawing = onPath("along", href);
+    expect(drawing.paths.count).toBe(0);
+    expect(codes(drawing)).toContain("text-not-drawn");
+  });
 });

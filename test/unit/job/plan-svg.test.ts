@@ -1,4 +1,4 @@
-/** The library's short ways in: from text, and from lines that a program has computed. */
+/** The library's short forms: from text, and from lines that a program has computed. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_MOTION,
@@ -20,14 +20,14 @@ const svg = (path: string): string =>
 const SVG = svg("M10 30H90M20 10V50");
 
 describe("without settings", () => {
-  it("prepare and plan take the defaults", () => {
+  it("prepare and plan use the defaults", () => {
     const drawing = importSvg(SVG);
     expect(prepare(drawing)).toEqual(prepare(drawing, DEFAULT_PREPARE));
     const { strokes } = prepare(drawing);
     expect(plan(strokes).totalS).toBe(plan(strokes, DEFAULT_MOTION, DEFAULT_PEN).totalS);
   });
 
-  it("planSvg plans what the steps one by one plan", () => {
+  it("planSvg gives the same plan as the single steps", () => {
     const planned = planSvg(SVG);
     const prepared = prepare(importSvg(SVG), DEFAULT_PREPARE);
     const steps = planJob(prepared, DEFAULT_PLOT_SETTINGS, machineById("axidraw-v3"));
@@ -37,7 +37,7 @@ describe("without settings", () => {
 });
 
 describe("planSvg", () => {
-  it("takes a job's whole settings, with a machine of one's own", () => {
+  it("takes a job's whole settings, with a custom machine", () => {
     const mine = { ...machineById("axidraw-v3"), id: "mine", widthMm: 20 };
     const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "mine", customMachine: mine };
     expect(() => planSvg(SVG, settings)).toThrow(expect.objectContaining({ code: "out-of-bounds" }) as Error);
@@ -45,7 +45,7 @@ describe("planSvg", () => {
     expect(planSvg(SVG, DEFAULT_PLOT_SETTINGS, { firmware }).commands().count).toBeGreaterThan(4);
   });
 
-  it("says that there is nothing to draw", () => {
+  it("reports that there is nothing to draw", () => {
     expect(() => planSvg(svg(""))).toThrow(expect.objectContaining({ code: "bad-file" }) as Error);
   });
 });
@@ -66,7 +66,7 @@ describe("strokesOf", () => {
     expect(strokesOf([]).offsets).toEqual(new Uint32Array(1));
   });
 
-  it("names the line at fault", () => {
+  it("names the line with the fault", () => {
     expect(() => strokesOf([[[0, 0]], []])).toThrow(/line 1 has no points/);
     expect(() => strokesOf([[[0, NaN]]])).toThrow(/line 0 has the point 0, NaN/);
   });

@@ -14,7 +14,7 @@ const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc
 const mm = fc.double({ min: -1_000, max: 1_000, noNaN: true });
 
 describe("machine profiles", () => {
-  it("have ids of their own, and sizes and servo ranges that the board can do", () => {
+  it("have unique ids, and sizes and servo ranges that the board supports", () => {
     expect(new Set(MACHINES.map((machine) => machine.id)).size).toBe(MACHINES.length);
     for (const machine of MACHINES) {
       expect(machine.widthMm).toBeGreaterThan(0);
@@ -24,14 +24,14 @@ describe("machine profiles", () => {
     }
   });
 
-  it("are found by id, and a wrong one is answered with those there are", () => {
+  it("are found by id; an unknown id is answered with the known ones", () => {
     expect(machineById("axidraw-v3").stepsPerMm).toBe(80);
     expect(() => machineById("axidraw-v9")).toThrow(/axidraw-v3, /);
   });
 });
 
 describe("motor axes", () => {
-  it("lead back to where they came from on every machine, however it is wired", () => {
+  it("map back to the same position on every machine, however it is wired", () => {
     fc.assert(
       fc.property(fc.constantFrom(...MACHINES), flips, mm, mm, (model, wiring, x, y) => {
         const machine = { ...model, ...wiring };

@@ -28,8 +28,8 @@ const VECTORS: Readonly<Record<Direction, readonly [number, number]>> = {
 const directionOf = (x: number, y: number): Direction =>
   DIRECTIONS.find((one) => Math.abs(VECTORS[one][0] - x) + Math.abs(VECTORS[one][1] - y) < 1e-6)!;
 
-describe("a machine turned to the way it was seen to go", () => {
-  it("goes to the right and down whatever its wiring was and its profile said", () => {
+describe("a machine corrected by its observed directions", () => {
+  it("moves right and down for any wiring and profile", () => {
     fc.assert(
       fc.property(machines, machines, (wiring, told) => {
         // What the carriage does when the profile `like` drives motors that are wired as `wiring` says.
@@ -45,7 +45,7 @@ describe("a machine turned to the way it was seen to go", () => {
     );
   });
 
-  it("cannot be made of two moves along one line: a motor does not turn", () => {
+  it("cannot be made from two moves along one line: a motor does not turn", () => {
     expect(() => machineTurned(machineById("axidraw-v3"), "right", "left")).toThrow(
       /one motor does not turn/,
     );
@@ -53,11 +53,11 @@ describe("a machine turned to the way it was seen to go", () => {
 });
 
 describe("the steps for one mm", () => {
-  it("make the square come out as it should when it is drawn again", () => {
+  it("make the square the right size when it is drawn again", () => {
     fc.assert(
       fc.property(machines, fc.double({ min: 0.2, max: 5, noNaN: true }), (machine, share) => {
         const stepsPerMm = stepsPerMmMeasured(machine, 100, 100 * share);
-        // The same motors, which really made `machine.stepsPerMm / share` steps for a mm.
+        // The same motors, which really made `machine.stepsPerMm / share` steps per mm.
         const realStepsPerMm = machine.stepsPerMm / share;
         expect((100 * stepsPerMm) / realStepsPerMm).toBeCloseTo(100, 9);
       }),
@@ -65,7 +65,7 @@ describe("the steps for one mm", () => {
     );
   });
 
-  it("are the mean of both sides, and of no slip of the ruler", () => {
+  it("are the mean of both sides, and exclude a misreading of the ruler", () => {
     const machine = machineById("axidraw-v3");
     expect(stepsPerMmMeasured(machine, 50, 49, 51)).toBeCloseTo(80, 9);
     for (const [x, y] of [
@@ -83,13 +83,13 @@ describe("the steps for one mm", () => {
 describe("the machine of a job's settings", () => {
   const own: MachineProfile = { ...machineById("axidraw-v3"), id: "mine", widthMm: 500 };
 
-  it("is the profile that they carry when it is the one they name, else the one that is known", () => {
+  it("is the profile stored in them if it is the named one, otherwise the known one", () => {
     expect(machineOf({ machine: "mine", customMachine: own })).toBe(own);
     expect(machineOf({ machine: "axidraw-v3", customMachine: own }).widthMm).toBe(300);
     expect(machineOf({ machine: "axidraw-v3" }).id).toBe("axidraw-v3");
   });
 
-  it("is missed by name when nobody knows it", () => {
+  it("is reported by name if it is unknown", () => {
     expect(() => machineOf({ machine: "mine" })).toThrow(/no machine "mine"/);
     expect(findMachine({ machine: "mine" })).toBeNull();
   });

@@ -1,4 +1,7 @@
-/** mm along the drawing, which holds and stops go on from: where the pen is on it, at every instant of a ramp too. */
+/**
+ * mm along the drawing, from which holds and stops resume: they match the pen at every instant, also on a
+ * ramp.
+ */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt } from "../../../src/index.js";
 import { MOTION_MODES } from "../../../src/internal.js";
@@ -6,10 +9,13 @@ import { pointOfPlace } from "../../../src/plan/place-on-drawing.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { RETRACED } from "../../support/stop-truth.js";
 
-/** Round the tip, which is cut off, they go on; and fitted pieces run a little ahead of the plan or behind it. */
+/**
+ * Round the tip, which is cut off, they continue; and merged pieces run slightly ahead of the plan or behind
+ * it.
+ */
 const WITHIN_MM = 0.08;
 
-/** Straights and sharp corners, and points so dense that pieces are fitted to them. */
+/** Straights and sharp corners, and points so dense that pieces are merged. */
 const DRAWINGS = {
   "a line there and back": [10, 20, 40, 20, 10, 20],
   "a line of many points there and back": Array.from({ length: 161 }, (_, i) => [
@@ -19,7 +25,7 @@ const DRAWINGS = {
 };
 
 describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
-  it.each(Object.entries(DRAWINGS))("are where the pen is, on %s", (_, line) => {
+  it.each(Object.entries(DRAWINGS))("are the pen's position on %s", (_, line) => {
     const trajectory = plan(strokesOf(line), { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
     for (let tS = 0; tS < trajectory.totalS; tS += 0.004) {
       const { stroke, alongMm, x } = stateAt(trajectory, tS);
@@ -28,7 +34,7 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
     }
   });
 
-  it("are where the pen is, on tips and lines gone over again, in whose turns pieces turn back", () => {
+  it("are the pen's position on tips and retraced lines, where pieces reverse", () => {
     const trajectory = plan(RETRACED, { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
     let farthestMm = 0;
     for (let tS = 0; tS < trajectory.totalS; tS += 0.002) {

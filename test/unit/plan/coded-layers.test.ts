@@ -16,14 +16,14 @@ const resolved = (settings: typeof SETTINGS, ...names: readonly string[]) =>
   withLayerCodes(settings, strokesNamed(...names).layers);
 
 describe("codes in layer names, as settings", () => {
-  it("give the layer its height, its speed on the scale they are written for, and its wait", () => {
+  it("set the layer's height, its speed on the scale of the original software, and its wait", () => {
     const { motion, pen } = resolved(SETTINGS, "plain", "+h20+s25+d500 gold");
     // 25 of 110 parts of 8.6979 inches a second.
     expect(motion.layers).toEqual({ l1: { speedMmPerS: 50.2 } });
     expect(pen.layers).toEqual({ l1: { downPct: 20, beforeMs: 500 } });
   });
 
-  it("yield to what is set for the layer, field by field", () => {
+  it("are overridden by the layer's settings, field by field", () => {
     const own = {
       ...SETTINGS,
       motion: { ...DEFAULT_MOTION, layers: { l0: { accelMmPerS2: 100 } } },
@@ -34,13 +34,13 @@ describe("codes in layer names, as settings", () => {
     expect(pen.layers).toEqual({ l0: { downPct: 25, beforeMs: 100 } });
   });
 
-  it("change nothing where there are none, and nothing more the second time", () => {
+  it("change nothing if there are none, and nothing more the second time", () => {
     expect(resolved(SETTINGS, "plain", "+x9 other")).toBe(SETTINGS);
     const once = resolved(SETTINGS, "+s30+h10");
     expect(withLayerCodes(once, strokesNamed("+s30+h10").layers)).toEqual(once);
   });
 
-  it("are passed over where the pen would never leave the paper", () => {
+  it("are ignored if the pen would never leave the paper", () => {
     expect(resolved(SETTINGS, "+h80").pen.layers).toBeUndefined();
   });
 
@@ -61,7 +61,7 @@ describe("codes in layer names, as settings", () => {
     expect(trajectoryStats(coded).penLiftCount).toBe(trajectoryStats(given).penLiftCount);
   });
 
-  it("waits once only: not again where a plot goes on in the layer's middle", () => {
+  it("waits only once: not again if a plot resumes in the layer's middle", () => {
     const strokes = { ...strokesNamed("a", "a"), layer: Uint16Array.of(0, 0) };
     const pen = { ...DEFAULT_PEN, layers: { l0: { beforeMs: 3_000 } } };
     const waits = (from?: { stroke: number; alongMm: number }) =>
@@ -73,7 +73,7 @@ describe("codes in layer names, as settings", () => {
 describe("names with codes for other software", () => {
   const strokes = strokesNamed("1 sky", "+s50 sea", "!gold");
 
-  it("say what the settings say, and read back as the same settings", () => {
+  it("encode the settings, and read back as the same settings", () => {
     const settings = {
       ...SETTINGS,
       layerStops: { l1: true },
@@ -87,7 +87,7 @@ describe("names with codes for other software", () => {
     expect(again.pen.layers).toEqual({ l2: { downPct: 12, beforeMs: 250 } });
   });
 
-  it("are the plain names where every layer is as all", () => {
+  it("are the plain names if every layer uses the common settings", () => {
     expect(codedLayerNames(strokesNamed("a", "2 b"), SETTINGS)).toEqual(["a", "2 b"]);
   });
 });

@@ -1,9 +1,9 @@
-/** The filter over time: a box makes jerk of acceleration, impulses repeat the motion later. */
+/** The filter over time: a box turns jumps of acceleration into jerk, impulses repeat the motion later. */
 import { describe, expect, it } from "vitest";
 import { BlockColumns } from "../../../src/plan/block-columns.js";
 import { boxKernel, impulseKernel, writeFiltered, type Kernel } from "../../../src/plan/filter.js";
 
-/** 40 mm along x in a quarter of a second up, a steady half of a second and down again. */
+/** 40 mm along x: accelerate for a quarter of a second, hold for half a second, slow down again. */
 function filtered(kernel: Kernel): BlockColumns {
   const from = new BlockColumns(0, false);
   from.push(0.25, 10, 5, 0, 0, 200, 0, 0);

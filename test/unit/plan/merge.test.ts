@@ -1,4 +1,4 @@
-/** Merging: pairs of blocks in the place of more, exact at their ends and within ε between. */
+/** Merging: pairs of blocks replace longer sequences, exact at their ends and within ε between. */
 import { describe, expect, it } from "vitest";
 import { compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
 import { DEFAULT_FIT, type FitSettings, type MotionMode } from "../../../src/internal.js";
@@ -40,7 +40,7 @@ function straightRun(phases: readonly (readonly [number, number])[]): {
   return { blocks, at: { x, y: 0, alongMm: x, segmentCount: phases.length } };
 }
 
-/** A line of 100 000 points that loops all the way, as in dense handwriting. */
+/** A line of 100 000 points in continuous loops, as in dense handwriting. */
 const LOOPS: Point[] = Array.from({ length: 100_000 }, (_, i) => {
   const u = i / 15;
   const along = 0.3 * u;
@@ -61,7 +61,7 @@ describe("merging one run", () => {
     expect(blocks.vx[k] + s * blocks.ax[k]).toBeCloseTo(0, 9);
   });
 
-  it("joins a block below the floor with its neighbour, where the pair is above it", () => {
+  it("joins a block below the min duration with its neighbour, if the pair is above it", () => {
     const { blocks, at } = straightRun([
       [0.1, 400],
       [0.004, 380],
@@ -71,7 +71,7 @@ describe("merging one run", () => {
     expect(Math.min(...blocks.durationS.subarray(0, blocks.count))).toBeGreaterThan(0.015);
   });
 
-  it("leaves blocks alone that already are at the limit", () => {
+  it("leaves blocks unchanged that are already at the limit", () => {
     const { blocks, at } = straightRun([
       [0.1, 500],
       [0.5, 0],
@@ -81,7 +81,7 @@ describe("merging one run", () => {
     expect([...blocks.durationS.subarray(0, blocks.count)]).toEqual([0.1, 0.5, 0.1]);
   });
 
-  it("keeps the runs before it", () => {
+  it("leaves the runs before it unchanged", () => {
     const { blocks, at } = straightRun(Array.from({ length: 20 }, (_, i) => [0.01, i < 10 ? 300 : -300]));
     const before = new BlockColumns(0, false);
     before.push(1, 7, 8, 0, 0, 0, 0, 0);
@@ -109,7 +109,7 @@ describe("a merged plan", () => {
     },
   );
 
-  it("has more blocks the smaller ε is, all within it", () => {
+  it("has more blocks for smaller ε, all within it", () => {
     const points = LOOPS.slice(0, 3_000);
     const counts = [0.005, 0.02, 0.1].map((toleranceMm) => {
       const trajectory = planned(points, "blend", { toleranceMm, floorMs: 15 });

@@ -31,7 +31,7 @@ describe.each(MOTION_MODES)("on a finely sampled circle, mode %s", (mode) => {
         for (const fit of [null, DEFAULT_FIT]) {
           const strokes = strokeSetOf([circle(radius, step, 2)]);
           const t = plan(strokes, { mode, draw, travel: draw, fit }, DEFAULT_PEN);
-          // A fitted piece's own curvature differs a little from the circle's: there |a| itself tells.
+          // A merged piece's own curvature differs a little from the circle's: then |a| itself decides.
           if (fit === null) expect(topSpeed(t, 1) ** 2 / radius).toBeLessThanOrEqual(1.01 * 200);
           const worst = worstOf(t, strokes, draw, draw, 0.05);
           expect(worst.accel).toBeLessThanOrEqual(1.001);
@@ -59,7 +59,7 @@ describe("fitting", () => {
   });
 
   it("keeps velocity continuous in blend mode, and acceleration in scurve mode", () => {
-    const fitted = (mode: MotionMode) =>
+    const merged = (mode: MotionMode) =>
       worstOf(
         plan(strokes, { mode, draw, travel: draw, fit: DEFAULT_FIT }, DEFAULT_PEN),
         strokes,
@@ -67,18 +67,18 @@ describe("fitting", () => {
         draw,
         1,
       );
-    expect(fitted("blend").velocityJump).toBeLessThan(1e-9);
-    expect(fitted("blend").gap).toBeLessThan(1e-9);
-    expect(fitted("scurve").accelJump).toBeLessThan(1e-6);
-    expect(fitted("scurve").jerk).toBeLessThanOrEqual(1.001);
+    expect(merged("blend").velocityJump).toBeLessThan(1e-9);
+    expect(merged("blend").gap).toBeLessThan(1e-9);
+    expect(merged("scurve").accelJump).toBeLessThan(1e-6);
+    expect(merged("scurve").jerk).toBeLessThanOrEqual(1.001);
   });
 
   it("leaves a polygon's blocks as they are", () => {
     const motion: MotionSettings = { mode: "blend", draw, travel: draw };
     const plain = plan(strokeSetOf([square]), motion, DEFAULT_PEN);
-    const fitted = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
-    expect(fitted.blockCount).toBe(plain.blockCount);
-    expect(fitted.totalS).toBeCloseTo(plain.totalS, 9);
+    const merged = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
+    expect(merged.blockCount).toBe(plain.blockCount);
+    expect(merged.totalS).toBeCloseTo(plain.totalS, 9);
   });
 });
 
@@ -108,7 +108,7 @@ describe("corners", () => {
   });
 
   it("of triangles, stars and squares are taken sooner in blend mode than in junction mode, at speeds near √(2 A δ)/s", () => {
-    // Met faster than that, turning takes longer under A than a jump of velocity does: see docs/comparison.md.
+    // At higher speed, turning takes longer under A than a jump of velocity: see docs/comparison.md.
     const slow = { speedMmPerS: 10, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
     for (const [corners, times] of [
       [3, 1],
@@ -139,7 +139,7 @@ describe("corners", () => {
 });
 
 describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, mode %s", (mode) => {
-  it("goes on without a gap or a jump of its place along the drawing from beginning to end", () => {
+  it("continues without a gap or a jump of its place along the drawing from beginning to end", () => {
     const points = Array.from({ length: 9_000 }, (_, i): Point => {
       const u = i / 50;
       return [30 + u, 20 + (i % 7 === 0 ? 0.3 : 0) + 3 * Math.sin(u)];
@@ -153,7 +153,7 @@ describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, m
     expect(worst.distance).toBeLessThan(0.0251);
     expect(worst.clock).toBeLessThan(1e-9);
     const [first, end] = [t.runs.firstBlock[1], t.runs.firstBlock[2]];
-    // A block stands for about as much of the drawing as it is long.
+    // A block covers about as much of the drawing as its length.
     let most = 0;
     for (let k = first; k + 1 < end; k++) {
       const stands = t.alongMm[k + 1] - t.alongMm[k];
@@ -166,7 +166,7 @@ describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, m
 describe("settings beyond speed and acceleration", () => {
   const base: MotionSettings = { ...DEFAULT_MOTION, fit: null };
 
-  it("draw the first and last millimetres slowly when asked to, in every mode", () => {
+  it("draw the first and last millimetres slowly on request, in every mode", () => {
     for (const mode of MOTION_MODES) {
       const motion = { ...base, mode, ease: { lengthMm: 5, speedMmPerS: 10 } };
       const t = plan(strokeSetOf([[[0, 0], [40, 0]]]), motion, DEFAULT_PEN); // prettier-ignore
@@ -208,7 +208,7 @@ describe("settings beyond speed and acceleration", () => {
     }
   });
 
-  it("that contradict each other are refused in plain words", () => {
+  it("that contradict each other are refused with a clear message", () => {
     const wrong: [Partial<MotionSettings>, Partial<PenSettings>, RegExp][] = [
       [{ fit: { toleranceMm: 0, floorMs: 15 } }, {}, /fit tolerance is 0/],
       [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /slow-in speed/],

@@ -60,7 +60,7 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("waits for the whole first drop, for nobody knows how high the pen really is", () => {
+  it("waits for the whole first drop, because the height of the pen is not known", () => {
     const [drop] = penMovesOf(planned(FAST));
     expect([drop.startS, drop.waitS]).toEqual([0, 0.3]);
   });

@@ -7,13 +7,13 @@ const TIP = strokesOf([0, 0, 10, 0, 0, 0.01]);
 const snapped = (alongMm: number, x: number, vx: number) =>
   snappedPlace(TIP, { stroke: 0, alongMm }, { x, y: 0.005, vx, vy: 0 }, 0.5).alongMm;
 
-describe("the place on the drawing that a pen's is", () => {
+describe("the place on the drawing for a pen position", () => {
   it("is the point beside it", () => {
     expect(snapped(4.03, 4, 20)).toBeCloseTo(4, 6);
     expect(snapped(15.97, 4, -20)).toBeCloseTo(16, 2);
   });
 
-  it("stays as the plan says where the stroke goes the other way than the pen, about a tip", () => {
+  it("follows the plan if the stroke and the pen move in opposite directions, about a tip", () => {
     expect(snapped(10.01, 9.94, 6)).toBe(10.01);
     expect(snapped(9.99, 9.94, -6)).toBe(9.99);
     expect(snapped(10.01, 9.94, -6)).toBeCloseTo(10.06, 3);

@@ -43,12 +43,12 @@ describe("the sequence of runs", () => {
     expect([t.endX, t.endY]).toEqual([0, 0]);
   });
 
-  it("of an empty drawing is nothing at all", () => {
+  it("of an empty drawing is empty", () => {
     const t = plan(strokeSetOf([]), motion, DEFAULT_PEN);
     expect([t.blockCount, t.runs.count, t.penMoves.count, t.totalS]).toEqual([0, 0, 0, 0]);
   });
 
-  it("makes of a dot a drop and a lift with no motion between", () => {
+  it("makes a drop and a lift of a dot, with no motion between", () => {
     const t = plan(strokeSetOf([[[30, 40]]]), motion, DEFAULT_PEN);
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1]);
     expect(t.runs.firstBlock[1]).toBe(t.runs.firstBlock[2]);
@@ -56,14 +56,14 @@ describe("the sequence of runs", () => {
     expect(trajectoryStats(t).travelMm).toBeCloseTo(100, 9);
   });
 
-  it("has no travel where the carriage stands already, and none home when told to stay", () => {
+  it("has no travel to where the carriage already is, and none home when told to stay", () => {
     const t = plan(strokeSetOf([square]), motion, DEFAULT_PEN, { startX: 10, startY: 10, returnHome: false });
     expect(Array.from(t.runs.stroke)).toEqual([0]);
     expect(penMovesOf(t).map((m) => m.up)).toEqual([false, true]);
     expect([t.endX, t.endY]).toEqual([10, 10]);
   });
 
-  it("keeps the pen down where a stroke goes on from the last one, but not across layers", () => {
+  it("keeps the pen down if a stroke continues from the last one, but not across layers", () => {
     const strokes: Point[][] = [
       [
         [0, 0],
@@ -78,7 +78,7 @@ describe("the sequence of runs", () => {
     expect(plan(strokeSetOf(strokes, [0, 1]), motion, DEFAULT_PEN).penMoves.count).toBe(4);
   });
 
-  it("begins in mid-stroke where told to", () => {
+  it("begins in mid-stroke on request", () => {
     const t = plan(strokeSetOf([square]), motion, DEFAULT_PEN, { from: { stroke: 0, alongMm: 15 } });
     const first = t.runs.firstBlock[1];
     expect([t.x[first], t.y[first], t.alongMm[first]]).toEqual([20, 15, 15]);
@@ -103,7 +103,7 @@ describe("the state at a time", () => {
     }
   });
 
-  it("tells stroke and way along it while drawing", () => {
+  it("has stroke and distance along it while drawing", () => {
     const start = t.runs.startS[1];
     const end = t.penMoves.startS[1];
     const s = stateAt(t, (start + end) / 2);
@@ -112,7 +112,7 @@ describe("the state at a time", () => {
     expect([s.x, s.y].map((v) => v.toFixed(6))).toEqual(["20.000000", "20.000000"]);
   });
 
-  it("refuses a time that is no number", () => {
+  it("refuses a time that is not a number", () => {
     expect(() => stateAt(t, Number.NaN)).toThrow(RangeError);
   });
 });
@@ -169,7 +169,7 @@ describe("corner speed in junction mode", () => {
 });
 
 describe("what cannot be planned", () => {
-  it("is refused with the setting's name and what to do", () => {
+  it("is refused with the setting's name and advice", () => {
     const cases: [MotionSettings, typeof DEFAULT_PEN, RegExp][] = [
       [{ ...motion, draw: { ...motion.draw, speedMmPerS: 0 } }, DEFAULT_PEN, /draw speed is 0/],
       [
@@ -187,7 +187,7 @@ describe("what cannot be planned", () => {
     }
   });
 
-  it("is a caller's bug when a coordinate is not finite or the place is not in the drawing", () => {
+  it("is a caller's bug if a coordinate is not finite or the place is not in the drawing", () => {
     expect(() => plan(strokeSetOf([[[0, Number.NaN]]]), motion, DEFAULT_PEN)).toThrow(RangeError);
     expect(() =>
       plan(
@@ -218,7 +218,7 @@ describe("what cannot be planned", () => {
     ).toThrow(RangeError);
   });
 
-  it("stops when asked to", () => {
+  it("stops on request", () => {
     expect(() => plan(strokeSetOf([square]), motion, DEFAULT_PEN, { cancel: { aborted: true } })).toThrow(
       /cancelled/,
     );

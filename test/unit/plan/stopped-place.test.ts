@@ -20,8 +20,8 @@ function drawnMm(strokes: ReturnType<typeof strokesOf>, from: Place, to: Place):
   return mm;
 }
 
-describe("where a plot was broken off", () => {
-  it("lies behind the journal's place and never beyond the pen, so that nothing is left out", () => {
+describe("where a plot was interrupted", () => {
+  it("is after the journal's place and never beyond the pen, so that nothing is left out", () => {
     fc.assert(
       fc.property(lines, fc.nat(5), share, share, fc.nat(3), (xys, at, journalShare, penShare, ahead) => {
         const strokes = strokesOf(...xys);
@@ -46,7 +46,7 @@ describe("where a plot was broken off", () => {
   const two = strokesOf([0, 0, 100, 0], [100, 50, 0, 50], [0, 80, 10, 80]);
   const journal = { stroke: 0, alongMm: 20 };
 
-  it("is the point of the stroke where the pen is down", () => {
+  it("is the point of the stroke if the pen is down", () => {
     expect(stoppedPlace(two, journal, { x: 60, y: 0.03, up: false }, 500)).toEqual({
       stroke: 0,
       alongMm: 60,
@@ -54,7 +54,7 @@ describe("where a plot was broken off", () => {
     expect(stoppedPlace(two, journal, { x: 30, y: 50, up: false }, 500)).toEqual({ stroke: 1, alongMm: 70 });
   });
 
-  it("is the next stroke where the pen is up on the way to it", () => {
+  it("is the next stroke if the pen is up on the way to it", () => {
     expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, 500)).toEqual({ stroke: 1, alongMm: 0 });
   });
 
@@ -67,7 +67,7 @@ describe("where a plot was broken off", () => {
     expect(begun.alongMm).toBeCloseTo(0.1, 6);
   });
 
-  it("is the end where the pen is up on the way home from the last stroke", () => {
+  it("is the end if the pen is up on the way home from the last stroke", () => {
     const end = { stroke: 2, alongMm: 10 };
     const late = { stroke: 2, alongMm: 1 };
     for (const [x, y] of [
@@ -80,12 +80,12 @@ describe("where a plot was broken off", () => {
     expect(stoppedPlace(two, journal, { x: 0, y: 0, up: true }, 100)).toEqual(journal);
   });
 
-  it("is the stroke after a change of pens where the pen is up on the way home to it", () => {
+  it("is the stroke after a change of pens if the pen is up on the way home to it", () => {
     const home = { x: 0, y: 0, up: true };
     expect(stoppedPlace(two, journal, home, 500, [1])).toEqual({ stroke: 1, alongMm: 0 });
   });
 
-  it("stays the journal's at home where nothing was drawn since the plot stood there", () => {
+  it("stays the journal's at home if nothing was drawn since the plot was there", () => {
     const line = strokesOf([10, 0, 20, 0]);
     const begun = { stroke: 0, alongMm: 0 };
     expect(stoppedPlace(line, begun, { x: 0, y: 0, up: true }, 500)).toEqual(begun);
@@ -93,17 +93,17 @@ describe("where a plot was broken off", () => {
     expect(stoppedPlace(two, other, { x: 0, y: 0, up: true }, 500, [1, 2])).toEqual(other);
   });
 
-  it("stays the journal's where the pen is somewhere else, or further than it can have come", () => {
+  it("stays the journal's if the pen is somewhere else, or further than possible", () => {
     expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, 500)).toEqual(journal);
     expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, 100)).toEqual(journal);
   });
 
-  describe("by a kill, which lets the board play all that it was sent", () => {
+  describe("by a kill, after which the board plays everything that was sent", () => {
     /** A loop of 7 mm: out, round and over itself. */
     const loop = strokesOf([0, 0, 20, 0, 20, 2, 18.5, 2, 18.5, -10]);
     const crossing = { x: 18.5, y: 0, up: false };
 
-    it("is the crossing's later passage where the first was sent before the last entry", () => {
+    it("is the crossing's later passage if the first was sent before the last entry", () => {
       expect(stoppedPlace(loop, { stroke: 0, alongMm: 10 }, crossing, 60)).toEqual({
         stroke: 0,
         alongMm: 18.5,
@@ -118,7 +118,7 @@ describe("where a plot was broken off", () => {
       });
     });
 
-    it("is not known where nothing fits, or the pen is up", () => {
+    it("is unknown if nothing matches, or the pen is up", () => {
       expect(placeBehindSent(loop, { stroke: 0, alongMm: 26 }, crossing, 18)).toBeNull();
       expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, { ...crossing, up: true }, 18)).toBeNull();
     });

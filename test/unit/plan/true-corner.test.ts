@@ -12,17 +12,17 @@ const cases = [45, 90, 135].flatMap((deg) => [10, 50].map((speed) => ({ deg, spe
 describe.each(cases)("an isolated corner of $deg° at $speed mm/s", ({ deg, speed }) => {
   const corner = { speed, accel, deviation, turn: (deg * Math.PI) / 180 };
 
-  it("costs what the formulas say, in junction and blend mode", () => {
+  it("costs what the formulas predict, in junction and blend mode", () => {
     expect(lossInPlan("junction")).toBeCloseTo(junctionLoss(corner), 9);
     expect(lossInPlan("blend")).toBeCloseTo(blendLoss(corner, SIDE), 9);
   });
 
-  it("costs blend at most 7 % more than any motion within A, V and δ could do with, or nothing", () => {
+  it("costs blend at most 7 % more than the minimum of any motion within A, V and δ, or nothing", () => {
     expect(blendLoss(corner, SIDE)).toBeGreaterThanOrEqual(leastLoss(corner) - 1e-4);
     expect(blendLoss(corner, SIDE)).toBeLessThanOrEqual(Math.max(1.07 * leastLoss(corner), 0.01));
   });
 
-  /** Against one straight line of the same length. */
+  /** Compared with one straight line of the same length. */
   function lossInPlan(mode: MotionMode): number {
     const [x, y] = [SIDE * Math.cos(corner.turn), SIDE * Math.sin(corner.turn)];
     return drawS(mode, [[0, 0], [SIDE, 0], [SIDE + x, y]]) - drawS(mode, [[0, 0], [2 * SIDE, 0]]); // prettier-ignore
@@ -38,13 +38,13 @@ describe.each(cases)("an isolated corner of $deg° at $speed mm/s", ({ deg, spee
 describe("a corner met at high speed", () => {
   const cornerOf = (deg: number) => ({ speed: 50, accel, deviation, turn: (deg * Math.PI) / 180 });
 
-  it("is planned by junction in less time than any motion needs, where it is sharp", () => {
+  it("is planned by junction in less time than any motion needs, if it is sharp", () => {
     for (const deg of [60, 90, 120, 150]) {
       expect(junctionLoss(cornerOf(deg))).toBeLessThan(leastLoss(cornerOf(deg)) - 0.001);
     }
   });
 
-  it("is gone round by blend in less time than junction needs, where it is shallow", () => {
+  it("takes less time by blend than by junction, if it is shallow", () => {
     for (const deg of [20, 30, 40]) {
       expect(blendLoss(cornerOf(deg), SIDE)).toBeLessThan(junctionLoss(cornerOf(deg)) - 0.001);
     }

@@ -58,7 +58,7 @@ describe("formatLayerName", () => {
     ).toBe("!2+d9+h30+s50 a");
   });
 
-  it("writes names that read back the same, but for a space where text looks like a code", () => {
+  it("writes names that read back the same, except for a space where text looks like a code", () => {
     const maybe = (min: number, max: number): fc.Arbitrary<number | null> =>
       fc.option(fc.integer({ min, max }), { nil: null });
     const codes = fc.record({

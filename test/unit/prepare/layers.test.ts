@@ -17,7 +17,7 @@ const drawing = drawingOf(
 );
 const preparedWith = (settings: Partial<PrepareSettings>, of = drawing) =>
   prepare(of, { ...TRUE_SIZE, ...settings });
-/** The y of each stroke's beginning and whether it goes to the left: the layers lie 10 mm apart. */
+/** The y of each stroke's beginning and whether it goes left: the layers are 10 mm apart. */
 const strokesOf = (settings: Partial<PrepareSettings>, of = drawing): string[] => {
   const { strokes } = preparedWith(settings, of);
   return Array.from({ length: strokeCount(strokes) }, (_, i) => {
@@ -27,22 +27,22 @@ const strokesOf = (settings: Partial<PrepareSettings>, of = drawing): string[] =
 };
 
 describe("the order of layers", () => {
-  it("is the wanted one, the rest after it as in the file", () => {
+  it("is the given one, followed by the rest as in the file", () => {
     expect(strokesOf({ layerOrder: ["g2", "g0"] })).toEqual(["2>", "0>", "1>"]);
     expect(strokesOf({ layerOrder: ["g1"] })).toEqual(["1>", "0>", "2>"]);
   });
 
-  it("is told with the layers, and passes over those that there are not, or that are named twice", () => {
+  it("is stored with the layers, and ignores unknown and repeated ones", () => {
     const prepared = preparedWith({ layerOrder: ["g9", "g2", "g0", "g2"] });
     expect(prepared.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
     expect(prepared.strokes.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
   });
 
-  it("keeps each layer's own way short", () => {
+  it("keeps each layer's own travel short", () => {
     expect(strokesOf({ layerOrder: ["g2", "g1", "g0"], order: "fast" })).toEqual(["2>", "1<", "0>"]);
   });
 
-  it("holds for hatches of single layers too", () => {
+  it("applies to hatches of single layers too", () => {
     const squares = drawingOf(
       GROUPS.map((_, group) => {
         const [top, bottom] = [10 * group, 10 * group + 5];
@@ -61,18 +61,18 @@ describe("the order of layers", () => {
 });
 
 describe("a layer drawn more than once", () => {
-  it("goes back and forth where that saves the way, and tells the length of the whole", () => {
+  it("goes back and forth if that saves travel, and reports the total length", () => {
     expect(strokesOf({ layerRepeats: { g0: 3 } })).toEqual(["0>", "0<", "0>", "1>", "2>"]);
     expect(preparedWith({ layerRepeats: { g0: 3, g2: 2 } }).drawMm).toBe(120);
   });
 
-  it("begins each pass anew where the layer ends at its beginning and that is as short", () => {
+  it("begins each pass at the same point if the layer ends at its beginning and that is as short", () => {
     const ring = drawingOf(["M0 0L10 0L10 10L0 10Z"]);
     const { strokes, travelMm } = preparedWith({ layerRepeats: { g0: 2 } }, ring);
     expect([strokeCount(strokes), travelMm]).toEqual([2, 0]);
   });
 
-  it("travels no further than by drawing every pass the same way", () => {
+  it("travels no further than by drawing every pass in the same direction", () => {
     const once = preparedWith({ hiddenLayers: ["g1", "g2"] }).travelMm;
     const twice = preparedWith({ hiddenLayers: ["g1", "g2"], layerRepeats: { g0: 2 } });
     // Out and back: it ends where it began, at home.
@@ -87,13 +87,13 @@ describe("codes in layer names", () => {
     { groups: GIVEN },
   );
 
-  it("leave a layer with % out, listed as such, until it is wanted", () => {
+  it("leave a layer with % out, listed as such, until it is switched on", () => {
     expect(strokesOf({}, coded)).toEqual(["1>"]);
     expect(preparedWith({}, coded).layers.map(({ visible }) => visible)).toEqual([false, true]);
     expect(strokesOf({ shownLayers: ["g0"] }, coded)).toEqual(["0>", "1>"]);
   });
 
-  it("do not bring back what was switched off by hand", () => {
+  it("do not override what was switched off by hand", () => {
     expect(strokesOf({ shownLayers: ["g0"], hiddenLayers: ["g0"] }, coded)).toEqual(["1>"]);
   });
 });
@@ -105,7 +105,7 @@ describe("the colour of a layer", () => {
   const looksOf = (shapes: Parameters<typeof drawingOf>[0], settings: Partial<PrepareSettings> = {}) =>
     preparedWith(settings, drawingOf(shapes)).layers.map(({ color, colorCount }) => [color, colorCount]);
 
-  it("is the one that most of its lines have, and it is told that there are others", () => {
+  it("is that of most of its lines, and it is reported that there are others", () => {
     const blue = Array.from({ length: 44 }, (_, k) => line(BLUE, k));
     expect(looksOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
     expect(looksOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
@@ -113,7 +113,7 @@ describe("the colour of a layer", () => {
     expect(preparedWith({}, drawingOf([line(PURPLE, 50), ...blue])).strokes.layers[0].color).toBe(BLUE);
   });
 
-  it("goes by length, not by how many shapes the file has, and not by the way with the pen up", () => {
+  it("goes by length, not by the number of shapes, and excludes pen-up travel", () => {
     const purples = [0, 1, 2].map((y) => line(PURPLE, y, 5));
     expect(looksOf([...purples, line(BLUE, 9, 20)])).toEqual([[BLUE, 2]]);
     // The closing side counts; the moves between subpaths do not.
@@ -130,5 +130,23 @@ describe("the colour of a layer", () => {
   it("is the fill's where a shape has no stroke", () => {
     const filled = { d: "M0 0L8 0L8 8Z", stroke: null, fill: PURPLE };
     expect(looksOf([filled])).toEqual([[PURPLE, 1]]);
+  });
+});
+
+describe("the line width of a layer", () => {
+  it("is that of the file's lines, the mean by length; 0 where there is none", () => {
+    const layers = preparedWith(
+      {},
+      drawingOf(
+        [
+          { d: "M0 0L30 0", stroke: "#000000", strokeWidth: 0.4 },
+          { d: "M0 5L10 5", stroke: "#000000", strokeWidth: 0.8 },
+          { d: "M0 9L10 9", stroke: "#000000", strokeWidth: 0, group: 1 },
+        ],
+        { groups: ["lines", "hairs"] },
+      ),
+    ).layers;
+    expect(layers[0].strokeWidthMm).toBeCloseTo(0.5);
+    expect(layers[1].strokeWidthMm).toBe(0);
   });
 });

@@ -50,7 +50,7 @@ const placesOf = (...args: Parameters<typeof stopsOf>): number[] =>
 describe("stops for pens", () => {
   const pens = [RED, BLACK];
 
-  it("stand where another pen is needed than the one in the holder", () => {
+  it("are placed where the next layer needs another pen", () => {
     const layerPens = { g0: "red", g1: "red", g2: "black", g3: "red" };
     expect(stopsOf(["a", "b", "c", "d"], { pens, layerPens })).toEqual([
       { strokeIndex: 4, layerId: "g2", layerName: "c", penName: "Pen black", color: "#00aa00" },
@@ -58,17 +58,17 @@ describe("stops for pens", () => {
     ]);
   });
 
-  it("pass layers over that any pen will do for, and do not forget which one is in", () => {
+  it("skip layers without a set pen, and remember which one is in", () => {
     expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "red" } })).toEqual([]);
     expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "black" } })).toEqual([4]);
     expect(placesOf(["a", "b"], { pens, layerPens: { g1: "red" } })).toEqual([2]);
   });
 
-  it("take no notice of a pen that was removed", () => {
+  it("ignore a pen that was removed", () => {
     expect(placesOf(["a", "b"], { pens: [RED], layerPens: { g0: "red", g1: "gone" } })).toEqual([]);
   });
 
-  it("come before layers whose name begins with !, the first one too, and tell the name without codes", () => {
+  it("come before layers whose name begins with !, including the first one, and have the name without codes", () => {
     const stops = stopsOf(["!1 sky", "2 sea", "!+h20 gold"], {});
     expect(stops.map(({ strokeIndex, layerName }) => [strokeIndex, layerName])).toEqual([
       [0, "1 sky"],
@@ -76,13 +76,13 @@ describe("stops for pens", () => {
     ]);
   });
 
-  it("come before every layer but the first on demand, and never on demand", () => {
+  it("come before every layer but the first on request, or never on request", () => {
     const layerPens = { g0: "red", g1: "black" };
     expect(placesOf(["a", "b", "!c"], { penStops: "layers" })).toEqual([2, 4]);
     expect(placesOf(["a", "b", "!c"], { pens, layerPens, penStops: "never" })).toEqual([]);
   });
 
-  it("are set or taken away for a single layer by hand", () => {
+  it("are set or removed for a single layer by hand", () => {
     const layerPens = { g0: "red", g1: "black" };
     const layerStops = { g1: false, g2: true };
     expect(placesOf(["a", "b", "c", "!d"], { pens, layerPens, layerStops })).toEqual([4, 6]);
@@ -95,7 +95,7 @@ describe("stops for pens", () => {
     expect(placesOf(["a", "b", "c"], { pens, layerPens }, { hiddenLayers: ["g1"] })).toEqual([]);
   });
 
-  it("stand between the parts of a layer that is drawn with an ink that runs out", () => {
+  it("are placed between the parts of a layer that is drawn with an ink that runs out", () => {
     const stops = stopsOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "red" } }, { reinkMm: 5 });
     expect(stops.map(({ strokeIndex, layerId, penName }) => [strokeIndex, layerId, penName])).toEqual([
       [1, "g0", "Pen red"],
@@ -104,10 +104,10 @@ describe("stops for pens", () => {
   });
 });
 
-describe("a pen that sits askew", () => {
+describe("a pen with an offset", () => {
   const askew = penNamed("askew", { offsetXMm: 1.5, offsetYMm: -0.25 });
 
-  it("is carried the other way, so that its line lands where the drawing says", () => {
+  it("is moved by the opposite offset, so that its line is where the drawing has it", () => {
     const settings = prepareSettingsOf({ prepare: TRUE_SIZE, pens: [askew], layerPens: { g1: "askew" } });
     const { strokes } = prepare(drawingWith(["a", "b"]), settings);
     expect([...strokes.xy]).toEqual([
@@ -122,7 +122,7 @@ describe("a pen that sits askew", () => {
     expect([...strokes.xy]).toEqual([-1.5, 0.25, 3.5, 0.25, -1.5, 10.25, 3.5, 10.25]);
   });
 
-  it("changes nothing at all where pens sit straight", () => {
+  it("changes nothing if pens have no offset", () => {
     const { prepare: same } = { prepare: TRUE_SIZE };
     expect(prepareSettingsOf({ prepare: TRUE_SIZE, pens: [RED], layerPens: { g0: "red" } })).toBe(same);
   });

@@ -36,7 +36,7 @@ describe("placing", () => {
     expect(draw(drawing, settings)).toEqual([[10, 80, 90, 80, 90, 120, 10, 120, 10, 80]]);
   });
 
-  it("fits by where a curve goes, not by its control points", () => {
+  it("fits by the curve, not by its control points", () => {
     // This arch is 100 wide and 3/4 of 80 = 60 high.
     const drawing = drawingOf(["M0 0C0 80 100 80 100 0"]);
     const settings = { fit: true, paper: { widthMm: 100, heightMm: 200 }, flattenMm: 0.001 };
@@ -82,7 +82,7 @@ describe("placing", () => {
     );
   });
 
-  it("gives the fit no say to a shape a million kilometres away, and says so", () => {
+  it("ignores a shape a million kilometres away when fitting, and reports it", () => {
     const drawing = drawingOf(["M0 0L1e300 1e300", "M10 10L20 20"]);
     const prepared = prepare(drawing, { ...TRUE_SIZE, fit: true, paper: { widthMm: 100, heightMm: 100 } });
     expect(rounded(strokesOf(prepared.strokes))).toEqual([[0, 0, 100, 100]]);
@@ -91,14 +91,14 @@ describe("placing", () => {
 });
 
 describe("shaping", () => {
-  it("closes a closed subpath to the bit and goes on from its start", () => {
+  it("closes a closed subpath to the bit and continues from its start", () => {
     expect(draw(drawingOf(["M10 10L20 10L20 20ZL0 0"]), { joinMm: 0 })).toEqual([
       [10, 10, 20, 10, 20, 20, 10, 10],
       [10, 10, 0, 0],
     ]);
   });
 
-  it("draws a subpath of no length as a dot, and a lone move not at all", () => {
+  it("draws a subpath of length 0 as a dot, and a lone move not at all", () => {
     expect(draw(drawingOf(["M10 10L10 10", "M20 20Z", "M30 30"]))).toEqual([
       [10, 10],
       [20, 20],
@@ -146,7 +146,7 @@ describe("cutting", () => {
     expect(prepared.warnings.join()).toContain("310 mm of line lie outside the margins");
   });
 
-  it("leaves the line whole when it is not to be cut", () => {
+  it("leaves the line whole if clipping is off", () => {
     expect(draw(drawingOf(["M-5 50L500 50"]), { marginMm: 10, clipToMargins: false })).toEqual([
       [-5, 50, 500, 50],
     ]);
@@ -172,7 +172,7 @@ describe("cutting", () => {
     expect(others).toEqual([]);
     const corners = new Set(Array.from({ length: 4 }, (_, i) => `${edge[2 * i]} ${edge[2 * i + 1]}`));
     expect(corners).toEqual(new Set(["20 20", "80 20", "50 80"]));
-    // What has a line of its own ends at the edge without one.
+    // A shape with its own line ends at the edge without one.
     expect(draw(drawingOf([{ ...fill, stroke: "#000000" }], { clips }))).toEqual([]);
     // A clip that cuts nothing off changes nothing.
     const inside = { ...fill, d: "M45 30L55 30L50 40Z" };
@@ -195,7 +195,7 @@ describe("cutting", () => {
     expect(down[3] - down[1]).toBeCloseTo(1);
   });
 
-  it("minds the rule of a clip region with a hole", () => {
+  it("follows the rule of a clip region with a hole", () => {
     const ring = "M0 0L90 0L90 90L0 90ZM30 30L60 30L60 60L30 60Z";
     const through = (rule: number): number[][] =>
       draw(drawingOf([{ d: "M10 45L80 46", clip: 0 }], { clips: [clipOf(ring, rule)] })).sort(
@@ -255,7 +255,7 @@ describe("joining and dropping", () => {
     expect(draw(drawingOf(["M0 0L0.05 0"]))).toEqual([[0, 0, 0.05, 0]]);
   });
 
-  it("keeps dots apart, and drops them only when short strokes are dropped", () => {
+  it("keeps dots apart, and drops them only if short strokes are dropped", () => {
     const drawing = drawingOf(["M5 5L5 5", "M5 5L5 5", "M5 5L6 5"]);
     expect(draw(drawing)).toHaveLength(3);
     expect(draw(drawing, { dropShorterMm: 0.5 })).toEqual([[5, 5, 6, 5]]);
@@ -278,7 +278,7 @@ describe("layers", () => {
     { groups: ["first", "second", "empty"] },
   );
 
-  it("are the groups that hold something, with their counts and the colour that most of them is drawn in", () => {
+  it("are the groups with content, with their counts and their most frequent colour", () => {
     const { layers } = prepare(drawing, TRUE_SIZE);
     expect(layers.map(({ id, name, color, strokeCount: n, drawMm }) => [id, name, color, n, drawMm])).toEqual(
       [
@@ -288,7 +288,7 @@ describe("layers", () => {
     );
   });
 
-  it("are the stroke colours, and all in one, on demand", () => {
+  it("are the stroke colours, or all in one, on request", () => {
     const byColor = prepare(drawing, { ...TRUE_SIZE, layers: "stroke" });
     expect(byColor.layers.map((layer) => [layer.id, layer.drawMm])).toEqual([
       ["#ff0000", 40],
@@ -310,7 +310,7 @@ describe("layers", () => {
     expect(prepared.drawMm).toBe(50);
   });
 
-  it("stand together in the strokes, in the file's order", () => {
+  it("are contiguous in the strokes, in the file's order", () => {
     const mixed = drawingOf(
       [
         { d: "M0 0L1 0", group: 1 },
@@ -324,7 +324,7 @@ describe("layers", () => {
 });
 
 describe("ordering", () => {
-  it("goes to the nearest end, turning strokes round", () => {
+  it("goes to the nearest end, reversing strokes", () => {
     expect(draw(drawingOf(["M90 0L50 0", "M40 0L10 0"]), { order: "fast" })).toEqual([
       [10, 0, 40, 0],
       [50, 0, 90, 0],
@@ -359,13 +359,13 @@ describe("degenerate input", () => {
     expect(draw(drawingOf(["M7 7L9 7"]), settings)).toEqual([[0, 50, 100, 50]]);
   });
 
-  it("stops when it is asked to", () => {
+  it("stops on request", () => {
     expect(() => prepare(drawingOf(["M0 0L1 1"]), TRUE_SIZE, { cancel: { aborted: true } })).toThrow(
       expect.objectContaining({ code: "cancelled" }),
     );
   });
 
-  it("reports progress that never falls and ends at 1", () => {
+  it("reports progress that never decreases and ends at 1", () => {
     const seen: number[] = [];
     prepare(drawingOf(["M0 0L1 1"]), DEFAULT_PREPARE, { onProgress: (done) => seen.push(done) });
     expect(seen).toEqual([...seen].sort((a, b) => a - b));
@@ -376,7 +376,7 @@ describe("degenerate input", () => {
 describe("checkBounds", () => {
   const machine = { name: "AxiDraw V3", widthMm: 300, heightMm: 218 };
 
-  it("lets a drawing pass that the machine can reach, and an empty one", () => {
+  it("accepts a drawing that the machine can reach, and an empty one", () => {
     expect(() => checkBounds(prepare(drawingOf(["M0 0L210 200"]), TRUE_SIZE).strokes, machine)).not.toThrow();
     expect(() => checkBounds(prepare(drawingOf([]), TRUE_SIZE).strokes, machine)).not.toThrow();
   });

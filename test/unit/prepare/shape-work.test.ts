@@ -29,7 +29,7 @@ const draw = (drawing: Parameters<typeof prepare>[0], settings: Partial<PrepareS
 describe("place by numbers", () => {
   const drawing = drawingOf(["M40 40L60 50"]);
 
-  it("puts the drawing's box where it is told, in the size that it is told", () => {
+  it("puts the drawing's box at the given place, in the given size", () => {
     const at = { xMm: 5, yMm: 6 };
     expect(draw(drawing, { place: { ...at, widthMm: null, heightMm: null } })).toEqual([[5, 6, 25, 16]]);
     expect(draw(drawing, { place: { ...at, widthMm: 40, heightMm: null } })).toEqual([[5, 6, 45, 26]]);
@@ -37,7 +37,7 @@ describe("place by numbers", () => {
     expect(draw(drawing, { place: { ...at, widthMm: 30, heightMm: 30 } })).toEqual([[5, 6, 35, 36]]);
   });
 
-  it("goes before the fit, and after turning", () => {
+  it("overrides the fit, and follows turning", () => {
     const place = { xMm: 0, yMm: 0, widthMm: null, heightMm: null };
     expect(draw(drawing, { place, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
   });
@@ -57,7 +57,7 @@ describe("place by numbers", () => {
     expect(draw(corner, { mirror: "upDown" })).toEqual([[0, 100, 10, 80]]);
   });
 
-  it("keeps four margins apart", () => {
+  it("applies four different margins", () => {
     const margins = { topMm: 10, rightMm: 20, bottomMm: 30, leftMm: 40 };
     const cross = drawingOf(["M0 50L300 50", "M50 0L50 300"]);
     expect(draw(cross, { margins })).toEqual([
@@ -68,7 +68,7 @@ describe("place by numbers", () => {
 });
 
 describe("cropping", () => {
-  it("cuts off what lies outside the file's page, when asked, also when it is turned", () => {
+  it("cuts off what lies outside the file's page on request, also when it is turned", () => {
     const drawing = drawingOf(["M-50 50L150 50"]);
     const place = { xMm: 10, yMm: 10, widthMm: null, heightMm: null };
     expect(draw(drawing, { place })).toEqual([[10, 10, 210, 10]]);
@@ -121,11 +121,11 @@ describe("hatch", () => {
     expect(lengths({ layerHatches: [{ ...hatch, layer: "g1" }] })).toEqual([40, both]);
   });
 
-  it("stands alone when outlines of filled shapes are not wanted", () => {
+  it("is drawn alone if outlines of filled shapes are not wanted", () => {
     expect(lengths({ outlineFills: false })).toEqual([0, 40]);
   });
 
-  it("leaves a shape thinner than the pen empty, and never runs away on a tiny spacing", () => {
+  it("leaves a shape thinner than the pen empty, and ends on a tiny spacing", () => {
     const sliver = drawingOf([{ d: "M0 0L50 0L50 0.2L0 0.2Z", stroke: null, fill: "#000000" }]);
     expect(draw(sliver, { hatch: { spacingMm: 1, angleDeg: 0, cross: false }, outlineFills: false })).toEqual(
       [],
@@ -136,7 +136,7 @@ describe("hatch", () => {
 });
 
 describe("repeated lines", () => {
-  it("are drawn once, whole or in part, either way round, within a layer", () => {
+  it("are drawn once, completely or in part, in either direction, within a layer", () => {
     const twice = drawingOf(["M0 0L10 0", "M10 0.01L0 0.01", "M5 0L15 0", "M0 5L10 5"]);
     expect(draw(twice, { dropRepeatsMm: 0.05 })).toEqual([
       [0, 0, 10, 0],
@@ -154,12 +154,12 @@ describe("repeated lines", () => {
     expect(draw(layers, { dropRepeatsMm: 0.05 })).toHaveLength(2);
   });
 
-  it("leave lines that only cross, touch or run near alone", () => {
+  it("leave lines that only cross, touch or run close unchanged", () => {
     const lines = drawingOf(["M0 0L10 10L20 0", "M0 10L10 0", "M0 0.2L10 10.2", "M5 5L5 5"]);
     expect(draw(lines, { dropRepeatsMm: 0.05 })).toEqual(draw(lines));
   });
 
-  it("split a line where its middle is there already", () => {
+  it("split a line if its middle exists already", () => {
     expect(draw(drawingOf(["M40 0L60 0", "M0 0L100 0"]), { dropRepeatsMm: 0.1 })).toEqual([
       [40, 0, 60, 0],
       [0, 0, 40, 0],
@@ -211,7 +211,7 @@ describe("wet ink", () => {
     expect(columns({ spread: "shuffle" })).toEqual(shuffled);
   });
 
-  it("splits layers where the ink runs out, cutting only what is longer than a filling", () => {
+  it("splits layers where the ink runs out, cutting only strokes longer than a filling", () => {
     const { strokes, drawMm } = prepare(row, { ...TRUE_SIZE, reinkMm: 25 });
     expect(drawMm).toBe(90);
     expect([...strokes.layer]).toEqual([0, 0, 1, 1, 2, 2, 3, 3, 4]);
@@ -233,7 +233,7 @@ describe("wet ink", () => {
 });
 
 describe("settings from before these steps", () => {
-  it("still parse, and mean what they meant", () => {
+  it("still parse, with the same meaning", () => {
     const { paper, landscape, marginMm, fit, rotateDeg, clipToMargins, flattenMm } = DEFAULT_PREPARE;
     const { joinMm, dropShorterMm, simplifyMm, layers, hiddenLayers, order } = DEFAULT_PREPARE;
     const old = {

@@ -1,4 +1,4 @@
-/** The drawings that come with plotwright: the first thing a newcomer sees, and what many tests plot. */
+/** The drawings that come with plotwright: the first thing a newcomer sees, and the input of many tests. */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
@@ -15,7 +15,7 @@ describe("the samples", () => {
     expect(files.length).toBeGreaterThanOrEqual(5);
   });
 
-  it.each(files)("%s is A4 landscape, has a title, and is drawn whole", (file) => {
+  it.each(files)("%s is A4 landscape, has a title, and is drawn completely", (file) => {
     expect(readFileSync(path.join(FOLDER, file), "utf8")).toMatch(/<title>[A-Z].+<\/title>/);
     const drawing = drawingOf(file);
     expect(drawing.widthMm).toBeCloseTo(297, 6);
@@ -34,7 +34,7 @@ describe("the samples", () => {
     expect(prepare(drawingOf(file), DEFAULT_PREPARE).warnings).toEqual([]);
   });
 
-  it("cover what pens are asked to do: layers by pen, one long curve, thousands of short strokes", () => {
+  it("cover the main uses of pens: layers by pen, one long curve, thousands of short strokes", () => {
     expect(drawingOf("three-colour-hills.svg").groups.map((group) => group.name)).toEqual([
       "1 Sun",
       "2 Hills",

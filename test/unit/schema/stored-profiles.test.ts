@@ -1,4 +1,4 @@
-/** Profiles and jobs as the first version stored them still open. */
+/** Profiles and jobs as stored by the first version can still be opened. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, setUpCommands } from "../../../src/index.js";
 import {
@@ -40,11 +40,11 @@ const FORMAT_2 = {
 };
 
 describe("a stored machine profile", () => {
-  it("of format 1 is read as one of today", () => {
+  it("of format 1 is converted to the current one", () => {
     expect(machineProfileSchema.parse(FORMAT_1)).toEqual(FORMAT_2);
   });
 
-  it("of format 2 stays as it is", () => {
+  it("of format 2 stays unchanged", () => {
     expect(machineProfileSchema.parse(FORMAT_2)).toEqual(FORMAT_2);
   });
 
@@ -75,7 +75,7 @@ describe("a profile with another controller", () => {
     },
   };
 
-  it("is read as it is", () => {
+  it("is read unchanged", () => {
     expect(machineProfileSchema.parse(GRBL)).toEqual(GRBL);
   });
 
@@ -90,7 +90,7 @@ describe("a profile with another controller", () => {
     });
   });
 
-  it("is refused when nobody knows the kind", () => {
+  it("is refused if the kind is unknown", () => {
     const fault = machineProfileSchema.safeParse({ ...GRBL, controller: { kind: "marlin" } });
     expect(fault.error?.issues[0]?.path).toEqual(["controller", "kind"]);
   });
@@ -104,7 +104,7 @@ describe("a profile with another controller", () => {
 });
 
 describe("a stored job's settings", () => {
-  it("carry their machine over", () => {
+  it("keep their machine", () => {
     const stored = { ...DEFAULT_PLOT_SETTINGS, machine: "old-friend", customMachine: FORMAT_1 };
     expect(plotSettingsSchema.parse(stored).customMachine).toEqual(FORMAT_2);
   });

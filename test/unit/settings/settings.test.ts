@@ -49,13 +49,13 @@ describe("the settings tables", () => {
     expect(parsed.pen).toEqual({ ...DEFAULT_PLOT_SETTINGS.pen, upPct: 70 });
   });
 
-  it("do not fill in what a layer leaves to the settings for all", () => {
+  it("do not fill in what a layer leaves to the common settings", () => {
     const motion = { ...DEFAULT_PLOT_SETTINGS.motion, layers: { ink: { speedMmPerS: 20 } } };
     const parsed = plotSettingsSchema.parse({ ...DEFAULT_PLOT_SETTINGS, motion });
     expect(parsed.motion.layers).toEqual({ ink: { speedMmPerS: 20 } });
   });
 
-  it("say in words what is allowed", () => {
+  it("explain in words what is allowed", () => {
     const row: NumberSetting = { kind: "number", label: "", about: "", default: 1, min: 0, max: 5, unit: "mm", step: 1 }; // prettier-ignore
     expect(rangeInWords(row)).toBe("0 to 5 mm");
     expect(rangeInWords({ ...row, minExcluded: true })).toBe("more than 0, up to 5 mm");

@@ -1,4 +1,4 @@
-/** The live event stream: connects, parses every event by the schema, and connects again for ever. */
+/** The live event stream: connects, parses every event by the schema, and reconnects without limit. */
 import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.js";
 import type { BackendListener } from "../backend.js";
 
@@ -10,8 +10,8 @@ const SLOW_RETRY_MS = 6_000;
 const ASLEEP_MS = 15_000;
 
 /**
- * Returns a function that closes it. The browser's own retry stops for good after an HTTP error
- * (a server that is just starting), so a closed stream is opened anew; so is one that has lost its network.
+ * Returns a function that closes it. The browser's own retry stops for good after an HTTP error (a server
+ * that is just starting), so a closed stream is opened again; so is one that has lost its network.
  */
 export const openEvents = (path: string, listener: BackendListener): (() => void) => {
   let source: EventSource | null = null;
@@ -70,7 +70,7 @@ const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
   };
 };
 
-/** Null for what is no event of ours: a newer server may send kinds that this page does not know. */
+/** Null for an unknown event: a newer server may send kinds that this page does not know. */
 export const parseServerEvent = (data: string): ServerEvent | null => {
   try {
     const parsed = serverEventSchema.safeParse(JSON.parse(data));

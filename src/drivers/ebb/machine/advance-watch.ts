@@ -1,14 +1,15 @@
 /**
- * Notices a board that answers and takes commands, but whose motors do not get on: asked again and again where
- * they stand, it says the same while the plan has gone on. A long command would hide that until its end.
+ * Detects a board that answers and accepts commands but whose motors do not move: the step counters that it
+ * reports stay the same while the plan advances. Without this, a long command would hide the fault until its
+ * end.
  */
 import { parseSteps } from "../protocol/replies.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import type { Clock } from "../../transport.js";
 
-/** Seconds of ours without a step, with motion planned all the time. */
+/** Seconds of this computer without a step, with motion planned all the time. */
 const STALL_S = 1.2;
-/** What counts as planned motion, steps of one motor: far above what the two times may be apart. */
+/** What counts as planned motion, steps of one motor: far more than the two times can differ. */
 const MOVED_STEPS = 160;
 
 interface Standing {
@@ -25,7 +26,7 @@ export class AdvanceWatch {
     private readonly speed: number,
   ) {}
 
-  /** One answer to QS, and where the board should be now. True: it does not get on. */
+  /** One answer to QS, and where the board should be now. True: the motors do not move. */
   isStalled(reply: string, at: StreamPlace): boolean {
     const steps = parseSteps(reply).join();
     const planned = plannedSteps(at);
@@ -40,7 +41,7 @@ export class AdvanceWatch {
   }
 }
 
-/** Steps at an instant of a stream, as if each command ran evenly. */
+/** Step counts at a time of a stream, as if each command ran evenly. */
 function plannedSteps({ stream, commandIndex, planS }: StreamPlace): readonly [number, number] {
   const before = Math.max(0, commandIndex - 1);
   const [fromS, toS] = [stream.planS[commandIndex], stream.planS[commandIndex + 1]];

@@ -1,4 +1,4 @@
-/** What a stop brakes and lifts with. */
+/** The settings with which a stop brakes and lifts. */
 import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { withLayerCodes } from "../../../plan/coded-layers.js";
 import { drawLimitsOf } from "../../../plan/limits.js";
@@ -8,7 +8,7 @@ import type { PenSettings } from "../../../settings/pen.js";
 import type { JobSettings } from "../../machine-job.js";
 import { motionForFirmware } from "../protocol/firmware-motion.js";
 
-/** As the layer of a place was planned; null: on the way to a stroke. */
+/** As the layer of the place was planned; null: travelling to a stroke. */
 export function brakingAt(
   settings: JobSettings,
   { layer, layers }: StrokeSet,

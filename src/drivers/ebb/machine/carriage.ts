@@ -1,9 +1,9 @@
 /**
- * The carriage and pen of one connected board: where they are, and the few ways to move them.
+ * The carriage and pen of one connected board: their position, and the few ways to move them.
  *
- * Places are absolute steps from home. The board's own counters start at 0 whenever its motors are switched
- * on; `origin` is what they stood for then. An AxiDraw has no end switches: where the carriage stands when
- * the motors are switched on after a pause by hand *is* home.
+ * Positions are absolute steps from home. The board's counters start at 0 whenever its motors are switched
+ * on; `origin` is the position at that moment. An AxiDraw has no end switches: the place where its motors are
+ * switched on after it was moved by hand is home.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -26,41 +26,44 @@ import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { isButtonPressed, isPowerLow } from "./readings.js";
 
-/** The longest command of motion: the compiler splits what is longer. */
+/** The longest motion command: the compiler splits longer ones. */
 const LONGEST_COMMAND_S = 0.15;
-/** The line, the board and this computer. */
+/** Allowance for the connection, the board and this computer. */
 const ANSWER_MS = 30;
-/** How often the board is asked for button and queue while it plays. */
+/** Interval at which the board's button and queue are polled during a plot. */
 const POLL_S = 0.25;
-/** Overrun of the planned time that still is no fault, seconds of ours. */
+/** Tolerated overrun of the planned time, seconds of this computer. */
 const STUCK_S = 2;
-/** How long a board that is just connected may still be moving. */
+/** How long a newly connected board may keep moving. */
 const STILL_S = 2;
 
-/** The board begins a little after the command was written, and ends as much later. */
+/** The board begins shortly after the command was written, and ends as much later. */
 const SETTLE_S = 0.02;
-/** A servo's way from end to end, and some rest. */
+/** Time for a servo to move from end to end and settle. */
 const SERVO_MS = 400;
-/** What the board's layer variable holds while its counters count from home: this and the mode of microsteps. */
+/** Value of the board's layer variable while its counters count from home: this plus the microstep mode. */
 const PLACE_KNOWN = 112;
-/** The same where the counters do not count from home. A board that has started anew holds 0. */
+/** The same when the counters do not count from home. A board that has restarted holds 0. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 
 export class Carriage {
   penUp: boolean | null = null;
   motorsOn: boolean | null = null;
-  /** On a board that kept its counters when it was connected, until something moves: how it was left in mid-plot. */
+  /**
+   * Set until something moves, for a board that was left in the middle of a plot: its state when it was
+   * connected.
+   */
   left: { readonly penUp: boolean } | null = null;
-  /** Underruns of the streams played so far on this connection. */
+  /** Underruns of all streams on this connection. */
   underrunCount = 0;
 
   private playing: Streamer | null = null;
   private hasRestarted = false;
   private origin: readonly [number, number] = [0, 0];
-  /** What a stream that begins now has to be compiled from. */
+  /** The board's state from which the next stream is compiled. */
   state: BoardState | null = null;
-  /** What the motors are set to while their place is known. */
+  /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
   private readonly queueDepth: number;
 
@@ -68,11 +71,11 @@ export class Carriage {
     readonly connection: Connection,
     private readonly events: MachineEvents,
   ) {
-    // Without QU,6 (3.0.0) nobody can tell how full a deep queue is.
+    // Without QU,6 (3.0.0) the fill level of a deep queue is unknown.
     this.queueDepth = connection.features.hasImmediateLift ? connection.features.maxFifoDepth : 1;
   }
 
-  /** After connecting: a board that kept its counters still knows where the carriage is. */
+  /** Called after connecting: a board that kept its counters still knows where the carriage is. */
   async takeOver(): Promise<void> {
     const { session, features } = this.connection;
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
@@ -85,7 +88,10 @@ export class Carriage {
     await this.liftWhereLeft();
   }
 
-  /** A pen that was left on the paper in mid-plot would bleed there; its up position is still that of the plot. */
+  /**
+   * A pen that was left on the paper during a plot would bleed; the plot's up height is still set on the
+   * board.
+   */
   private async liftWhereLeft(): Promise<void> {
     const { session } = this.connection;
     const penUp = Number(await session.query("QP")) === 1;
@@ -93,7 +99,7 @@ export class Carriage {
     if (!penUp) await session.send(`SP,1,${SERVO_MS}`, SERVO_MS / 1000);
   }
 
-  /** Reads back where the motors are, after they did something else than was planned. */
+  /** Reads back the motors' position after something other than the plan has moved them. */
   async findPlace(stillS?: number): Promise<void> {
     const { session, features } = this.connection;
     this.left = null;
@@ -102,7 +108,7 @@ export class Carriage {
     const [counter1, counter2] = parseSteps(await session.query("QS"));
     const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
     if (features.hasClear) {
-      // The accumulators cannot be read. One tick at the lowest rate sets them to 1, and moves nothing.
+      // The accumulators cannot be read. One tick at the lowest rate sets them to 1 and moves nothing.
       await session.send("LT,1,1,0,1,0,3");
       this.state = { steps1, steps2, acc1: 1, acc2: 1 };
     } else {
@@ -113,7 +119,10 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** The same where the place was known and can be read; false where not. `stillS`: board seconds to wait for rest. */
+  /**
+   * The same if the position was known and can be read; otherwise false. `stillS`: board seconds to wait for
+   * rest.
+   */
   async findPlaceAgain(stillS: number): Promise<boolean> {
     if (!this.state || !this.connection.features.hasStepQuery) return false;
     await this.findPlace(stillS);
@@ -121,20 +130,20 @@ export class Carriage {
   }
 
   /**
-   * The board's own layer variable, 0 after every start of the board, says that the counters still count from
-   * home, and in which microsteps; 0 where they do not. Without the clearing commands of 2.7 they do not always, see
-   * `findPlace`.
+   * The board's layer variable is 0 after each start of the board. It records whether the counters still
+   * count from home, and the microstep mode; 0 if they do not. Without the clearing commands of 2.7 they do
+   * not always count from home, see `findPlace`.
    */
   private async markedMode(): Promise<number> {
     const { session, features } = this.connection;
     if (!features.hasClear) return 0;
-    // A board that has started anew has its motors off (QE: from 2.8.0).
+    // A board that has restarted has its motors off (QE: from 2.8.0).
     if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
     const mode = Number(await session.query(this.markQuery)) - PLACE_KNOWN;
     return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
   }
 
-  /** Only what counts from home can be found again by the next who connects. */
+  /** Only a position that counts from home can be found by the next connection. */
   private async markHome(): Promise<void> {
     const isFromHome = this.origin[0] === 0 && this.origin[1] === 0;
     await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : SWITCHED_ON);
@@ -149,7 +158,7 @@ export class Carriage {
     if (features.hasClear) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 
-  /** A board that was left in mid-plot still plays what it had; it may stand blocked by a long move. */
+  /** A board that was left during a plot still plays its queue; a long move may block it. */
   private async untilStill(limitS: number = STILL_S * this.connection.waitSpeed): Promise<void> {
     const { session, boardClock } = this.connection;
     const untilS = boardClock.nowS() + limitS;
@@ -161,8 +170,8 @@ export class Carriage {
   }
 
   /**
-   * Switches the motors on where they are off, or sets them to other microsteps, which zeroes their counters too.
-   * Returns where the carriage stands.
+   * Switches the motors on if they are off, or to another microstep mode, which also zeroes their counters.
+   * Returns the carriage's position.
    */
   async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
     const { state, microstepMode } = this;
@@ -170,7 +179,7 @@ export class Carriage {
     if (state && microstepMode === wanted) return state;
     const { session, features } = this.connection;
     for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
-    // Each mode's steps are half as many as those of the one before.
+    // Each mode has half as many steps as the one before.
     const share = state ? 2 ** (microstepMode - wanted) : 0;
     const [steps1, steps2] = [
       Math.round((state?.steps1 ?? 0) * share),
@@ -185,28 +194,29 @@ export class Carriage {
     return this.state;
   }
 
-  /** mm from home; null when nobody knows. */
+  /** mm from home; null if unknown. */
   place(machine: MachineProfile): { x: number; y: number } | null {
     return this.state ? placeFromMotors(machine, this.state.steps1, this.state.steps2) : null;
   }
 
   /**
-   * How long the motors may still run after an emergency stop. A queue of one is always full while something waits to
-   * be sent, and the board reads nothing before it has room: it plays all that was sent ahead.
+   * How long the motors may keep running after an emergency stop. A queue of one command is always full while
+   * more waits to be sent, and the board reads nothing until there is room: it plays everything that was sent
+   * ahead.
    */
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
     return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
   }
 
-  /** For the log that users send along. */
+  /** For the log that users send with a report. */
   noteEmergencyStop(settings: MachineSettings): void {
     const { session, features } = this.connection;
     const takesMs = this.emergencyStopMs(settings);
     session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
   }
 
-  /** `certain` hears of each place that the board surely reached with its motors supplied. */
+  /** `certain` is called with each place that the board certainly reached with its motors supplied. */
   streamer({ sendAheadMs }: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
@@ -237,12 +247,12 @@ export class Carriage {
     streamer.abandon(
       new PlotwrightError(
         "board-error",
-        "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
+        "The board answers but does not finish its motion. Press its reset button or unplug it, set home and plot again.",
       ),
     );
   }
 
-  /** Asks a second time, since one odd answer may be that to another question. */
+  /** Asks twice, because a single odd answer may belong to another query. */
   private async checkRestart(streamer: Streamer): Promise<void> {
     const { session } = this.connection;
     const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
@@ -252,7 +262,7 @@ export class Carriage {
     streamer.abandon(boardRestarted());
   }
 
-  /** After the place is lost: the pen goes up, and the carriage can be pushed home. */
+  /** After the position is lost: lifts the pen, and lets the carriage be pushed home. */
   async letGo(settings: MachineSettings): Promise<void> {
     await this.untilStill();
     if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
@@ -286,7 +296,7 @@ export class Carriage {
     }
   }
 
-  /** Pen up, in a straight line to a place, at travel speed. */
+  /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
     await this.ready(machine, settings.pen);
@@ -316,21 +326,24 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** Drops what the board has of a move: it ends with `conflict`, and the place is read back. */
+  /**
+   * Drops what the board has queued of a move: the move rejects with `conflict`, and the position is read
+   * back.
+   */
   stopAtOnce(): void {
     if (!this.playing) return;
     this.connection.session.write([{ line: "ES" }]);
     this.playing.abandon(new PlotwrightError("conflict", "The move was stopped at once."));
   }
 
-  /** Before the line is given up in the middle of something: nothing is drawn any more, and the pen is up. */
+  /** Before the connection is closed during motion: nothing more is drawn, and the pen is lifted. */
   async leave(settings: MachineSettings): Promise<void> {
     this.stopAtOnce();
     await this.untilStill();
     await this.movePen(true, settings);
   }
 
-  /** Lifts or drops the pen by hand; resolves when it is there. */
+  /** Lifts or lowers the pen by hand; resolves when it has arrived. */
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
     const { session, boardClock } = this.connection;
     const machine = machineOf(settings);
@@ -344,7 +357,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** To a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is not known then. */
+  /** Moves to a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is then unknown. */
   async moveServo(machine: MachineProfile, pos: number): Promise<void> {
     const { session, boardClock } = this.connection;
     await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
@@ -352,13 +365,13 @@ export class Carriage {
     this.penIsUnknown();
   }
 
-  /** Somebody else has moved it. */
+  /** Something else has moved the pen. */
   penIsUnknown(): void {
     this.penUp = null;
     this.events.changed();
   }
 
-  /** Lets the carriage be moved by hand; where it is after that, only the user knows. */
+  /** Lets the carriage be moved by hand; its position is then unknown. */
   async motorsOff(): Promise<void> {
     await this.mark(0);
     await this.connection.session.send("EM,0,0");
@@ -368,7 +381,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** Here is home from now on. */
+  /** Makes this place home. */
   async setHome(machine: MachineProfile, pen: PenSettings): Promise<void> {
     await this.ready(machine, pen);
     const { session, features } = this.connection;
@@ -386,7 +399,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** The motors were without power: the carriage may stand anywhere. */
+  /** The motors were without power: the carriage may be anywhere. */
   async forgetPlace(): Promise<void> {
     this.state = null;
     this.left = null;
@@ -399,13 +412,13 @@ export class Carriage {
     return isPowerLow("QC", await this.connection.session.query("QC"));
   }
 
-  /** Answers that come while a stream plays. */
+  /** Handles the answers that arrive while a stream plays. */
   private polled(line: string, reply: string): void {
     if (isButtonPressed(line, reply)) this.events.buttonPressed();
     if (line === "QC") this.events.supplyRead(isPowerLow(line, reply));
   }
 
-  /** What keeps the stream's time true, and tells of the button and of the motors' supply. */
+  /** Keeps the stream's clock in step with the board, and reports the button and the motors' supply. */
   private pollLines(): readonly string[] {
     const { features } = this.connection;
     if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC", this.markQuery];
@@ -419,18 +432,21 @@ export class Carriage {
     const expected = `${end.stream.steps1[end.commandIndex]}, ${end.stream.steps2[end.commandIndex]}`;
     throw new PlotwrightError(
       "board-error",
-      `The board's motors stand at ${report.steps1}, ${report.steps2} steps instead of ${expected}: it was reset ` +
+      `The board's motors are at ${report.steps1}, ${report.steps2} steps instead of ${expected}: it was reset ` +
         "or moved by another program. Set home again before the next plot.",
     );
   }
 }
 
-/** True where the motion ended early but the counters still tell the place: stopped on purpose, or a command refused. */
+/**
+ * True if the motion ended early but the counters still give the position: it was stopped on purpose, or a
+ * command was refused.
+ */
 const canFindPlace = (streamer: Streamer, error: unknown): boolean =>
   streamer.refused !== null || (error instanceof PlotwrightError && error.code === "conflict");
 
 const placeUnknown = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "This firmware cannot say where its motors are: set home again, then go on from the stroke.",
+    "This firmware cannot report the position of its motors. Set home again, then resume from the stroke.",
   );

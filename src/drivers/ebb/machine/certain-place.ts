@@ -1,10 +1,11 @@
 /**
- * Where a board surely was with its motors supplied. A board goes on counting steps when the motors' supply is off,
- * and counts from 0 again when it has started anew, so its counters alone do not say what is drawn.
+ * The last place that a board certainly reached with its motors supplied. A board keeps counting steps when
+ * the motors' supply fails, and counts from 0 again after a restart. Its counters alone do not show what is
+ * drawn.
  *
- *   one poll:  QS ─── where it was ───> QC ─── the supply is good ───> QL ─── the mark is still set
+ *   one poll:  QS ─── the position ───> QC ─── the supply is good ───> QL ─── the mark is still set
  *
- * The board answers these in order: what QC and QL find was true at QS already.
+ * The board answers these in order: what QC and QL report was already true at QS.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps } from "../protocol/replies.js";
@@ -30,7 +31,7 @@ export class CertainPlace {
     private readonly lastLine: string,
   ) {}
 
-  /** One answer of a poll, in order; a place when it was the last one and all was well. */
+  /** One answer of a poll, in order. Returns a place if it was the last answer and all three were good. */
   answered(line: string, reply: string, asked: PollTime, streamer: Streamer): CertainAt | null {
     if (line === "QS") this.at = this.placeOf(reply, asked, streamer);
     else if (isPowerLow(line, reply)) this.at = null;

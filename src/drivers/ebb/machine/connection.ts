@@ -1,4 +1,4 @@
-/** A board that has said who it is, and what it can do. */
+/** A board that has been identified, and its features. */
 import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
 import { BoardSession } from "../stream/session.js";
 import type { ConnectOptions } from "../../driver.js";
@@ -7,13 +7,13 @@ import type { Clock, Transport } from "../../transport.js";
 export interface Connection {
   readonly session: BoardSession;
   readonly features: FirmwareFeatures;
-  /** The board's own name (ST); null where it has none. */
+  /** The board's own name (ST); null if it has none. */
   readonly boardName: string | null;
   /** Counts board seconds. */
   readonly boardClock: Clock;
-  /** Board seconds in one of ours. */
+  /** Board seconds per second of this computer. */
   readonly speed: number;
-  /** The same for how long something may take: as long as the slower of the two, board or computer, would need. */
+  /** The same for a duration in which both must finish: the slower of board and computer decides. */
   readonly waitSpeed: number;
 }
 
@@ -22,7 +22,8 @@ export async function connectBoard(
   transport: Transport,
   { clock, machineClock, speed, events }: ConnectOptions,
 ): Promise<Connection> {
-  // A fast board's line and computer are no faster than others: silence is measured on the slower clock.
+  // Even with a fast virtual board, connection and computer are no faster: silence is measured on the slower
+  // clock.
   const session = new BoardSession(transport, { clock: speed < 1 ? machineClock : clock });
   try {
     const identity = await session.identify();

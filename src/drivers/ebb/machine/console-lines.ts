@@ -1,14 +1,14 @@
 /**
- * Which typed lines must not reach the board: those that restart it, hang it, or change how it answers. Decided by
- * the command and its numbers as the board reads them, so that "cu,01,0" is the same line as "CU,1,0".
+ * Decides which typed lines must not reach the board: those that restart it, hang it, or change how it
+ * answers. Compares the command and its numbers as the board reads them, so that "cu,01,0" equals "CU,1,0".
  */
 import { commandName } from "../protocol/replies.js";
 
-/** Motion that a user has started may last this long, seconds of board time. */
+/** Maximum duration of a typed motion, seconds of board time. */
 export const LONGEST_S = 120;
 
 const TICKS_PER_S = 25_000;
-/** A rate of so much is one step a tick. */
+/** A rate of this value is one step per tick. */
 const STEP_EACH_TICK = 2 ** 31;
 
 const TOO_LONG = `it would move for more than ${LONGEST_S} s`;
@@ -27,13 +27,13 @@ const RULES: Readonly<Record<string, Rule>> = {
   BL: never("the board would leave its firmware for the boot loader"),
   RB: never("the board would restart. Unplug it and plug it in again instead"),
   R: never("it would undo what plotwright has set. Unplug the board and plug it in again instead"),
-  T: never("the board would send lines that nobody has asked for"),
+  T: never("the board would send lines that plotwright does not expect"),
   C: never("it would change the pins that drive the motors"),
-  MW: never("it would write into the board's memory"),
+  MW: never("it would write to the board's memory"),
   CU: ([which = 0]) =>
     HARMLESS_SWITCHES.includes(which) ? null : "it would change how the board answers or moves",
   EM: (numbers) =>
-    numbers.length < 2 ? "not every firmware answers it; give both motors, as in EM,1,1" : null,
+    numbers.length < 2 ? "not every firmware answers it. Give both motors, as in EM,1,1" : null,
   SM: longerMs,
   XM: longerMs,
   LT: longerTicks(1),
@@ -49,13 +49,13 @@ const RULES: Readonly<Record<string, Rule>> = {
 export function whyRefused(line: string): string | null {
   if (!/^[\x20-\x7e]+$/.test(line)) return "it is not one line of plain characters";
   const name = commandName(line);
-  // Only a name for the board may have spaces in it; elsewhere firmware does not agree on what they mean.
+  // Only the board's name may contain spaces; elsewhere firmware versions treat them differently.
   if (/ /.test(line) && name !== "ST") return "the board takes no spaces";
   const rule = Object.hasOwn(RULES, name) ? RULES[name] : undefined;
   return rule?.(numbersOf(line)) ?? null;
 }
 
-/** As the board reads them: digits up to whatever else comes, and 0 where there are none. */
+/** As the board reads them: digits up to the first other character, 0 if there are none. */
 const numbersOf = (line: string): number[] =>
   line
     .split(",")
@@ -70,10 +70,10 @@ function longerTicks(parts: number): Rule {
   return ([ticks = 0]) => (ticks * parts > LONGEST_S * TICKS_PER_S ? TOO_LONG : null);
 }
 
-/** Where the rate changes, how long it takes can't be told from these numbers alone. */
+/** If the rate changes, the duration cannot be computed from these numbers alone. */
 function stepsTake(steps = 0, rate = 0, changes: readonly (number | undefined)[]): string | null {
   if (steps === 0 || changes.some((change) => change !== undefined && change !== 0)) return null;
-  if (rate === 0) return "it would never end: there are steps to make at no speed";
+  if (rate === 0) return "it would never end: there are steps to make at zero speed";
   const durationS = (Math.abs(steps) * STEP_EACH_TICK) / Math.abs(rate) / TICKS_PER_S;
   return durationS > LONGEST_S ? TOO_LONG : null;
 }

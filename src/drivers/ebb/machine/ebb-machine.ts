@@ -1,4 +1,4 @@
-/** One connected EiBotBoard as plotwright sees it: its carriage, and what is done with it. */
+/** One connected EiBotBoard as a `Machine`: its carriage and its operations. */
 import { machineOf } from "../../../machines/profiles.js";
 import type { ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";

@@ -1,8 +1,9 @@
 /**
- * The stream of one plot on the board: plays plans, brings them to rest along the path, and goes over from one
- * plan to another in motion. What is to be drawn, and when, is said by the caller.
+ * The stream of one plot on the board: plays plans, brings them to rest along the path, and switches from one
+ * plan to another in motion. The caller decides what is drawn, and when.
  *
- * What has been written to the board plays out, at most the streamer's window; everything after it is new.
+ * Commands already written to the board play out, at most the streamer's window. Any change applies after
+ * them.
  */
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
@@ -31,21 +32,21 @@ import type { Carriage } from "./carriage.js";
 import type { EbbPart } from "./ebb-part.js";
 import { placeAfterRefusal } from "./refused-place.js";
 
-/** How far mm along the plan and mm along the drawing may be apart. */
+/** Tolerance between mm along the plan and mm along the drawing. */
 const SNAP_MM = 0.5;
-/** Nearer to the end of a stroke, a place counts as its end. */
+/** A place nearer than this to the end of a stroke counts as its end. */
 const EDGE_MM = 0.05;
 
-/** A way to rest, and what follows from it. */
+/** A path to rest, and what follows it. */
 interface Rest {
   readonly part: EbbPart;
-  /** What is still to be drawn then; null when it is all. */
+  /** What is still to be drawn after it; null if nothing. */
   readonly place: Place | null;
   readonly state: BoardState;
 }
 
 export class EbbRun implements MachineRun {
-  /** Set when the stream was stopped on purpose: what is still to be drawn then. */
+  /** Set when the stream was stopped on purpose: what is still to be drawn. */
   stopped: { readonly place: Place | null } | null = null;
   readonly progress = new RunProgress<EbbPart>();
 
@@ -53,9 +54,9 @@ export class EbbRun implements MachineRun {
   private readonly strokes: StrokeSet;
   private readonly events: RunEvents;
   private emergency = false;
-  /** The last place that the board surely reached with its motors supplied. */
+  /** The last place that the board certainly reached with its motors supplied. */
   private certain: Place | null = null;
-  /** Nothing may be streamed any more. */
+  /** No more streaming is allowed. */
   private failure: PlotwrightError | null = null;
   /** The heights that the board moves the pen to. */
   private boardPen: PenSettings;
@@ -73,7 +74,7 @@ export class EbbRun implements MachineRun {
     return this.request.settings();
   }
 
-  /** Also while nothing is left to be written and the board is asked whether it is at rest. */
+  /** Remains set when all commands are written and the board is polled until it is at rest. */
   get playing(): object | null {
     return this.streamer;
   }
@@ -82,12 +83,12 @@ export class EbbRun implements MachineRun {
     return this.streamer && this.progress.update(this.streamer.place());
   }
 
-  /** On its way to another plan; until it is there, it can't be told to go to a third one. */
+  /** Switching to another plan; until that is done, no third plan is accepted. */
   get isGoingOver(): boolean {
     return this.streamer?.isGoingOver ?? false;
   }
 
-  /** What the board will be given next is from there on. */
+  /** What the board receives next begins here. */
   get sentPlace(): Place | undefined {
     const { streamer } = this;
     if (!streamer?.playing) return undefined;
@@ -95,12 +96,12 @@ export class EbbRun implements MachineRun {
     return placeAt(trajectory, commands.planS[streamer.nextIndex]) ?? next ?? undefined;
   }
 
-  /** Plays a plan to its end, or to the rest that was asked for; `afterS`: what of the plot follows its end. */
+  /** Plays a plan to its end, or to a hold; `afterS`: time of the plot after the end of this plan. */
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { carriage } = this;
     this.stopped = null;
     if (carriage.penUp !== true) await carriage.movePen(true, this.settings);
-    // It may have come while the pen went up.
+    // The request may have arrived while the pen went up.
     if (this.failure) throw this.failure;
     this.boardPen = this.settings.pen;
     const { trajectory: whole } = plot;
@@ -116,11 +117,11 @@ export class EbbRun implements MachineRun {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
       const planS = report.end.stream.planS[report.end.commandIndex + 1];
-      // One that was stopped at rest ends in the middle of the plan: its way to rest has no command.
+      // A run stopped at rest ends in the middle of the plan: its path to rest has no command.
       const isWhole = report.complete && !this.stopped;
       const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
       carriage.penUp = penUp;
-      // The board has come to rest, so a lift that had begun is over, whatever rounding says of its last instant.
+      // The board is at rest, so a lift that had begun is over, even if rounding puts its last instant later.
       this.events.tell({
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
         penUp,
@@ -139,7 +140,7 @@ export class EbbRun implements MachineRun {
     if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings);
   }
 
-  /** Cuts the stream where the board has not got it yet, and puts the way to rest in its place. */
+  /** Cuts the stream after what the board already has, and appends the path to rest. */
   slowToRest(): void {
     const { streamer } = this;
     if (!streamer?.playing || this.stopped) return;
@@ -151,7 +152,7 @@ export class EbbRun implements MachineRun {
     streamer.replace(rest.part.commands);
   }
 
-  /** Drops what the board has: it stops at once, and `play` ends with the place read back. */
+  /** Drops the board's queue: it stops at once, and `play` ends with the position read back. */
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency = true;
@@ -159,7 +160,7 @@ export class EbbRun implements MachineRun {
     this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
   }
 
-  /** Stops the motors for good: what plays, or would be played next, fails with the error. */
+  /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void {
     this.failure = error;
     this.carriage.connection.session.write([{ line: "ES" }]);
@@ -167,8 +168,8 @@ export class EbbRun implements MachineRun {
   }
 
   /**
-   * A place some time ahead that the board has not got yet; null when what is left is too short for one. Either the
-   * pen is up there or it is within a stroke: at the end of one, a new plan would set out with the pen down.
+   * A place some time ahead that the board has not received yet; null if too little is left for one. The pen
+   * is either up there or within a stroke: at the end of a stroke, a new plan would start with the pen down.
    */
   placeAhead(leadS: number): PlaceAhead | null {
     const { streamer } = this;
@@ -213,7 +214,7 @@ export class EbbRun implements MachineRun {
     return brakingAt(this.settings, this.strokes, place, this.carriage.connection.features.version);
   }
 
-  /** The way to rest from before a command that is still to be written. */
+  /** The path to rest that begins before a command that is not yet written. */
   private restAt(part: EbbPart, index: number, lifts: boolean): Rest {
     const { commands, trajectory } = part;
     const fromS = commands.planS[index];
@@ -238,8 +239,8 @@ export class EbbRun implements MachineRun {
   }
 
   /**
-   * What is still to be drawn at an instant of a part: on from where the pen stands, when it is drawing. In a shaped
-   * motion that is not where the carriage stands, at `x`, `y`.
+   * What is still to be drawn at a time of a part; from the pen's position if it is drawing. In a shaped motion that
+   * differs from the carriage's position `x`, `y`.
    */
   private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
     const { stroke, alongMm, ...drawn } = drawnAt(trajectory, planS);
@@ -250,7 +251,7 @@ export class EbbRun implements MachineRun {
       : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
-  /** New heights on the way; where the pen is down at another height than it should be, it moves there. */
+  /** Applies new heights in mid-plot; if the pen is down at another height than it should be, it moves there. */
   private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
     const { pen } = this.settings;
     const machine = machineOf(this.settings);
@@ -265,14 +266,14 @@ export class EbbRun implements MachineRun {
     return restingStream(lines, state, planS);
   }
 
-  /** A place that the board told of while it played. */
+  /** A position that the board reported during the play. */
   private reached({ place, steps1, steps2 }: CertainAt): void {
     if (!this.progress.knows(place.stream)) return;
     const { x, y } = placeFromMotors(machineOf(this.settings), steps1, steps2);
     this.certain = this.placeOrEnd(place, x, y);
   }
 
-  /** The board has dropped its queue: what it has drawn is what its counters say. */
+  /** The board has dropped its queue: its counters show what it has drawn. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
     this.emergency = false;
     await this.carriage.findPlace();
@@ -285,7 +286,7 @@ export class EbbRun implements MachineRun {
     return place;
   }
 
-  /** One command has not run: the counters tell how far the board came all the same. */
+  /** One command has not run; the counters still show how far the board came. */
   private async afterRefusal(streamer: Streamer, refused: RefusedCommand): Promise<Place | null> {
     const { carriage, strokes, settings } = this;
     try {
@@ -302,25 +303,25 @@ export class EbbRun implements MachineRun {
       await carriage.movePen(true, settings);
       return place;
     } catch {
-      // It does not say where it is: home has to be set again.
+      // It does not report its position: home has to be set again.
       await carriage.forgetPlace().catch(() => undefined);
       return this.certain;
     }
   }
 
-  /** On from a place of a stream, where the pen stands at `x`, `y`. */
+  /** Resumes from a place of a stream, with the pen at `x`, `y`. */
   private placeOrEnd({ stream, planS }: StreamPlace, x: number, y: number): Place | null {
     const part = this.progress.partOf(stream);
     return this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory);
   }
 
-  /** All of a plan is drawn, and what is left is the way home: not gone before somebody says so. */
+  /** Everything of a plan is drawn, and only the move home is left: it waits for a command. */
   private endOf({ runs }: Trajectory): Place | null {
     const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
     return stroke < 0 ? this.progress.place : { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
 
-  /** Set by what happens during `play`, which the compiler cannot see. */
+  /** Set by events during `play`, which the compiler cannot see. */
   private wasStopped(): boolean {
     return this.stopped !== null;
   }

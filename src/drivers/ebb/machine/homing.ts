@@ -1,8 +1,8 @@
 /**
- * Home by the machine's own switches: each axis goes towards 0 in short steps until its switch is pressed, then
- * back in very short ones until it is released. That is home; both axes one after the other.
+ * Finds home with the machine's own switches. Each axis in turn moves towards 0 in short steps until its
+ * switch is pressed, then back in very short ones until it is released. That place is home.
  *
- * Asking between short moves needs nothing but the board's PI, which every firmware has.
+ * Polling between short moves needs only the board's PI, which every firmware has.
  */
 import { PlotwrightError } from "../../../errors.js";
 import type { HomingSwitches, SwitchInput } from "../../../machines/controllers.js";
@@ -11,10 +11,10 @@ import { machineOf } from "../../../machines/profiles.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { Carriage } from "./carriage.js";
 
-/** No longer than what a switch gives way. */
+/** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
 const RELEASE_MM = 0.05;
-/** A switch that is still pressed so far away is no end switch. */
+/** A switch that is still pressed this far away is not an end switch. */
 const MOST_RELEASE_MM = 10;
 /** The machine may be this much longer than its travel. */
 const SLACK = 1.1;
@@ -74,11 +74,11 @@ const unmet = (
 ): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The ${name} went ${Math.round(mostMm)} mm along ${axis} and met no switch: look at its cable and at the input (${port}${pin}) in the machine's profile.`,
+    `The ${name} moved ${Math.round(mostMm)} mm along ${axis} and met no switch. Check its cable, and the input (${port}${pin}) in the machine's profile.`,
   );
 
 const stuck = (axis: string, { port, pin }: SwitchInput): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The switch of ${axis} (${port}${pin}) stays pressed although the carriage went away from it: the profile may have its two states the wrong way round.`,
+    `The switch of ${axis} (${port}${pin}) stays pressed although the carriage moved away from it. The profile may have its two states swapped.`,
   );

@@ -1,4 +1,4 @@
-/** What the board's answers say of its supply and its button. */
+/** What the board reports about its supply and its button. */
 
 /**
  * The second value of `QC` is the motor supply through a divider: about 300 for 9 V. Below this the supply is

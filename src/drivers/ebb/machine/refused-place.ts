@@ -1,12 +1,13 @@
 /**
- * Where a plot goes on after the board has refused one of its commands. The board goes on with those that it had been
- * given behind it, each as it is: beside its place by the way that the refused one would have made.
+ * Where a plot resumes after the board has refused one of its commands. The board continues with the commands
+ * that it already had: each has the planned shape, but is offset by the travel of the refused one.
  *
  *   planned   ━━━━━a━━━━━b━━━━━c━━━━━       refused: a to b
  *   drawn     ━━━━━a━━━━━c'                 b to c, drawn from a on
  *
- * Where the stroke is straight, or the refused command was a short one, a to c' lies on the stroke, and the plot goes on
- * from c'. Elsewhere what was drawn is beside the stroke, and the plot goes on from a: nothing is left out.
+ * If the stroke is straight, or the refused command was short, a to c' lies on the stroke, and the plot
+ * resumes from c'. Otherwise the drawn line is beside the stroke, and the plot resumes from a: nothing is
+ * left out.
  */
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -19,9 +20,9 @@ import type { RefusedCommand } from "../stream/stream-types.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import type { EbbPart } from "./ebb-part.js";
 
-/** What is drawn so near to the stroke counts as drawn. */
+/** What is drawn this close to the stroke counts as drawn. */
 const BESIDE_MM = 0.08;
-/** How far mm along the motion and mm along the drawing may be apart. */
+/** Tolerance between mm along the motion and mm along the drawing. */
 const SNAP_MM = 0.5;
 
 export interface RefusedStop {
@@ -34,7 +35,7 @@ export interface RefusedStop {
 
 type Point = { readonly x: number; readonly y: number };
 
-/** `placeOf`: on from a place of a stream, with the pen at x, y. */
+/** `placeOf`: resumes from a place of a stream, with the pen at x, y. */
 export function placeAfterRefusal(
   strokes: StrokeSet,
   machine: MachineProfile,

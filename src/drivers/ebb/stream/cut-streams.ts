@@ -1,7 +1,10 @@
-/** Command streams cut up and made by hand: what is played when one plan takes the place of another in motion. */
+/**
+ * Command streams that are cut or made by hand: they are played when one plan takes over from another in
+ * motion.
+ */
 import type { BoardState, CommandStream } from "../compile/command-stream.js";
 
-/** What the board holds after the commands before `index`. */
+/** The board's state after the commands before `index`. */
 export function boardStateBefore(stream: CommandStream, index: number, start: BoardState): BoardState {
   if (index === 0) return start;
   return {
@@ -20,7 +23,7 @@ export function commandAfter(commands: CommandStream, index: number, leadS: numb
   return i;
 }
 
-/** A plan begins with the pen coming down; here it is down already. */
+/** A plan begins by lowering the pen; here it is already down. */
 export function withoutDrop(commands: CommandStream): CommandStream {
   let first = 0;
   while (first < commands.count && commands.run[first] < 0) first++;
@@ -43,7 +46,10 @@ function streamFrom(stream: CommandStream, index: number): CommandStream {
   };
 }
 
-/** A stream of commands in which the motors rest: each with the seconds that it holds the board's queue. */
+/**
+ * A stream of commands during which the motors rest: each with the seconds that it occupies the board's
+ * queue.
+ */
 export function restingStream(
   lines: readonly (readonly [line: string, durationS: number])[],
   state: BoardState,

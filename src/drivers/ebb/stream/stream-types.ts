@@ -2,7 +2,7 @@
 import type { InFlight, StreamPlace } from "./timeline.js";
 import type { Clock } from "../../transport.js";
 
-/** How commands are sent. Only the clock has no default. */
+/** How commands are sent. Only the clock is required. */
 export interface StreamOptions {
   /** Counts board seconds. */
   readonly clock: Clock;

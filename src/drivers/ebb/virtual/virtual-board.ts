@@ -29,7 +29,7 @@ export type { DrawnPolyline } from "./drawn-line.js";
 /** Min supply voltage at which the motors turn. */
 const LEAST_MOTOR_VOLTS = 7;
 
-/** Which board to simulate, and how fast. Only the clock has no default. */
+/** Which board to simulate, and how fast. Only the clock is required. */
 export interface VirtualBoardOptions {
   /** Counts real seconds. */
   readonly clock: Clock;
@@ -74,7 +74,7 @@ export interface VirtualBoardState {
  * replies of its firmware version, and can simulate faults.
  */
 export class VirtualBoard {
-  /** The version that it shows. */
+  /** The version that it reports. */
   readonly firmware: string;
   private readonly clock: Clock;
   private readonly speed: number;

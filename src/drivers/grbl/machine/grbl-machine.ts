@@ -1,6 +1,6 @@
 /**
- * One connected Grbl: where its carriage and its pen are, and the few ways to move them. Its work coordinates are mm from
- * home. Where nobody knows the place, the carriage stands at home.
+ * One connected Grbl: the position of its carriage and pen, and the few ways to move them. Its work
+ * coordinates are mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -18,9 +18,9 @@ import { GrblRun } from "./grbl-run.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
 
-/** The line, the board and this computer. */
+/** Allowance for the connection, the board and this computer. */
 const STOP_MS = 30;
-/** Here is home: kept over a reset. */
+/** Makes this place home; a reset keeps it. */
 const SET_HOME = "G10L20P1X0Y0";
 const NO_STROKES = {
   xy: new Float64Array(0),
@@ -34,11 +34,11 @@ export class GrblMachine implements Machine {
   readonly left = null;
   penUp: boolean | null = null;
   motorsOn: boolean | null = null;
-  /** Work position, mm; null where nobody knows what it means. */
+  /** Work position, mm; null if its origin is unknown. */
   private at: Axes | null = null;
   private isAsleep = false;
   private byHand: LineStream | null = null;
-  /** A stop of a move by hand that is under way. */
+  /** The running stop of a move by hand. */
   private stopping: Promise<Status> | null = null;
 
   constructor(
@@ -64,7 +64,7 @@ export class GrblMachine implements Machine {
     return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
   }
 
-  /** What it was doing for another program ends here. */
+  /** Ends the work that another program started. */
   async takeOver(): Promise<void> {
     const { state } = await this.session.status();
     if (state === "Idle") await this.session.send(MODES);
@@ -125,7 +125,7 @@ export class GrblMachine implements Machine {
     }
   }
 
-  /** After a job has been played to its end. */
+  /** Called after a job has been played to its end. */
   async arrived(): Promise<void> {
     this.at = (await this.session.status()).at;
     this.penUp = true;
@@ -171,7 +171,7 @@ export class GrblMachine implements Machine {
     this.stopping.catch(() => undefined);
   }
 
-  /** Nothing tells of the motors' supply; but a board that does not answer is noticed. */
+  /** Grbl does not report the motors' supply, but a board that does not answer is detected. */
   async isSupplyLow(): Promise<boolean> {
     await this.session.status();
     return false;
@@ -185,12 +185,12 @@ export class GrblMachine implements Machine {
     if (!/^[\x20-\x7e]{1,79}$/.test(line) || /[?!~]/.test(line)) {
       throw new PlotwrightError(
         "bad-setting",
-        `${line} is not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
+        `${line} was not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
       );
     }
     this.session.heard = [];
     await this.session.send(line).catch((error: unknown) => {
-      // What it refuses, it says in a line of its own.
+      // An error is a line of its own.
       if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
     });
     const replies = [...this.session.heard];
@@ -198,7 +198,7 @@ export class GrblMachine implements Machine {
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;
     await this.forgetPlace();
-    return { replies, note: "The machine may have moved: home is where it stands when it moves next." };
+    return { replies, note: "The machine may have moved. Home is where the machine is when it moves next." };
   }
 
   log(): string {
@@ -219,7 +219,7 @@ export class GrblMachine implements Machine {
     return new LineStream(this.session, commands, this.clock);
   }
 
-  /** After a reset: unlocked, in the modes that the lines are written for, at the position that it tells. */
+  /** After a reset: unlocks it, and restores the modes that the lines need and the position that it reports. */
   async recovered({ state, at }: Status): Promise<void> {
     if (state.startsWith("Alarm")) await this.session.send("$X");
     await this.session.send(MODES);

@@ -1,6 +1,6 @@
 /**
- * One plot on a Grbl. A stop drops all that the Grbl has queued, so what follows is planned anew from where it stands; it
- * cannot go over to another plan in motion.
+ * One plot on a Grbl. A stop drops everything that the Grbl has queued, so the rest is planned again from its
+ * position. It cannot switch to another plan in motion.
  */
 import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
@@ -16,15 +16,15 @@ import type { Status } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
 import { stopTime } from "./stop-place.js";
 
-/** How far mm along the plan and mm along the drawing may be apart, which the plan rounds to whole steps. */
+/** Tolerance between mm along the plan and mm along the drawing; the plan rounds to whole steps. */
 const SNAP_MM = 0.5;
 
-/** What a run needs of the machine that it plays on. */
+/** The parts of the machine that a run uses. */
 interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place"> {
   stream(commands: GrblCommands): LineStream;
-  /** After a job has been played to its end. */
+  /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
-  /** After a reset. */
+  /** Called after a reset. */
   recovered(status: Status): Promise<void>;
 }
 
@@ -40,7 +40,7 @@ export class GrblRun implements MachineRun {
   readonly isGoingOver = false;
 
   private current: Playing | null = null;
-  /** A stop on purpose that is under way. */
+  /** A running stop on purpose. */
   private stopping: Promise<Status> | null = null;
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
@@ -76,7 +76,7 @@ export class GrblRun implements MachineRun {
     this.stopping = null;
     this.isEmergency = false;
     if (machine.penUp !== true) await machine.movePen(true, this.request.settings());
-    // It may have come while the pen went up.
+    // The request may have arrived while the pen went up.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
     progress.add({ commands, trajectory: plot.trajectory, afterS });
@@ -123,13 +123,13 @@ export class GrblRun implements MachineRun {
   private stop(how: (stream: LineStream) => Promise<Status>): void {
     if (!this.current || this.stopping) return;
     this.stopping = how(this.current.stream);
-    // `play` tells of what it fails with.
+    // `play` reports its own errors.
     this.stopping.catch((error: unknown) => {
       if (error instanceof PlotwrightError) this.current?.stream.abandon(error);
     });
   }
 
-  /** The Grbl has dropped its queue: what it has drawn is what its position says. */
+  /** The Grbl has dropped its queue: its position shows what it has drawn. */
   private async whereStopped({ plot, commands, stream }: Playing, status: Status): Promise<Place | null> {
     const { machine, progress, strokes } = this;
     await machine.recovered(status);
@@ -142,13 +142,13 @@ export class GrblRun implements MachineRun {
     return snappedPlace(strokes, { stroke, alongMm }, { ...at, vx, vy }, SNAP_MM);
   }
 
-  /** What is left is the way home: not gone after an emergency stop before somebody says so. */
+  /** Only the move home is left: after an emergency stop it waits for a command. */
   private endOfDrawing(): Place {
     const stroke = strokeCount(this.strokes) - 1;
     return { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
 
-  /** Set by what happens during `play`, which the compiler cannot see. */
+  /** Set by events during `play`, which the compiler cannot see. */
   private wasStopped(): boolean {
     return this.stopped !== null;
   }

@@ -1,4 +1,4 @@
-/** Plays the lines of one job: as many as fit into the buffer are on their way. */
+/** Plays the lines of one job: sends as many ahead as fit into the buffer. */
 import { PlotwrightError } from "../../../errors.js";
 import type { Clock } from "../../transport.js";
 import type { GrblCommands } from "../grbl-job.js";
@@ -6,16 +6,16 @@ import { QUEUE_MOVES } from "../model/planner.js";
 import { NOW, type Status } from "../protocol.js";
 import type { GrblSession } from "./session.js";
 
-/** How often it is asked whether it rests, s. */
+/** Interval between queries whether it is at rest, s. */
 const ASK_S = 0.05;
 const REST_TRIES = 200;
 
 export class LineStream {
-  /** The next line to be sent. */
+  /** Index of the next line to send. */
   private next = 0;
   private answeredCount = 0;
   private isOver = false;
-  /** The last instant at which its place on the plan was known. */
+  /** The last time at which its place on the plan was known. */
   private known: { readonly planS: number; readonly clockS: number };
   private settle: (error: PlotwrightError | null) => void = () => undefined;
 
@@ -28,7 +28,7 @@ export class LineStream {
     this.known = { planS: commands.planS[0], clockS: clock.nowS() };
   }
 
-  /** Resolves when all is done. Rejects with what `stop` was given, or with what the Grbl refused. */
+  /** Resolves when everything is done. Rejects with the error passed to `stop`, or with the Grbl's error. */
   play(): Promise<void> {
     return new Promise((resolve, reject) => {
       this.settle = (error) => {
@@ -41,26 +41,26 @@ export class LineStream {
     });
   }
 
-  /** What is sent next, seconds along the plan. */
+  /** Start of the next line to send, seconds along the plan. */
   get sentS(): number {
     return this.commands.planS[this.next];
   }
 
-  /** About where it is, seconds along the plan: no further than what it has taken. */
+  /** Estimated position, seconds along the plan: no further than the accepted lines. */
   get planS(): number {
     const { planS } = this.commands;
     const nowS = this.known.planS + this.clock.nowS() - this.known.clockS;
     return Math.min(Math.max(nowS, planS[Math.max(0, this.answeredCount - QUEUE_MOVES)]), this.takenS);
   }
 
-  /** Between these, seconds along the plan, it surely is. */
+  /** Bounds of the position, seconds along the plan. */
   get boundsS(): readonly [fromS: number, toS: number] {
     const { planS, count } = this.commands;
     const from = Math.max(0, this.answeredCount - QUEUE_MOVES - 1);
     return [planS[from], planS[Math.min(count, this.answeredCount + 2)]];
   }
 
-  /** Slows down along the path; what was sent and not drawn is dropped. `play` rejects with the error. */
+  /** Slows down along the path and drops the rest of what was sent. `play` rejects with the error. */
   async slowDown(error: PlotwrightError): Promise<Status> {
     this.isOver = true;
     this.session.now(NOW.hold);
@@ -80,7 +80,7 @@ export class LineStream {
     return status;
   }
 
-  /** Nothing is sent any more, and `play` rejects. */
+  /** Sends nothing more, and `play` rejects. */
   abandon(error: PlotwrightError): void {
     this.session.now(NOW.reset);
     this.end(error);
@@ -105,7 +105,7 @@ export class LineStream {
 
   private answered(index: number, error: PlotwrightError | null): void {
     if (error) {
-      // The Grbl would go on with the lines behind the one that it refused.
+      // The Grbl would execute the lines after the one that it refused.
       if (!this.isOver) this.session.now(NOW.hold);
       return this.end(error);
     }

@@ -1,6 +1,6 @@
 /**
- * One Grbl over one transport: counts the characters that it has not answered yet, matches each `ok` or `error:n` to its
- * line, and notices when it falls silent. Knows nothing about motion.
+ * One Grbl over one transport: counts the unanswered characters, matches each `ok` or `error:n` to its line,
+ * and detects a silent board. Knows nothing about motion.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { LineSplitter } from "../../line-splitter.js";
@@ -27,19 +27,19 @@ interface SentLine {
   readonly settle: Settle;
 }
 
-/** Silence after which it counts as gone, s; it is asked for its status meanwhile. */
+/** Silence after which it counts as gone, s; its status is polled meanwhile. */
 const PATIENCE_S = 3;
 const ASK_S = 0.5;
-/** An Arduino restarts when its port is opened, and is deaf for up to two seconds. */
+/** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
 
 export class GrblSession {
   readonly log: SessionLog;
   version: string | null = null;
-  /** Called when it restarts or stops by itself; what was sent is gone then. */
+  /** Called when it restarts or stops by itself; everything sent before is lost. */
   onBreak: (error: PlotwrightError) => void = () => undefined;
-  /** Lines that were received, until the next command of the console. */
+  /** Lines received until the next command of the console. */
   heard: string[] = [];
 
   private rxBytes = RX_BYTES;
@@ -66,17 +66,17 @@ export class GrblSession {
     transport.onClose(() => this.fail(lineLost()));
   }
 
-  /** Rejects with `no-board` when something else answers, with `board-timeout` when nothing does. */
+  /** Rejects with `no-board` if another device answers, with `board-timeout` if nothing does. */
   async identify(): Promise<string> {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
-      // Asleep, held or at work for another program, it answers nothing else.
+      // While asleep, held or working for another program, it answers nothing else.
       if (i > 0) this.now(NOW.reset);
       const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
-      // An empty line closes what another program may have left unfinished.
+      // An empty line ends what another program may have left unfinished.
       const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
       await Promise.race([answered, tooLate]);
       this.dropSent(silent("$I"));
-      // An answer to an earlier attempt must not count for a later line.
+      // A reply to an earlier attempt must not count for a later line.
       if (i > 0) await tooLate;
     }
     if (this.failure) throw this.failure;
@@ -84,12 +84,12 @@ export class GrblSession {
     return this.version;
   }
 
-  /** Whether the buffer takes another line now. */
+  /** Whether the buffer has room for another line now. */
   hasRoom(line: string): boolean {
     return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.rxBytes;
   }
 
-  /** Sends one line; `settle` is called once, with its answer or with what has gone wrong. */
+  /** Sends one line; `settle` is called once, with its reply or an error. */
   write(line: string, settle: Settle): void {
     if (this.failure) return settle(this.failure);
     this.sent.push({ line, settle });
@@ -104,7 +104,7 @@ export class GrblSession {
     return new Promise((resolve, reject) => this.write(line, (error) => (error ? reject(error) : resolve())));
   }
 
-  /** A byte that is obeyed at once. */
+  /** A byte that acts at once. */
   now(byte: string): void {
     if (byte !== NOW.status) this.log.add("sent", byte === NOW.reset ? "(reset)" : byte);
     this.put(byte);
@@ -117,7 +117,7 @@ export class GrblSession {
     });
   }
 
-  /** Drops all that it has. What was sent and not answered is settled with the error. */
+  /** Drops everything that it has. Sent and unanswered lines are settled with the error. */
   async reset(error: PlotwrightError): Promise<Status> {
     const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
     this.now(NOW.reset);
@@ -199,11 +199,11 @@ export class GrblSession {
     for (const { settle } of this.sent.splice(0)) settle(error);
   }
 
-  /** While an answer is missing, it is asked for its status: that comes even where a line waits for motion. */
+  /** While a reply is missing, its status is polled: it answers that even if a line waits for motion. */
   private watch(): void {
     this.cancelWatch = null;
     if (this.failure || this.sent.length === 0) return;
-    // The first look must not find what was heard long ago.
+    // The first check must not use the time of an old reply.
     const sinceS = this.clock.nowS();
     this.cancelWatch = this.clock.after(ASK_S, () => {
       if (this.clock.nowS() - Math.max(this.heardS, sinceS - PATIENCE_S) > PATIENCE_S) {
@@ -241,13 +241,13 @@ const silent = (waitingFor: string): PlotwrightError =>
 const restarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The Grbl has started anew in the middle of its work: its reset button was pressed, or its supply failed. Put the carriage to home before you go on.",
+    "The Grbl restarted during its motion: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
   );
 
 function notGrbl(heard: readonly string[]): PlotwrightError {
   if (heard.length === 0) return silent("its version");
   return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It said: ${heard.join("; ")}.`,
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. Its answer: ${heard.join("; ")}.`,
   );
 }

@@ -1,10 +1,13 @@
-/** Where on a plan a stop has left the carriage. */
+/** Finds the place on a plan at which a stop left the carriage. */
 import type { Trajectory } from "../../../plan/trajectory.js";
 
-/** Blocks that lie about as near as the nearest one: the path may cross itself. */
+/** Blocks that are about as near as the nearest one: the path may cross itself. */
 const SAME_MM = 0.03;
 
-/** Seconds along the plan of the point nearest to x, y between two instants, and to an estimate where several are. */
+/**
+ * Seconds along the plan of the point nearest to x, y between two times; if there are several, the one
+ * nearest to the estimate.
+ */
 export function stopTime(
   trajectory: Trajectory,
   { x, y }: { readonly x: number; readonly y: number },
@@ -35,7 +38,7 @@ function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): { a
   const v = Math.hypot(vx[k], vy[k]);
   const a = lengthMm > 0 ? (ax[k] * dx + ay[k] * dy) / lengthMm : 0;
   const s = share * lengthMm;
-  // s = v t + a t²/2, in a form that holds for a = 0 too.
+  // s = v t + a t²/2, in a form that is valid for a = 0 too.
   const root = v + Math.sqrt(Math.max(0, v * v + 2 * a * s));
   return { awayMm, atS: startS[k] + Math.min(t, root > 0 ? (2 * s) / root : 0) };
 }

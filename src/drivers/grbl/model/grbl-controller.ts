@@ -3,7 +3,7 @@ import type { GrblController } from "../../../machines/controllers.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { AxisLimits } from "./planner.js";
 
-/** The machine's controller as this driver's own. Throws `bad-setting` for a machine that it cannot drive. */
+/** The machine's controller as this driver's type. Throws `bad-setting` for a machine that it cannot drive. */
 export function grblOf({ name, motors, controller }: MachineProfile): GrblController {
   if (controller.kind !== "grbl") {
     throw new PlotwrightError(

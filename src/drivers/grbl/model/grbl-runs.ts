@@ -1,4 +1,4 @@
-/** Writes the runs of a plan as Grbl performs them, and keeps the moves to be sent for them. */
+/** Writes the runs of a plan as Grbl performs them, and stores the moves to send for them. */
 import type { GrblController } from "../../../machines/controllers.js";
 import { motor1FromXy, motor2FromXy, placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -10,7 +10,7 @@ import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
 import { axisLimits } from "./grbl-controller.js";
 import { moveOf, plannedSpeeds2, type AxisLimits, type Move } from "./planner.js";
 
-/** A line to be sent: to a position of the axes, mm. */
+/** A line to send: to a position of the axes, mm. */
 export interface SentMove {
   readonly x: number;
   readonly y: number;
@@ -87,5 +87,5 @@ export class GrblRuns implements WritesRuns {
   }
 }
 
-/** mm/min, as it is written. Grbl takes nothing below 1. */
+/** mm/min, as written. Grbl refuses values below 1. */
 const feedOf = (speedMmPerS: number): number => Math.max(1, Math.round(60_000 * speedMmPerS) / 1_000);

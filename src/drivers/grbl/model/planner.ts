@@ -1,7 +1,7 @@
 /**
- * Grbl's own planner: how fast it takes each move of a queue. The job uses it to know the motion beforehand, the virtual
- * Grbl to perform it. From the description of planner.c: a limit for each corner by junction deviation, then one pass
- * backwards from rest at the end of the queue, then constant acceleration.
+ * Grbl's own planner: the speed of each move in a queue. The job uses it to predict the motion, the virtual
+ * Grbl to perform it. Written from the description of planner.c: a limit for each corner by junction
+ * deviation, then one pass backwards from rest at the end of the queue, then constant acceleration.
  */
 
 /** X, Y and Z: a position in mm, a unit vector, or the limits of the axes. */
@@ -20,19 +20,19 @@ export interface Move {
   readonly unit: Axes;
   readonly lengthMm: number;
   readonly accel: number;
-  /** Of the feed and the axes, mm/s. */
+  /** Limit by the feed and the axes, mm/s. */
   readonly speed: number;
-  /** The highest speed² at its start, whatever follows. */
+  /** Max speed² at its start, whatever follows. */
   readonly maxEntry2: number;
 }
 
-/** Moves that fit into the queue, with the one that is being performed. */
+/** Max moves in the queue, including the running one. */
 export const QUEUE_MOVES = 15;
 
 /** Beyond these a corner counts as a reversal or as straight. */
 const SAME = 0.999999;
 
-/** A move from one position to another, which are not the same. `before`: the move that is queued before it. */
+/** A move between two different positions. `before`: the move that is queued before it. */
 export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
   const way: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
   const lengthMm = Math.hypot(...way);
@@ -44,14 +44,14 @@ export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, b
   return { unit, lengthMm, accel: alongAxes(limits.accel, unit), speed, maxEntry2 };
 }
 
-/** The most along a direction that exceeds the limit of no axis. */
+/** Max value along a direction within the limits of all axes. */
 function alongAxes(limits: Axes, unit: Axes): number {
   let most = Infinity;
   for (let i = 0; i < 3; i++) if (unit[i] !== 0) most = Math.min(most, limits[i] / Math.abs(unit[i]));
   return most;
 }
 
-/** The highest speed² around a corner: that of a circle that passes it within the junction deviation. */
+/** Max speed² around a corner: that of a circle that passes it within the junction deviation. */
 export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }: AxisLimits): number {
   const cos = -(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
   if (cos > SAME) return 0;
@@ -63,7 +63,7 @@ export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }:
   return (along * junctionMm * sine) / (1 - sine);
 }
 
-/** The highest speed² at the end of move `i` from which the moves before `end` can come to rest. */
+/** Max speed² at the end of move `i` from which the moves before `end` can come to rest. */
 export function exitLimit2(moves: readonly Move[], i: number, end: number): number {
   let speed2 = 0;
   for (let j = end - 1; j > i; j--) {
@@ -73,7 +73,10 @@ export function exitLimit2(moves: readonly Move[], i: number, end: number): numb
   return speed2;
 }
 
-/** Speed² at the start of each move and at the end of the last one, from rest to rest, with a queue that is kept full. */
+/**
+ * Speed² at the start of each move and at the end of the last one, from rest to rest, with a queue that is
+ * always full.
+ */
 export function plannedSpeeds2(moves: readonly Move[]): Float64Array {
   const speeds2 = new Float64Array(moves.length + 1);
   for (let i = 0; i < moves.length; i++) {

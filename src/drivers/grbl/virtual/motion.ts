@@ -1,26 +1,26 @@
-/** The queue of moves of the virtual Grbl, and the axes that perform them over time. */
+/** The move queue of the virtual Grbl, and the axes that perform it over time. */
 import type { AxisLimits, Axes, Move } from "../model/planner.js";
 import { exitLimit2, moveOf, QUEUE_MOVES } from "../model/planner.js";
 
-/** A stretch of constant acceleration. */
+/** A piece of constant acceleration. */
 interface Phase {
   readonly durationS: number;
   readonly accel: number;
 }
 
-/** Below this a speed is 0 and a length is over: mm/s, mm. */
+/** Below this a speed is 0 and a length is done: mm/s, mm. */
 const NOTHING = 1e-9;
 
 export class GrblMotion {
-  /** The first one is being performed. */
+  /** The first one is running. */
   private moves: Move[] = [];
   private phases: Phase[] = [];
-  /** Where the first move began, and how far it is at `atS`. */
+  /** Start of the first move, and its progress at `atS`. */
   private start: Axes = [0, 0, 0];
   private doneMm = 0;
   private speed = 0;
   private atS = 0;
-  /** Where the last move of the queue ends. */
+  /** End of the last move in the queue. */
   private target: Axes = [0, 0, 0];
   private lastMove: Move | null = null;
   private isHolding = false;
@@ -59,12 +59,12 @@ export class GrblMotion {
     return this.speed;
   }
 
-  /** Machine seconds at which what it does now ends; Infinity at rest. */
+  /** Machine seconds at which the current piece ends; Infinity at rest. */
   get nextS(): number {
     return this.phases.length > 0 ? this.atS + this.phases[0].durationS : Infinity;
   }
 
-  /** `to` differs from where the queue ends. It does not set out by itself: see `go`. */
+  /** `to` differs from the end of the queue. Does not start the motion: see `go`. */
   queue(to: Axes, feed: number): void {
     const before = this.isEmpty ? null : this.lastMove;
     this.lastMove = moveOf(this.target, to, feed, this.limits, before);
@@ -73,7 +73,7 @@ export class GrblMotion {
     if (this.isMoving && !this.isHolding) this.plan();
   }
 
-  /** Sets out, or goes on after a hold. */
+  /** Starts the motion, or resumes it after a hold. */
   go(nowS: number): void {
     this.atS = nowS;
     this.isHolding = false;
@@ -86,7 +86,7 @@ export class GrblMotion {
     this.plan();
   }
 
-  /** Drops the queue where it stands. */
+  /** Drops the queue and stops at the current position. */
   stop(): void {
     this.start = this.target = this.at;
     this.moves = [];
@@ -96,7 +96,7 @@ export class GrblMotion {
     this.arrived(this.start);
   }
 
-  /** Performs what falls before an instant. */
+  /** Performs everything before a given time. */
   advance(toS: number): void {
     while (this.phases.length > 0) {
       const { durationS, accel } = this.phases[0];
@@ -120,7 +120,7 @@ export class GrblMotion {
     const isOver = move.lengthMm - this.doneMm < 1e-6;
     if (isOver) {
       this.start = [0, 1, 2].map((i) => this.start[i] + move.unit[i] * move.lengthMm) as unknown as Axes;
-      // The sum of many moves must not drift from what was asked for.
+      // The sum of many moves must not drift from the requested positions.
       if (this.moves.length === 1) this.start = this.target;
       this.moves.shift();
       this.doneMm = 0;
@@ -131,7 +131,7 @@ export class GrblMotion {
     else if (!(this.isHolding && this.speed === 0)) this.plan();
   }
 
-  /** The rest of the first move, from the speed that it has now. */
+  /** The rest of the first move, from its current speed. */
   private plan(): void {
     this.phases = [];
     if (this.isEmpty) return;
@@ -150,7 +150,7 @@ export class GrblMotion {
     this.add((peak - this.speed) / accel, accel);
     if (cruiseMm > NOTHING) this.add(cruiseMm / peak, 0);
     this.add((peak - end) / accel, -accel);
-    // Nothing is left of it but rounding.
+    // Only rounding errors are left of it.
     if (this.phases.length === 0) this.phases.push({ durationS: 0, accel: 0 });
   }
 

@@ -1,6 +1,7 @@
 /**
- * A small Grbl in software: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model, reports
- * and the bytes that act at once. It knows the commands that this driver sends, and refuses others as Grbl does.
+ * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's
+ * model, reports, and the bytes that act at once. It supports the commands that this driver sends, and
+ * refuses others as Grbl does.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -13,11 +14,11 @@ import { RX_BYTES } from "../protocol.js";
 import { GrblMotion } from "./motion.js";
 
 const VERSION = "1.1h";
-/** It waits so long for more lines before it sets out with a queue that is not full. */
+/** How long it waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
 const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused: 36 } as const;
-/** Modes that it is always in. */
+/** Modes that are always on. */
 const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
 
 export interface GrblDrawn {
@@ -32,7 +33,7 @@ export interface VirtualGrblState {
   readonly yMm: number;
   readonly zMm: number;
   readonly penUp: boolean;
-  /** Characters that came when the buffer was full: a real Grbl loses them without a word. */
+  /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
   readonly lostCount: number;
 }
 
@@ -53,7 +54,7 @@ export class VirtualGrbl implements VirtualMachine {
   /** Of the work coordinates, mm. */
   private offset: Axes = [0, 0, 0];
   private isOffsetTold = false;
-  /** Machine seconds until which it waits; null: no G4 runs. */
+  /** Machine seconds until which it waits; null: no G4 is running. */
   private waitUntilS: number | null = null;
   private setOutS: number | null = null;
   private cancelTimer: () => void = () => undefined;
@@ -111,7 +112,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.work();
   }
 
-  /** Reads lines as long as nothing keeps it from that, and sets a timer for what ends next. */
+  /** Reads lines while it can, and sets a timer for the next event. */
   private work(): void {
     while (!this.isHeld && !this.isAsleep && this.waitUntilS === null) {
       const end = this.received.indexOf("\n");
@@ -145,7 +146,10 @@ export class VirtualGrbl implements VirtualMachine {
     });
   }
 
-  /** Brings motion and waits to now, in the order in which they end. `leastS`: a timer may fire a little early. */
+  /**
+   * Advances motion and waits to the current time, in the order in which they end. `leastS`: a timer may fire
+   * slightly early.
+   */
   private catchUp(leastS = 0): void {
     const toS = Math.max(this.nowS, leastS);
     if (this.setOutS !== null && this.setOutS <= toS) {
@@ -159,7 +163,7 @@ export class VirtualGrbl implements VirtualMachine {
     }
   }
 
-  /** 0: done or queued; above: the error; null: it has to wait with this line. */
+  /** 0: done or queued; above: the error; null: the line has to wait. */
   private perform(line: string): number | null {
     if (line === "") return 0;
     if (line.startsWith("$")) return this.system(line);
@@ -187,7 +191,7 @@ export class VirtualGrbl implements VirtualMachine {
     return 0;
   }
 
-  /** Its own wait ends it, and only then it is answered: the line is taken out of the buffer here. */
+  /** The line is answered when its own wait ends: it is removed from the buffer here. */
   private dwell(seconds: number | undefined): number | null {
     if (seconds === undefined) return 28;
     if (!this.motion.isEmpty) return null;
@@ -317,7 +321,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 }
 
-/** A connection to it: what is written arrives at once, what it says a moment later. */
+/** A connection to it: written bytes arrive at once, its replies shortly after. */
 class VirtualLine implements Transport {
   private listener: (bytes: Uint8Array) => void = () => undefined;
   private closeListener: (error?: Error) => void = () => undefined;

@@ -1,4 +1,4 @@
-/** Damage to files, the same in every run. */
+/** Damages files, the same way in every run. */
 
 /** mulberry32: small, seeded, the same everywhere. */
 export function generator(seed: number): (below: number) => number {
@@ -10,7 +10,7 @@ export function generator(seed: number): (below: number) => number {
   };
 }
 
-/** One to six edits; the first eight of `pieces` stand in for numbers. */
+/** One to six edits; the first eight of `pieces` replace numbers. */
 export function mutate(text: string, pieces: readonly string[], below: (n: number) => number): string {
   for (let edits = 1 + below(6); edits > 0; edits--) {
     const at = below(text.length + 1);
@@ -21,7 +21,7 @@ export function mutate(text: string, pieces: readonly string[], below: (n: numbe
     else if (kind === 2) text = text.slice(0, at) + text.slice(at, at + length * 5) + text.slice(at);
     else if (kind === 3) text = text.slice(0, at) + String.fromCharCode(below(128)) + text.slice(at + 1);
     else {
-      // A number in place of another keeps the file whole, so that the mutation gets further in.
+      // A number in place of another keeps the file valid, so that the mutation reaches later stages.
       const rest = text.slice(at);
       const piece = pieces[below(8)];
       text = text.slice(0, at) + rest.replace(/-?\d+(\.\d+)?/, piece);

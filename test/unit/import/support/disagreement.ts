@@ -45,7 +45,7 @@ export function ourShapes({ paths }: Drawing): Polyline[][] {
   });
 }
 
-/** The largest distance, both ways, shape by shape, as a part of the page. */
+/** Max distance, in both directions, shape by shape, as a fraction of the page. */
 export function disagreement(svg: string): number {
   const theirs = resvgShapes(svg);
   const ours = ourShapes(importSvg(svg));

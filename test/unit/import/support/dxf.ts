@@ -1,10 +1,10 @@
-/** Small DXF files, and letters of a known shape to write in them. */
+/** Small DXF files, and letters of a known shape for them. */
 import type { Drawing } from "../../../../src/index.js";
 import { importDrawing } from "../../../../src/import/registry.js";
 import type { ImportOptions } from "../../../../src/import/import-options.js";
 import type { TextFont } from "../../../../src/import/text/text-font.js";
 
-/** 100 × 100 mm, the first shape of every drawing: on the page y runs down from 100. */
+/** 100 × 100 mm, the first shape of every drawing: on the page y points down from 100. */
 const FRAME = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 100\n20 0\n10 100\n20 100\n10 0\n20 100";
 
 /** Every letter is a box as high as capitals, 0.7 em, and 0.5 em wide; the next follows after 0.7 em. */
@@ -21,7 +21,7 @@ export const boxes: TextFont = {
   }),
 };
 
-/** Groups as "code value" lines, so that values may have blanks. */
+/** Groups as "code value" lines, so that values may have spaces. */
 export function drawDxf(entities: string, options: ImportOptions = {}, blocks = ""): Drawing {
   const lines = [
     "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 4\n0 ENDSEC",

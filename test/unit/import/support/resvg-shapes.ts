@@ -1,6 +1,7 @@
 /**
  * The shapes that resvg, an independent renderer, finds in an SVG: its resolved tree printed as SVG, whose
- * paths are absolute M, L, Q, C and Z, read here by a reader of our own that shares nothing with the product.
+ * paths are absolute M, L, Q, C and Z. They are read by a separate reader that shares no code with the
+ * product.
  */
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -105,7 +106,7 @@ function bezier(points: readonly number[], t: number): [number, number] {
   return [p[0], p[1]];
 }
 
-/** Largest distance from any vertex of `from` to the lines `to`. */
+/** Max distance from any vertex of `from` to the lines `to`. */
 export function farthest(from: readonly Polyline[], to: readonly Polyline[]): number {
   let worst = 0;
   for (const line of from) {

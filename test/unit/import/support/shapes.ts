@@ -1,4 +1,4 @@
-/** A drawing as text that a reader can check: one line a shape, verbs and mm. */
+/** A drawing as text that a reader can check: one line per shape, verbs and mm. */
 import { PAIRS_OF_VERB, type Drawing } from "../../../../src/drawing/drawing.js";
 import { flattenCubic } from "../../../../src/geometry/cubic.js";
 import { PointBuffer } from "../../../../src/geometry/growable.js";
@@ -9,7 +9,7 @@ const LETTERS = ["M", "L", "C", "Z"];
 
 const tidy = (mm: number): string => String(Math.round(mm * 1e4) / 1e4 + 0);
 
-/** A 100 mm page on which a user unit is a mm. */
+/** A 100 mm page on which a user unit is 1 mm. */
 export const page = (body: string, attributes = ""): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="100mm" height="100mm" viewBox="0 0 100 100" fill="none" stroke="#000" ${attributes}>${body}</svg>`;
 
@@ -29,7 +29,7 @@ export function shapesOf({ paths }: Drawing): string[] {
 
 export const draw = (body: string, options?: ImportOptions): Drawing => importSvg(page(body), options);
 
-/** The shapes in a body put on the 100 mm page. */
+/** The shapes of a body on the 100 mm page. */
 export const shapes = (body: string): string[] => shapesOf(draw(body));
 
 export const codes = (drawing: Drawing): string[] => drawing.warnings.map((warning) => warning.code);

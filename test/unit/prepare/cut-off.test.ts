@@ -1,0 +1,42 @@
+import { describe, expect, it } from "vitest";
+import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
+import { cutOffLines } from "../../../src/prepare/cut-off.js";
+import { placeDrawing } from "../../../src/prepare/place.js";
+import { drawingOf } from "../../support/drawings.js";
+
+/** Paper of 100 mm with margins of 10, true size. */
+const BASE: PrepareSettings = {
+  ...DEFAULT_PREPARE,
+  paper: { widthMm: 100, heightMm: 100 },
+  marginMm: 10,
+  fit: false,
+};
+const cutOf = (drawing: ReturnType<typeof drawingOf>, settings: Partial<PrepareSettings> = {}) => {
+  const all = { ...BASE, ...settings };
+  return cutOffLines(drawing, all, placeDrawing(drawing, all));
+};
+
+/** Inside; across the margin; outside. */
+const LINES = ["M20 20L80 20", "M50 50L95 50", "M5 2L60 2"];
+
+describe("what the margins cut off", () => {
+  it("is lines outside, and lines that leave", () => {
+    const cut = cutOf(drawingOf(LINES))!;
+    expect([...cut.lines.xy]).toEqual([50, 50, 95, 50, 5, 2, 60, 2]);
+    expect(cut.outsideCount).toBe(1);
+    expect(cut.limit).toEqual({ x0: 10, y0: 10, x1: 90, y1: 90 });
+  });
+
+  it("is nothing where all is inside, fitted, or not cut", () => {
+    expect(cutOf(drawingOf(LINES.slice(0, 1)))).toBeNull();
+    expect(cutOf(drawingOf(LINES), { fit: true })).toBeNull();
+    expect(cutOf(drawingOf(LINES), { clipToMargins: false })).toBeNull();
+  });
+
+  it("does not count what a hidden layer would lose, nor shapes that draw nothing", () => {
+    const shapes = [LINES[0], { d: LINES[1], group: 1 }, { d: "M50 50" }];
+    const layered = drawingOf(shapes, { groups: ["kept", "off"] });
+    expect(cutOf(layered, { hiddenLayers: ["g1"] })).toBeNull();
+    expect(cutOf(layered)!.outsideCount).toBe(0);
+  });
+});

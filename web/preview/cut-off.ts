@@ -1,0 +1,33 @@
+/** Shows pale what the margins cut off. */
+import type { View } from "../scene/view.js";
+import type { CutOffPicture } from "../worker/cut-off.js";
+
+/** Seen on paper and beside it, in both themes. */
+const COLOR = "rgb(150 140 130 / 55%)";
+const LINE_PX = 1;
+
+export const paintCutOff = (context: CanvasRenderingContext2D, view: View, cutOff: CutOffPicture): void => {
+  const { limit, points, offsets } = cutOff;
+  const x = (mm: number): number => view.offsetX + mm * view.scale;
+  const y = (mm: number): number => view.offsetY + mm * view.scale;
+  context.save();
+  // Only outside the limit: all of the canvas without that box.
+  context.beginPath();
+  context.rect(0, 0, context.canvas.width, context.canvas.height);
+  context.rect(
+    x(limit.x0),
+    y(limit.y0),
+    (limit.x1 - limit.x0) * view.scale,
+    (limit.y1 - limit.y0) * view.scale,
+  );
+  context.clip("evenodd");
+  context.beginPath();
+  for (let i = 0; i + 1 < offsets.length; i++) {
+    context.moveTo(x(points[offsets[i]]), y(points[offsets[i] + 1]));
+    for (let k = offsets[i] + 2; k < offsets[i + 1]; k += 2) context.lineTo(x(points[k]), y(points[k + 1]));
+  }
+  context.strokeStyle = COLOR;
+  context.lineWidth = LINE_PX;
+  context.stroke();
+  context.restore();
+};

@@ -1,0 +1,74 @@
+import { useMemo } from "react";
+import { activeJob, isReady, mayOperate, otherOperator, selectedStroke } from "../state/store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
+import { IconButton } from "../ui/icon-button.js";
+import { layerLooks } from "./looks.js";
+import { strokeFigures } from "./stroke.js";
+import { strokeText } from "./text.js";
+
+const words = strokeText;
+
+/** The stroke that was clicked: its figures, and plotting from its beginning on. */
+export const StrokeCard = () => {
+  const selected = usePageState(selectedStroke);
+  const settings = usePageState((state) => state.settings);
+  const store = usePageStore();
+  const figures = useMemo(
+    () => selected && strokeFigures(selected.of, selected.hover.strokeNumber - 1),
+    [selected],
+  );
+  if (!selected || !figures) return null;
+  const { of: planned, hover } = selected;
+  const { widthMm } = layerLooks("pen", { planned, settings })[hover.layer];
+  const rows = [
+    [words.length, formatLength(figures.lengthMm)],
+    [words.width, `${formatNumber(widthMm, 2)} mm`],
+    [words.takes, words.seconds(formatNumber(figures.durationS, 2))],
+    [words.begins, formatMoment(figures.startS)],
+    [words.speedHere, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
+  ] as const;
+  return (
+    <section className="stroke-card" aria-label={words.title}>
+      <header>
+        <strong>{words.strokeOf(formatCount(hover.strokeNumber), formatCount(planned.strokeCount))}</strong>
+        <IconButton icon="close" label={words.close} onClick={() => store.setState({ selected: null })} />
+      </header>
+      <p>{hover.layerName}</p>
+      <dl>
+        {rows.map(([label, value]) => (
+          <div key={label}>
+            <dt>{label}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+      <PlotFromHere strokeIndex={hover.strokeNumber - 1} />
+    </section>
+  );
+};
+
+const PlotFromHere = ({ strokeIndex }: { strokeIndex: number }) => {
+  const isOff = usePageState(
+    (state) =>
+      !isReady(state) ||
+      !mayOperate(state) ||
+      otherOperator(state) !== null ||
+      activeJob(state) !== null ||
+      state.busyAction !== null,
+  );
+  const { plotDrawing } = useActions();
+  return (
+    <>
+      <button
+        type="button"
+        className="button"
+        disabled={isOff}
+        onClick={() => void plotDrawing({ strokeIndex, alongMm: 0 })}
+      >
+        {words.plotFrom}
+      </button>
+      <p className="note">{words.plotFromHint}</p>
+    </>
+  );
+};
