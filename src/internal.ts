@@ -1,4 +1,14 @@
 /** What server, web and tests use besides the public library. Anything here may change without notice. */
+// lengths
+export {
+  LENGTH_UNITS,
+  lengthFromMm,
+  mmFromLength,
+  parseLength,
+  parseSize,
+  type LengthUnit,
+} from "./units.js";
+
 // errors
 export { ERROR_TABLE } from "./errors.js";
 
@@ -60,6 +70,17 @@ export { SPRINGS_TABLE } from "./settings/springs.js";
 export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
+export { boxOfPoints, isEmptyBox, type Box } from "./geometry/box.js";
+export { isReached } from "./prepare/check-bounds.js";
+export {
+  canBePaper,
+  isOnFilesPage,
+  onFilesPage,
+  placedForPage,
+  quarterTurned,
+  quarterTurnedBox,
+  withoutFilesPage,
+} from "./prepare/files-page.js";
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
 export { cutOffLines, type CutOff } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";

@@ -33,3 +33,35 @@ export const accelFromStepsPerS2 = (stepsPerS2: number): number =>
 /** Accumulator counts per tick³ from steps/s³ (not rounded). */
 export const jerkFromStepsPerS3 = (stepsPerS3: number): number =>
   (stepsPerS3 * ACCUMULATOR_RANGE) / (TICKS_PER_S * TICKS_PER_S * TICKS_PER_S);
+
+const MM_PER_UNIT = { mm: 1, cm: 10, m: 1_000, in: MM_PER_INCH, '"': MM_PER_INCH } as const;
+export const LENGTH_UNITS = ["mm", "in"] as const;
+/** What lengths are shown in. */
+export type LengthUnit = (typeof LENGTH_UNITS)[number];
+
+/** An inch is not a round number of binary mm: 8.5 in must be 215.9, not 215.89999999999998. */
+export const mmFromLength = (length: number, unit: keyof typeof MM_PER_UNIT): number =>
+  Number((length * MM_PER_UNIT[unit]).toFixed(9));
+export const lengthFromMm = (mm: number, unit: LengthUnit): number => mm / MM_PER_UNIT[unit];
+
+const isUnit = (word: string): word is keyof typeof MM_PER_UNIT => Object.hasOwn(MM_PER_UNIT, word);
+
+/** "12", "12mm", "1.2 cm", "8.5in"; null for anything else. */
+export function parseLength(text: string): number | null {
+  const [, amount, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+))\s*([a-z"]*)$/.exec(text.trim().toLowerCase()) ?? [];
+  const word = unit === "" ? "mm" : unit;
+  if (amount === undefined || word === undefined || !isUnit(word)) return null;
+  const mm = mmFromLength(Number(amount), word);
+  return Number.isFinite(mm) ? mm : null;
+}
+
+/** "210x297", "20x20cm", "8.5x11in": a unit at the end applies to both. Null if malformed. */
+export function parseSize(text: string): { readonly widthMm: number; readonly heightMm: number } | null {
+  const [width, height, ...more] = text.trim().split(/\s*[x×]\s*/i);
+  if (width === undefined || height === undefined || more.length > 0) return null;
+  const unit = /[a-z"]*$/i.exec(height)?.[0] ?? "";
+  const widthMm = parseLength(/[a-z"]$/i.test(width) ? width : `${width}${unit}`);
+  const heightMm = parseLength(height);
+  if (widthMm === null || heightMm === null) return null;
+  return widthMm > 0 && heightMm > 0 ? { widthMm, heightMm } : null;
+}

@@ -4,13 +4,14 @@ import { PAPER_SIZES } from "../../src/index.js";
 import {
   SETTING_FLAGS,
   flagInWords,
+  parseSize,
   valuesInWords,
   type SettingFlag,
   type FourMargins,
   type PaperSize,
   type PlacedBox,
 } from "../../src/internal.js";
-import { length, sizeMm } from "./lengths.js";
+import { length } from "./lengths.js";
 
 export interface SettingOption {
   readonly flags: string;
@@ -95,7 +96,7 @@ function place(text: string): PlacedBox {
 function paper(text: string): PaperSize {
   const name = Object.keys(PAPER_SIZES).find((one) => one.toLowerCase() === text.toLowerCase());
   if (name !== undefined) return PAPER_SIZES[name as keyof typeof PAPER_SIZES];
-  const size = sizeMm(text);
+  const size = parseSize(text);
   if (size !== null) return size;
   const names = Object.keys(PAPER_SIZES).join(", ");
   throw new InvalidArgumentError(

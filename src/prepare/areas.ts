@@ -2,19 +2,21 @@
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
 import { RULE_EVENODD, type Drawing } from "../drawing/drawing.js";
 import { boxContains, type Box } from "../geometry/box.js";
-import { lineCount, type Lines } from "../geometry/polyline.js";
+import { isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
 import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../geometry/region.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
  * Region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. `lines` are
- * the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG.
+ * the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG. With `hasOutlines`
+ * also of each shape that is not filled, as far as its lines are closed.
  */
 export function filledAreas(
   lines: Lines,
   drawing: Drawing,
   clipOf: (shape: number) => Region | null,
   limit: Box,
+  hasOutlines: boolean,
   work: Work,
 ): Map<number, Region> {
   const areas = new Map<number, Region>();
@@ -22,12 +24,15 @@ export function filledAreas(
   for (let i = 0, next = 0; i < lineCount(lines); i = next) {
     stopIfCancelled(work);
     const shape = lines.tag[i];
+    const isFilled = drawing.paths.fill[shape] >= 0;
     const rings: Paths64 = [];
     for (next = i; next < lineCount(lines) && lines.tag[next] === shape; next++) {
-      if (lines.offsets[next + 1] - lines.offsets[next] > 2) rings.push(ringOf(lines, next));
+      const isRing = isFilled || (hasOutlines && isClosedLine(lines, next));
+      if (isRing && lines.offsets[next + 1] - lines.offsets[next] > 2) rings.push(ringOf(lines, next));
     }
-    if (drawing.paths.fill[shape] < 0 || rings.length === 0) continue;
-    const rule = drawing.paths.fillRule[shape] === RULE_EVENODD ? FillRule.EvenOdd : FillRule.NonZero;
+    if (rings.length === 0) continue;
+    const isEvenOdd = !isFilled || drawing.paths.fillRule[shape] === RULE_EVENODD;
+    const rule = isEvenOdd ? FillRule.EvenOdd : FillRule.NonZero;
     let area = cleanRings(rings, rule);
     const clip = clipOf(shape);
     if (clip !== null) area = combine(ClipType.Intersection, area, clip.rings);
@@ -36,6 +41,10 @@ export function filledAreas(
   }
   return areas;
 }
+
+/** Of the areas, those of shapes that are filled: an outline hides nothing. */
+export const filledOnly = (areas: ReadonlyMap<number, Region>, drawing: Drawing): Map<number, Region> =>
+  new Map([...areas].filter(([shape]) => drawing.paths.fill[shape] >= 0));
 
 const frameOf = (box: Box): { x: number; y: number }[] =>
   [

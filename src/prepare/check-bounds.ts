@@ -1,11 +1,17 @@
 /** Checks that the drawing fits the machine, before anything moves. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { PlotwrightError } from "../errors.js";
-import { boxOfPoints } from "../geometry/box.js";
+import { boxOfPoints, type Box } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
 
 /** mm; rounding and the play of the carriage are no reason to refuse a plot. */
 const SLACK = 0.01;
+
+/** Whether a machine reaches all of a box, with 0.01 mm to spare for rounding. */
+export const isReached = (
+  box: Box,
+  { widthMm, heightMm }: Pick<MachineProfile, "widthMm" | "heightMm">,
+): boolean => box.x0 >= -SLACK && box.y0 >= -SLACK && box.x1 <= widthMm + SLACK && box.y1 <= heightMm + SLACK;
 
 /**
  * Checks that a machine reaches every stroke, with 0.01 mm to spare for rounding. `planSvg` does it; call it yourself
@@ -19,12 +25,7 @@ export function checkBounds(
 ): void {
   if (strokes.xy.length === 0) return;
   const box = boxOfPoints(strokes.xy);
-  const fits =
-    box.x0 >= -SLACK &&
-    box.y0 >= -SLACK &&
-    box.x1 <= machine.widthMm + SLACK &&
-    box.y1 <= machine.heightMm + SLACK;
-  if (fits) return;
+  if (isReached(box, machine)) return;
   const mm = (value: number): string => String(Math.round(value * 10) / 10);
   throw new PlotwrightError(
     "out-of-bounds",

@@ -59,7 +59,7 @@ function clipFill(
     return;
   }
   const shape = lines.tag[from];
-  const area = filledAreas(outline, drawing, () => clip, ANYWHERE, work).get(shape);
+  const area = filledAreas(outline, drawing, () => clip, ANYWHERE, false, work).get(shape);
   for (const ring of area?.rings ?? []) {
     for (const point of [...ring, ring[0]]) builder.point(point.x / SCALE, point.y / SCALE);
     builder.end(shape);

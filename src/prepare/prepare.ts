@@ -8,7 +8,7 @@
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength } from "../geometry/polyline.js";
-import { filledAreas } from "./areas.js";
+import { filledAreas, filledOnly } from "./areas.js";
 import {
   byLayer,
   countLayers,
@@ -103,11 +103,17 @@ export function prepare(
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);
   if (hatches !== null || settings.hideCovered) {
-    const areas = filledAreas(subpaths, drawing, clipOf, limit ?? ANYWHERE, options);
+    const areas = filledAreas(subpaths, drawing, clipOf, limit ?? ANYWHERE, settings.hatchOutlines, options);
+    if (hatches !== null && areas.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
     if (hatches !== null) lines = addHatch(lines, areas, (shape) => hatches[table.ofShape[shape]], options);
     if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place);
     if (settings.hideCovered)
-      lines = hideCovered(lines, areas, (shape) => isVisible[table.ofShape[shape]], options);
+      lines = hideCovered(
+        lines,
+        filledOnly(areas, drawing),
+        (shape) => isVisible[table.ofShape[shape]],
+        options,
+      );
   }
 
   progress(0.45, "joining");
@@ -151,6 +157,11 @@ export function prepare(
     warnings,
   };
 }
+
+const nothingToFill = (withOutlines: boolean): string =>
+  withOutlines
+    ? "There is nothing to fill with lines: no filled shape and no closed line."
+    : "There is nothing to fill with lines: no shape of this drawing is filled. Fill closed outlines too, or give shapes a fill.";
 
 const drawnMm = (layers: readonly PreparedLayer[]): number =>
   layers.reduce((sum, { visible, drawMm }) => (visible ? sum + drawMm : sum), 0);

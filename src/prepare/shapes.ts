@@ -95,6 +95,10 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
     y: Math.round(corners[k + 1] * SCALE),
   }));
   const page = regionOf([ring]);
+  // Cutting by the region is slow for a large drawing, and most lie within their page.
+  const [x0, y0, x1, y1] = corners;
+  const isUpright = Math.min(Math.abs(x1 - x0), Math.abs(y1 - y0)) < 1e-6;
+  if (isUpright && boxContains(boxOfPoints(corners), boxOfPoints(lines.xy))) return lines;
   return cutLines(lines, () => page);
 }
 

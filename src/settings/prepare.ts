@@ -160,6 +160,13 @@ export const PREPARE_TABLE = {
     flag: "--outline-fills",
     default: true,
   },
+  hatchOutlines: {
+    kind: "switch",
+    label: "Fill closed outlines too",
+    about: "with --hatch: fill closed lines too, not only filled shapes",
+    flag: "--hatch-outlines",
+    default: false,
+  },
   hideCovered: {
     kind: "switch",
     label: "Hide lines under filled shapes",

@@ -3,7 +3,8 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, describe, expect, it } from "vitest";
-import { length, sizeMm } from "../../server/cli/lengths.js";
+import { parseSize } from "../../src/internal.js";
+import { length } from "../../server/cli/lengths.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { cli } from "./support.js";
@@ -53,11 +54,11 @@ describe("a length", () => {
   });
 
   it("of a sheet has a unit for both sides or for each", () => {
-    expect(sizeMm("210x297")).toEqual({ widthMm: 210, heightMm: 297 });
-    expect(sizeMm("20x20cm")).toEqual({ widthMm: 200, heightMm: 200 });
-    expect(sizeMm("8.5x11in")).toEqual({ widthMm: 215.9, heightMm: 279.4 });
-    expect(sizeMm("8.5in × 279.4mm")).toEqual({ widthMm: 215.9, heightMm: 279.4 });
-    for (const wrong of ["", "x", "1x", "1x2x3", "0x5", "-1x5", "1x1ft"]) expect(sizeMm(wrong)).toBeNull();
+    expect(parseSize("210x297")).toEqual({ widthMm: 210, heightMm: 297 });
+    expect(parseSize("20x20cm")).toEqual({ widthMm: 200, heightMm: 200 });
+    expect(parseSize("8.5x11in")).toEqual({ widthMm: 215.9, heightMm: 279.4 });
+    expect(parseSize("8.5in × 279.4mm")).toEqual({ widthMm: 215.9, heightMm: 279.4 });
+    for (const wrong of ["", "x", "1x", "1x2x3", "0x5", "-1x5", "1x1ft"]) expect(parseSize(wrong)).toBeNull();
   });
 
   it("may be given to every option that takes mm", () => {

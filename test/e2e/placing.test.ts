@@ -180,6 +180,7 @@ describe("placing the drawing", () => {
   });
 
   it("fills four custom margins, is centred, and is mirrored", async () => {
+    await test.page.getByText("Separate margins, mirror, cutting").click();
     await test.page.getByText("Each margin by itself").click();
     await type("Left", 40);
     await type("Top", 20);

@@ -103,7 +103,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
 });
 
 describe("a plot that was cancelled", { timeout: PATIENCE_MS }, () => {
-  it("goes on from where it was cancelled", async () => {
+  it("resumes where it was cancelled", async () => {
     const { page } = test;
     await expect.poll(async () => (await theJob()).progress).toBeGreaterThan(0.03);
     await button("Cancel").click();

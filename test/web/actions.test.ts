@@ -4,6 +4,7 @@ import { createServerBackend } from "../../web/backend/server/server-backend.js"
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
+import type { Planned } from "../../web/worker/protocol.js";
 import { makeJob } from "./fixtures.js";
 
 function makePage() {
@@ -112,5 +113,46 @@ describe("a drawing of the last visit", () => {
     actions.restoreDrawing(ofJob);
     actions.takeJobSettings();
     expect(store.getState().drawing?.jobId).toBe(null);
+  });
+});
+
+describe("a drawing that is opened", () => {
+  const fault = { code: "bad-file", message: "The file ends too soon.", stage: "import" as const };
+  const A4 = { widthMm: 297, heightMm: 210 };
+
+  it("leaves the one before it on the paper, with its settings, where it can't be read", () => {
+    const { store, actions } = makePage();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    store.setState({ planned: {} as Planned });
+    const { drawing, settings } = store.getState();
+    actions.openDrawing("torn", "<svg");
+    expect(actions.wentBack(fault)).toBe(true);
+    expect(store.getState().drawing).toBe(drawing);
+    expect(store.getState().settings).toBe(settings);
+    expect(store.getState().notices.map(({ text }) => text)).toEqual([
+      "torn can’t be drawn: The file ends too soon.",
+    ]);
+  });
+
+  it("has nothing to go back to on an empty sheet, or once it has been read", () => {
+    const { store, actions } = makePage();
+    actions.openDrawing("torn", "<svg");
+    expect(actions.wentBack(fault)).toBe(false);
+    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    expect(actions.wentBack(fault)).toBe(false);
+  });
+
+  it("is laid on the paper by its page, once, and undo takes that back", () => {
+    const { store, actions } = makePage();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    const key = store.getState().drawing?.key ?? "";
+    actions.placeForPage("drawing-0", A4);
+    expect(store.getState().settings.prepare.fit).toBe(true);
+    actions.placeForPage(key, A4);
+    expect(store.getState().settings.prepare.fit).toBe(false);
+    actions.undo();
+    actions.placeForPage(key, A4);
+    expect(store.getState().settings.prepare.fit).toBe(true);
   });
 });

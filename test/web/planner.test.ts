@@ -54,6 +54,7 @@ const setUp = () => {
       },
     },
     {
+      onImported: () => undefined,
       onPlanned: (result) => heard.push(result.drawingKey),
       onExported: (format, text) => heard.push(`${format} ${text}`),
       onExportFailed: (message) => heard.push(`not saved: ${message}`),
@@ -132,7 +133,7 @@ describe("the planner", () => {
     const { planner, workers, timers, heard } = setUp();
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     workers[0].reply({ type: "started", id: 1 });
-    workers[0].reply({ type: "imported", id: 1 });
+    workers[0].reply({ type: "imported", id: 1, drawingKey: "a", page: { widthMm: 9, heightMm: 9 } });
     expect(timers.map(({ isOn }) => isOn)).toEqual([false]);
     workers[0].reply({ type: "planned", id: 1, planned: planned("a") });
     planner.request(taskOf({ key: "b", text: "<svg/>" }));

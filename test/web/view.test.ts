@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { pinched } from "../../web/preview/gestures.js";
-import { fitView, mmFromScreen, panBy, rulerStepMm, zoomAt, type View } from "../../web/scene/view.js";
+import { fitView, mmFromScreen, panBy, rulerStep, zoomAt, type View } from "../../web/scene/view.js";
 
 const views = fc.record({
   scale: fc.double({ min: 0.1, max: 100, noNaN: true }),
@@ -69,7 +69,7 @@ describe("rulers", () => {
   it("step by 1, 2 or 5 of a power of ten, and leave room for the numbers", () => {
     fc.assert(
       fc.property(fc.double({ min: 0.05, max: 400, noNaN: true }), (scale) => {
-        const step = rulerStepMm(scale, 60);
+        const step = rulerStep(scale, 60);
         const mantissa = Number((step / 10 ** Math.floor(Math.log10(step) + 1e-9)).toFixed(6));
         expect([1, 2, 5]).toContain(mantissa);
         expect(step * scale).toBeGreaterThanOrEqual(60 - 1e-6);

@@ -1,5 +1,6 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
+import { DrawnSize } from "../drawing/drawn-size.js";
 import { ExportPanel } from "../drawing/export.js";
 import { FillPanel } from "../drawing/fill.js";
 import { Dialogs } from "./dialogs.js";
@@ -64,6 +65,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           {isWatching && <Watch />}
           <div className="paper-area">
             <Preview />
+            <DrawnSize />
             {isEmpty && <EmptyPaper />}
             {!isWatching && <Notices />}
           </div>
@@ -75,11 +77,11 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <PaperPanel />
           <LayersPanel />
           <PensPanel />
+          <FillPanel />
+          <LinesPanel />
           <MotionPanel />
           <PenPanel />
           <PresetsPanel />
-          <FillPanel />
-          <LinesPanel />
           <ExportPanel />
         </aside>
         <aside className="column column-run" aria-label={tabsText.queue}>

@@ -50,13 +50,17 @@ const planner = new Planner(
     },
   },
   {
+    onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
     onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
     onExported: (format, exported) => {
       const name = store.getState().drawing?.name ?? appName;
       saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
     },
     onExportFailed: (message) => actions.notify("error", message),
-    onFault: (fault) => store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT }),
+    onFault: (fault) => {
+      if (actions.wentBack(fault)) return;
+      store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT });
+    },
   },
 );
 const backend = createServerBackend();

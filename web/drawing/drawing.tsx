@@ -2,7 +2,7 @@ import { useId } from "react";
 import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { drawingText, reportText } from "./text.js";
-import { formatNumber } from "../ui/format.js";
+import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
@@ -11,8 +11,8 @@ const words = drawingText;
 export const DrawingPanel = () => {
   const drawing = usePageState((state) => state.drawing);
   const planned = usePageState((state) => state.planned);
-  const size =
-    planned && words.size(formatNumber(planned.pageWidthMm, 1), formatNumber(planned.pageHeightMm, 1));
+  const unit = usePageState((state) => state.view.lengthUnit);
+  const size = planned && words.size(formatSize(planned.pageWidthMm, planned.pageHeightMm, unit));
   return (
     <SettingsGroup id="drawing" title={words.title}>
       {drawing && (

@@ -10,7 +10,7 @@ const FIRST_SPACING_MM = 0.6;
 
 /** Filled shapes: shaded with lines, outlined, covering what lies under them. */
 export const FillFields = () => {
-  const { hatch, outlineFills, hideCovered } = usePageState((state) => state.settings.prepare);
+  const { hatch, hatchOutlines, outlineFills, hideCovered } = usePageState((state) => state.settings.prepare);
   const change = usePrepareChange();
   const isOn = hatch.spacingMm > 0;
   return (
@@ -20,6 +20,7 @@ export const FillFields = () => {
         isOn={isOn}
         onChange={(on) => change("hatch", { hatch: { ...hatch, spacingMm: on ? FIRST_SPACING_MM : 0 } })}
       />
+      {isOn && !hatchOutlines && <NothingToFill />}
       {isOn && (
         <>
           <SettingField
@@ -38,6 +39,11 @@ export const FillFields = () => {
             isOn={hatch.cross}
             onChange={(cross) => change("hatch cross", { hatch: { ...hatch, cross } })}
           />
+          <Switch
+            label={PREPARE_TABLE.hatchOutlines.label}
+            isOn={hatchOutlines}
+            onChange={(on) => change("hatch outlines", { hatchOutlines: on })}
+          />
         </>
       )}
       <Switch
@@ -50,6 +56,27 @@ export const FillFields = () => {
         isOn={hideCovered}
         onChange={(on) => change("hide", { hideCovered: on })}
       />
+    </>
+  );
+};
+
+/** For a drawing that has lines only. */
+const NothingToFill = () => {
+  const isEmpty = usePageState((state) => state.planned?.hasFills === false);
+  const change = usePrepareChange();
+  if (!isEmpty) return null;
+  return (
+    <>
+      <p className="note note-error" role="status">
+        {words.nothingToFill}
+      </p>
+      <button
+        type="button"
+        className="button"
+        onClick={() => change("hatch outlines", { hatchOutlines: true })}
+      >
+        {words.fillOutlines}
+      </button>
     </>
   );
 };

@@ -1,10 +1,16 @@
 import { PAPER_SIZES } from "../../src/index.js";
-import { PAPER_TABLE, PREPARE_TABLE, type PaperName } from "../../src/internal.js";
+import {
+  LENGTH_UNITS,
+  orientedPaper,
+  PAPER_TABLE,
+  PREPARE_TABLE,
+  type PaperName,
+} from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { usePageState } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { paperText } from "./text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
-import { formatNumber } from "../ui/format.js";
+import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
 import { placeOfFrame, wholeTurn } from "../scene/placing.js";
@@ -25,7 +31,9 @@ const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName
 
 export const PaperPanel = () => {
   const prepare = usePageState((state) => state.settings.prepare);
+  const lengthUnit = usePageState((state) => state.view.lengthUnit);
   const change = usePrepareChange();
+  const { changeView } = useActions();
   const { paper, landscape, marginMm, rotateDeg } = prepare;
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const firstPlace = placeOfFrame(
@@ -41,12 +49,11 @@ export const PaperPanel = () => {
         : { rotateDeg: wholeTurn(deg) },
     );
   const name = nameOfPaper(paper);
-  const size = landscape
-    ? `${formatNumber(paper.heightMm, 1)} × ${formatNumber(paper.widthMm, 1)}`
-    : `${formatNumber(paper.widthMm, 1)} × ${formatNumber(paper.heightMm, 1)}`;
+  const { widthMm, heightMm } = orientedPaper(paper, landscape);
+  const size = formatSize(widthMm, heightMm, lengthUnit);
 
   return (
-    <SettingsGroup id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size} mm`}>
+    <SettingsGroup id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size}`}>
       <Select
         label={words.size}
         value={name}
@@ -78,7 +85,6 @@ export const PaperPanel = () => {
           onChange={(value) => change("margin", { marginMm: value })}
         />
       )}
-      <Margins prepare={prepare} change={change} />
       <Segments
         label={words.placement}
         value={prepare.place ? "place" : prepare.fit ? "fit" : "true"}
@@ -108,25 +114,35 @@ export const PaperPanel = () => {
           <Icon name="again" />
         </button>
       </div>
+      <details className="more">
+        <summary>{words.more}</summary>
+        <Margins prepare={prepare} change={change} />
+        <Segments
+          label={PREPARE_TABLE.mirror.label}
+          value={prepare.mirror}
+          options={[
+            { value: "none", label: words.mirrors.none },
+            { value: "leftRight", label: words.mirrors.leftRight },
+            { value: "upDown", label: words.mirrors.upDown },
+          ]}
+          onChange={(mirror) => change("mirror", { mirror })}
+        />
+        <Switch
+          label={PREPARE_TABLE.cropToPage.label}
+          isOn={prepare.cropToPage}
+          onChange={(cropToPage) => change("crop", { cropToPage })}
+        />
+        <Switch
+          label={PREPARE_TABLE.clipToMargins.label}
+          isOn={prepare.clipToMargins}
+          onChange={(clipToMargins) => change("clip", { clipToMargins })}
+        />
+      </details>
       <Segments
-        label={PREPARE_TABLE.mirror.label}
-        value={prepare.mirror}
-        options={[
-          { value: "none", label: words.mirrors.none },
-          { value: "leftRight", label: words.mirrors.leftRight },
-          { value: "upDown", label: words.mirrors.upDown },
-        ]}
-        onChange={(mirror) => change("mirror", { mirror })}
-      />
-      <Switch
-        label={PREPARE_TABLE.cropToPage.label}
-        isOn={prepare.cropToPage}
-        onChange={(cropToPage) => change("crop", { cropToPage })}
-      />
-      <Switch
-        label={PREPARE_TABLE.clipToMargins.label}
-        isOn={prepare.clipToMargins}
-        onChange={(clipToMargins) => change("clip", { clipToMargins })}
+        label={words.unit}
+        value={lengthUnit}
+        options={LENGTH_UNITS.map((value) => ({ value, label: words.units[value] }))}
+        onChange={(unit) => changeView({ lengthUnit: unit })}
       />
     </SettingsGroup>
   );

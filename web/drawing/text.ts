@@ -6,7 +6,21 @@ export const drawingText = {
   sample: "Samples",
   sampleHint: "Try one of the samples",
   dropHere: "Drop the drawing to lay it on the paper",
-  size: (width: string, height: string) => `${width} × ${height} mm in the file`,
+  size: (size: string) => `${size} in the file`,
+};
+
+export const drawnSizeText = {
+  drawn: (size: string, scale: string) => `Drawn ${size}, ${scale}\u202f%`,
+  useFilesPage: "Use the file’s page",
+};
+
+export const reachText = {
+  tooFar: (machine: string, reach: string, needed: string) =>
+    `The ${machine} reaches ${reach} from home; this drawing needs ${needed}.`,
+  beforeHome: (machine: string) =>
+    `This drawing goes beyond the paper’s left or upper edge, where the ${machine} can’t go.`,
+  whatToDo: "Choose a smaller paper, or make the drawing smaller.",
+  turn: "Turn for this machine",
 };
 
 export const reportText = {
@@ -16,6 +30,9 @@ export const reportText = {
 
 export const paperText = {
   title: "Paper",
+  more: "Separate margins, mirror, cutting",
+  unit: "Lengths in",
+  units: { mm: "Millimetres", in: "Inches" },
   size: "Paper",
   custom: "Own size",
   orientation: "Orientation",
@@ -52,6 +69,8 @@ export const fillText = {
   off: "off",
   on: (spacing: string) => `every ${spacing} mm`,
   switch: "Fill areas with lines",
+  nothingToFill: "No shape of this drawing is filled, so there is nothing to fill with lines.",
+  fillOutlines: "Fill closed outlines",
   spacingHint: "The distance of the lines: as wide as the pen draws fills without gaps.",
 };
 

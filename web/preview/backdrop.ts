@@ -1,6 +1,6 @@
 /** The desk under the strokes: paper with its shadow, a quiet grid, the margins, the machine's reach. */
 import type { FourMargins } from "../../src/internal.js";
-import { rulerStepMm, type Size, type View } from "../scene/view.js";
+import { rulerStep, type Size, type View } from "../scene/view.js";
 
 export interface DeskColors {
   readonly paper: string;
@@ -18,8 +18,10 @@ export interface DeskColors {
 export interface Desk {
   readonly paperMm: Size;
   readonly margins: FourMargins;
-  /** How far the machine reaches from the paper's corner; null where it is not known. */
-  readonly reachMm: Size | null;
+  /** How far the machine reaches from the paper's corner, and what is written at its edge; null where it is not known. */
+  readonly reach: (Size & { readonly label: string }) | null;
+  /** What the grid and the rulers count in. */
+  readonly unitMm: number;
 }
 
 /** The colours of the theme in use, from the style sheet's custom properties. */
@@ -81,14 +83,19 @@ export const drawBackdrop = (
     context.fillRect(x, y, width, height);
   }
   context.restore();
-  drawGrid(context, view, desk.paperMm, colors);
+  drawGrid(context, view, desk, colors);
   drawMargin(context, view, desk, colors);
   drawReach(context, view, desk, colors);
 };
 
-const drawGrid = (context: CanvasRenderingContext2D, view: View, paper: Size, colors: DeskColors): void => {
-  const step = rulerStepMm(view.scale, 9);
-  const strong = rulerStepMm(view.scale, 45);
+const drawGrid = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  { paperMm: paper, unitMm }: Desk,
+  colors: DeskColors,
+): void => {
+  const step = unitMm * rulerStep(view.scale * unitMm, 9);
+  const strong = unitMm * rulerStep(view.scale * unitMm, 45);
   for (const [spacing, color] of [
     [step, colors.grid],
     [strong, colors.gridStrong],
@@ -122,12 +129,51 @@ const drawMargin = (context: CanvasRenderingContext2D, view: View, desk: Desk, c
   context.setLineDash([]);
 };
 
+const REACH_FONT = "11px Helvetica, Arial, sans-serif";
+/** From the line to the words above it. */
+const REACH_GAP_PX = 5;
+
+/** Quiet where the machine reaches all of the paper; what it does not reach is shaded. */
 const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
-  const { reachMm, paperMm } = desk;
-  if (!reachMm || (reachMm.width >= paperMm.width && reachMm.height >= paperMm.height)) return;
-  context.strokeStyle = colors.accent;
-  context.lineWidth = 1.5;
+  const { reach, paperMm } = desk;
+  if (!reach) return;
+  const { offsetX, offsetY, scale } = view;
+  const width = reach.width * scale;
+  const height = reach.height * scale;
+  const isShort = reach.width < paperMm.width || reach.height < paperMm.height;
+  context.save();
+  context.strokeStyle = context.fillStyle = isShort ? colors.accent : colors.rulerText;
+  if (isShort) shadeBeyond(context, view, desk.paperMm, reach);
+  context.globalAlpha = isShort ? 1 : 0.5;
+  context.lineWidth = isShort ? 1.5 : 1;
   context.setLineDash([2, 5]);
-  context.strokeRect(view.offsetX, view.offsetY, reachMm.width * view.scale, reachMm.height * view.scale);
+  context.strokeRect(offsetX, offsetY, width, height);
   context.setLineDash([]);
+  context.globalAlpha = isShort ? 1 : 0.8;
+  context.font = REACH_FONT;
+  context.textAlign = "right";
+  // Under the lower edge, and no further right than the paper, which is in sight.
+  context.fillText(
+    reach.label,
+    offsetX + Math.min(reach.width, paperMm.width) * scale,
+    offsetY + height + REACH_GAP_PX + 9,
+  );
+  context.restore();
+};
+
+const shadeBeyond = (
+  context: CanvasRenderingContext2D,
+  { offsetX, offsetY, scale }: View,
+  paper: Size,
+  reach: Size,
+): void => {
+  context.globalAlpha = 0.08;
+  const [right, below] = [paper.width - reach.width, paper.height - reach.height];
+  if (right > 0) {
+    context.fillRect(offsetX + reach.width * scale, offsetY, right * scale, paper.height * scale);
+  }
+  if (below > 0) {
+    const width = Math.min(paper.width, reach.width);
+    context.fillRect(offsetX, offsetY + reach.height * scale, width * scale, below * scale);
+  }
 };

@@ -1,6 +1,6 @@
-/** What lies over the strokes: rulers in mm along the edges, and where the pen is. */
+/** What lies over the strokes: rulers along the edges, and where the pen is. */
 import type { DeskColors } from "./backdrop.js";
-import { rulerStepMm, type Size, type View } from "../scene/view.js";
+import { rulerStep, type Size, type View } from "../scene/view.js";
 
 export const RULER_PX = 22;
 
@@ -23,25 +23,27 @@ export const drawRulers = (
   view: View,
   size: Size,
   colors: DeskColors,
+  unitMm: number,
   span: RulerSpan | null,
 ): void => {
+  const unitPx = view.scale * unitMm;
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, size.width, RULER_PX);
   context.fillRect(0, RULER_PX, RULER_PX, size.height - RULER_PX);
   if (span) markSpan(context, view, span);
-  drawTicks(context, view.offsetX, view.scale, size.width, colors, false);
+  drawTicks(context, view.offsetX, unitPx, size.width, colors, false);
   context.save();
   // The left ruler is the top one turned: its numbers read upwards.
   context.rotate(-Math.PI / 2);
   context.scale(-1, 1);
-  drawTicks(context, view.offsetY, view.scale, size.height, colors, true);
+  drawTicks(context, view.offsetY, unitPx, size.height, colors, true);
   context.restore();
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, RULER_PX, RULER_PX);
   context.fillStyle = colors.rulerText;
   context.font = "9px Helvetica, Arial, sans-serif";
   context.textAlign = "center";
-  context.fillText("mm", RULER_PX / 2, RULER_PX / 2 + 3);
+  context.fillText(unitMm === 1 ? "mm" : "in", RULER_PX / 2, RULER_PX / 2 + 3);
   context.strokeStyle = colors.rulerLine;
   context.lineWidth = 1;
   context.beginPath();
@@ -74,7 +76,7 @@ const drawTicks = (
   colors: DeskColors,
   isMirrored: boolean,
 ): void => {
-  const step = rulerStepMm(scale, 64);
+  const step = rulerStep(scale, 64);
   const parts = 10;
   const first = Math.floor((RULER_PX - offset) / scale / step) * step;
   const last = (lengthPx - offset) / scale;

@@ -1,11 +1,10 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
-import { findMachine } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { previewText } from "./text.js";
-import type { Desk } from "./backdrop.js";
+import { deskOf } from "./desk.js";
 import { paintCutOff } from "./cut-off.js";
 import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
@@ -67,7 +66,7 @@ const useStage = (
       strokes: strokes.current,
       overlay: overlay.current,
     };
-    const made = new Stage(canvases, deskOf(store.getState()), lookOf(store.getState()));
+    const made = new Stage(canvases, deskOfState(store.getState()), lookOf(store.getState()));
     const pointAt = (at: { x: number; y: number } | null): void => {
       const { planned, hover } = store.getState();
       const found = at && planned ? hoverUnder(made, planned, at) : null;
@@ -108,7 +107,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (state.planned !== before?.planned) {
       stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
     }
-    if (state.settings !== before?.settings) stage.setDesk(deskOf(state));
+    if (state.settings !== before?.settings || state.view !== before.view) stage.setDesk(deskOfState(state));
     if (
       state.view !== before?.view ||
       state.settings.pens !== before.settings.pens ||
@@ -153,18 +152,7 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: nu
   return hoverAt(planned, at, stage.view.scale);
 };
 
-const deskOf = ({ settings }: PageState): Desk => {
-  const { prepare } = settings;
-  const long = Math.max(prepare.paper.widthMm, prepare.paper.heightMm);
-  const short = Math.min(prepare.paper.widthMm, prepare.paper.heightMm);
-  const machine = findMachine(settings);
-  const all = prepare.marginMm;
-  return {
-    paperMm: prepare.landscape ? { width: long, height: short } : { width: short, height: long },
-    margins: prepare.margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all },
-    reachMm: machine ? { width: machine.widthMm, height: machine.heightMm } : null,
-  };
-};
+const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view.lengthUnit);
 
 const lookOf = (state: PageState): FrameLook => {
   const { planned, settings } = state;
@@ -218,10 +206,18 @@ const PaperMessage = () => {
     );
   }
   if (planned?.strokeCount !== 0) return null;
+  const isEmptyFile = planned.fileWarnings.some(({ code }) => code === "empty-drawing");
+  const isPicture = isEmptyFile && planned.fileWarnings.some(({ code }) => code === "image-not-drawn");
   return (
     <div className="paper-message">
-      <strong>{previewText.nothingToDraw}</strong>
-      <p>{previewText.nothingToDrawHint}</p>
+      <strong>{isPicture ? previewText.onlyPictures : previewText.nothingToDraw}</strong>
+      <p>
+        {isPicture
+          ? previewText.onlyPicturesHint
+          : isEmptyFile
+            ? previewText.emptyFileHint
+            : previewText.nothingToDrawHint}
+      </p>
     </div>
   );
 };

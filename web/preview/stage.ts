@@ -191,7 +191,7 @@ export class Stage {
     if (overlayContext) {
       this.#paint?.(overlayContext, this.#view);
       if (this.#marker) drawMarker(overlayContext, this.#view, this.#marker, this.#colors);
-      drawRulers(overlayContext, this.#view, this.#size, this.#colors, this.#rulerSpan);
+      drawRulers(overlayContext, this.#view, this.#size, this.#colors, this.#desk.unitMm, this.#rulerSpan);
     }
   }
 

@@ -1,8 +1,13 @@
 /** Words of the preview and the time line. */
 export const previewText = {
+  reach: (machine: string, size: string) => `Reach of the ${machine}: ${size}`,
   reading: (name: string) => `Reading ${name}…`,
   nothingToDraw: "Nothing to draw",
   nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",
+  onlyPictures: "This file holds only a picture",
+  onlyPicturesHint:
+    "A pen draws lines. Trace the picture to paths in your drawing program, and save it again.",
+  emptyFileHint: "The file has no visible line and no filled shape.",
   cannotRead: (name: string) => `${name} can’t be drawn`,
   title: "Preview",
   canvas: "Preview",

@@ -1,4 +1,5 @@
 import { useState } from "react";
+import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { activeJob, currentPlotter, mayOperate, otherOperator } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
@@ -69,8 +70,9 @@ const Buttons = () => {
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const busy = usePageState((state) => state.busyAction);
   const { plotDrawing, queueDrawing } = useActions();
+  const isUnreached = usePageState(isOutOfReach);
   const isSending = busy === "add" || busy === "plot" || busy === "save";
-  const isOff = !canQueue || !isLinked || !isMine || isSending;
+  const isOff = !canQueue || !isLinked || !isMine || isUnreached || isSending;
   return (
     <div className="plot-buttons">
       <button
@@ -100,6 +102,7 @@ const Buttons = () => {
         />
       </div>
       <CutOffNote />
+      {isUnreached && <OutOfReach />}
       <Words isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
     </div>
   );

@@ -58,8 +58,8 @@ export const mmFromScreen = (view: View, xPx: number, yPx: number): [xMm: number
   (yPx - view.offsetY) / view.scale,
 ];
 
-/** Distance between ruler numbers: the smallest of 1, 2, 5 × 10ⁿ mm that is at least `minPx` wide. */
-export const rulerStepMm = (scale: number, minPx: number): number => {
+/** Distance between ruler numbers: the smallest of 1, 2, 5 × 10ⁿ that is at least `minPx` wide. */
+export const rulerStep = (scale: number, minPx: number): number => {
   const raw = minPx / scale;
   const power = 10 ** Math.floor(Math.log10(raw));
   for (const factor of [1, 2, 5]) if (factor * power >= raw * (1 - 1e-9)) return factor * power;

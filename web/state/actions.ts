@@ -1,6 +1,6 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { isDrawingName } from "../../src/internal.js";
+import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
 import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import {
   machineProfileSchema,
@@ -16,7 +16,7 @@ import {
 import { stateText } from "./text.js";
 import type { Planner } from "../worker/planner.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
-import type { ExportFormat } from "../worker/protocol.js";
+import type { ExportFormat, PlanFault } from "../worker/protocol.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { fromPreset, withPreset, type Preset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
@@ -27,6 +27,7 @@ import {
   otherOperator,
   type Notice,
   type OpenDrawing,
+  type PageState,
   type PageStore,
   type PageView,
 } from "./store.js";
@@ -56,6 +57,10 @@ export const createActions = (deps: ActionDeps) => {
   const { store, backend, planner } = deps;
   let nextNotice = 1;
   let nextDrawing = 1;
+  /** What lay on the paper, until the file opened over it has been read. */
+  let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
+  /** A drawing that has just been opened, until its page is known. */
+  let unplacedKey: string | null = null;
   let lastChange = { what: "", atMs: -Infinity };
 
   const notify = (kind: Notice["kind"], words: string): void => {
@@ -146,16 +151,41 @@ export const createActions = (deps: ActionDeps) => {
 
   const openDrawing = (name: string, svg: DrawingText, jobId: string | null = null): void => {
     clearErrors();
-    const before = store.getState().drawing?.name;
-    store.setState(({ settings }) => ({
-      drawing: { key: `drawing-${nextDrawing++}`, name, text: svg, jobId, sourceId: jobId },
-      // A file that was changed and opened again keeps what was said about its layers.
-      settings: jobId === null && name !== before ? forOtherDrawing(settings) : settings,
+    const { drawing, planned, settings } = store.getState();
+    const isOther = jobId === null && name !== drawing?.name;
+    const key = `drawing-${nextDrawing++}`;
+    if (drawing && planned) lastGood = { drawing, settings };
+    unplacedKey = isOther ? key : null;
+    store.setState({
+      drawing: { key, name, text: svg, jobId, sourceId: jobId },
+      // A file that was changed and opened again keeps what was said about its layers and its place.
+      settings: isOther ? forOtherDrawing(settings) : settings,
       planned: null,
       fault: null,
       pageView: "prepare",
-    }));
+    });
     replan();
+  };
+
+  /** The page of the drawing is known: one that was just opened is laid on the paper by it, as one step of undo. */
+  const placeForPage = (drawingKey: string, page: PaperSize): void => {
+    lastGood = null;
+    if (drawingKey !== unplacedKey) return;
+    unplacedKey = null;
+    const { settings } = store.getState();
+    const prepare = placedForPage(settings.prepare, page, findMachine(settings));
+    if (prepare !== settings.prepare) changeSettings("place for page", (now) => ({ ...now, prepare }));
+  };
+
+  /** Whether a drawing lay on the paper that came back, because the one opened over it can't be read. */
+  const wentBack = ({ stage, message }: PlanFault): boolean => {
+    const { drawing: unread } = store.getState();
+    if (stage !== "import" || !lastGood || !unread) return false;
+    store.setState({ ...lastGood, planned: null, fault: null });
+    lastGood = null;
+    replan();
+    notify("error", stateText.cannotRead(unread.name, message));
+    return true;
   };
 
   /** A drawing of the last visit, for which the settings are as they were left. */
@@ -233,6 +263,8 @@ export const createActions = (deps: ActionDeps) => {
     showView: (pageView: PageView, jobId?: string): void =>
       store.setState(({ watchedId }) => ({ pageView, watchedId: jobId ?? watchedId, isFullScreen: false })),
     openDrawing,
+    placeForPage,
+    wentBack,
     restoreDrawing,
     takeJobSettings,
     openFile,

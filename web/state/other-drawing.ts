@@ -1,4 +1,5 @@
 /** What of the settings outlives a change of drawing. Beside layer-settings.ts, which is fetched later. */
+import { withoutFilesPage } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
 /** Layers named by their colour mean the same in every drawing. */
@@ -8,7 +9,8 @@ const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
   const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
     Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));
-  const { prepare, motion, pen } = settings;
+  const { motion, pen } = settings;
+  const prepare = withoutFilesPage(settings.prepare);
   return {
     ...settings,
     prepare: {

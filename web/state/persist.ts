@@ -3,7 +3,7 @@
  * a stored value that does not fit, from an older version for example, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
-import { findMachine } from "../../src/internal.js";
+import { findMachine, LENGTH_UNITS, type LengthUnit } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 
@@ -17,6 +17,8 @@ export interface ViewSettings {
   readonly colorBy: ColorMode;
   readonly showGraph: boolean;
   readonly theme: Theme;
+  /** What fields and rulers show lengths in. */
+  readonly lengthUnit: LengthUnit;
   /** Ids of the groups of settings that are folded open. */
   readonly openGroups: readonly string[];
   /** Where the camera's picture comes from; empty: no camera. */
@@ -30,6 +32,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   colorBy: "speed",
   showGraph: false,
   theme: "auto",
+  lengthUnit: "mm",
   openGroups: ["drawing", "paper", "layers", "motion"],
   cameraUrl: "",
   cameraEveryS: 0,
@@ -40,6 +43,7 @@ const viewSchema = z.object({
   colorBy: z.enum(COLOR_MODES),
   showGraph: z.boolean(),
   theme: z.enum(THEMES),
+  lengthUnit: z.enum(LENGTH_UNITS),
   openGroups: z.array(z.string().max(50)).max(50),
   cameraUrl: z.string().max(2_000),
   cameraEveryS: z.number().min(0).max(3_600),

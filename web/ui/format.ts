@@ -1,4 +1,5 @@
 /** Numbers as people read them. All in tabular figures, with thin spaces where a unit follows. */
+import { lengthFromMm, mmFromLength, parseLength, type LengthUnit } from "../../src/internal.js";
 import { language } from "./text.js";
 
 const NARROW = "\u202f";
@@ -43,6 +44,20 @@ export const formatLength = (mm: number): string => {
   if (mm < 1_000_000) return `${Math.round(mm / 1_000)}${NARROW}m`;
   return `${(mm / 1_000_000).toFixed(2)}${NARROW}km`;
 };
+
+/** A length as typed by a person, mm: a number in `unit`, or one with its own unit. Null where it is none. */
+export const parseTypedLength = (typed: string, unit: LengthUnit): number | null => {
+  const bare = parseNumber(typed);
+  return bare === null ? parseLength(typed.replace(",", ".")) : mmFromLength(bare, unit);
+};
+
+/** A length in a field or on a ruler, without its unit; `digits` are those of mm. */
+export const formatInUnit = (mm: number, unit: LengthUnit, digits = 2): string =>
+  formatNumber(lengthFromMm(mm, unit), unit === "mm" ? digits : digits + 1);
+
+/** "297 × 210 mm", "11.69 × 8.27 in". */
+export const formatSize = (widthMm: number, heightMm: number, unit: LengthUnit): string =>
+  `${formatInUnit(widthMm, unit, 1)} × ${formatInUnit(heightMm, unit, 1)}${NARROW}${unit}`;
 
 /** A count with thin spaces between thousands. */
 export const formatCount = (n: number): string =>

@@ -1,8 +1,11 @@
 import { useState, type KeyboardEvent } from "react";
 import { fieldText } from "./text.js";
-import { formatNumber, parseNumber } from "./format.js";
+import { mmFromLength } from "../../src/internal.js";
+import { usePageState } from "../state/use-store.js";
+import { formatInUnit, formatNumber, parseNumber, parseTypedLength } from "./format.js";
 
 export interface NumberLimits {
+  /** "mm": a length, which is shown and typed in the user's unit. */
   readonly unit: string;
   readonly min: number;
   /** `min` itself is not allowed. */
@@ -13,8 +16,15 @@ export interface NumberLimits {
   readonly digits?: number;
 }
 
+/** A step in mm is that many times smaller in inches: 1 mm becomes 0.05 in. */
+const STEPS_PER_INCH = 20;
+
 interface TypedNumber {
   readonly shown: string;
+  /** What the number is shown in. */
+  readonly unit: string;
+  /** Another number as this one is shown. */
+  words(value: number): string;
   /** What is wrong with what was typed. */
   readonly problem: string | null;
   type(words: string): void;
@@ -34,19 +44,29 @@ export const useTypedNumber = (
   emptyAs?: { readonly from: number; take(): void },
 ): TypedNumber => {
   const [typed, setTyped] = useState<string | null>(null);
+  const lengthUnit = usePageState((state) => state.view.lengthUnit);
+  const inInches = unit === "mm" && lengthUnit === "in";
+  const parse = (words: string): number | null =>
+    unit === "mm" ? parseTypedLength(words, lengthUnit) : parseNumber(words);
+  const words = (number: number, most = digits): string =>
+    inInches ? formatInUnit(number, "in", most) : formatNumber(number, most);
+  const shownUnit = inInches ? "in" : unit;
+  const stepBy = inInches ? mmFromLength(step / STEPS_PER_INCH, "in") : step;
   const isRight = (number: number): boolean => (minExcluded ? number > min : number >= min) && number <= max;
-  const problemOf = (words: string): string | null => {
-    const number = parseNumber(words);
-    if (number === null) return emptyAs && words.trim() === "" ? null : fieldText.notANumber;
-    return isRight(number) ? null : fieldText.between(formatNumber(min, 3), formatNumber(max, 3), unit);
+  const problemOf = (typedWords: string): string | null => {
+    const number = parse(typedWords);
+    if (number === null) return emptyAs && typedWords.trim() === "" ? null : fieldText.notANumber;
+    return isRight(number) ? null : fieldText.between(words(min, 3), words(max, 3), shownUnit);
   };
   return {
-    shown: typed ?? (value === null ? "" : formatNumber(value, digits)),
+    shown: typed ?? (value === null ? "" : words(value)),
+    unit: shownUnit,
+    words,
     problem: typed === null ? null : problemOf(typed),
-    type: (words) => {
-      setTyped(words);
-      const number = parseNumber(words);
-      if (words.trim() === "") emptyAs?.take();
+    type: (typedWords) => {
+      setTyped(typedWords);
+      const number = parse(typedWords);
+      if (typedWords.trim() === "") emptyAs?.take();
       else if (number !== null && isRight(number)) onNumber(number);
     },
     forget: () => setTyped(null),
@@ -56,7 +76,7 @@ export const useTypedNumber = (
       if (way === 0) return;
       event.preventDefault();
       setTyped(null);
-      const next = (value ?? emptyAs?.from ?? 0) + way * step * (event.shiftKey ? 10 : 1);
+      const next = (value ?? emptyAs?.from ?? 0) + way * stepBy * (event.shiftKey ? 10 : 1);
       const inRange = Math.min(max, Math.max(min, Number(next.toFixed(6))));
       if (isRight(inRange)) onNumber(inRange);
     },
@@ -66,7 +86,6 @@ export const useTypedNumber = (
 interface NumberBoxProps {
   readonly id: string;
   readonly typed: TypedNumber;
-  readonly unit: string;
   readonly placeholder?: string;
   /** Id of the words under it. */
   readonly noteId?: string | undefined;
@@ -74,7 +93,7 @@ interface NumberBoxProps {
 }
 
 /** Where a number is typed, with its unit. */
-export const NumberBox = ({ id, typed, unit, placeholder, noteId, disabled }: NumberBoxProps) => (
+export const NumberBox = ({ id, typed, placeholder, noteId, disabled }: NumberBoxProps) => (
   <span className="field-box" data-invalid={typed.problem !== null || undefined}>
     <input
       id={id}
@@ -91,6 +110,6 @@ export const NumberBox = ({ id, typed, unit, placeholder, noteId, disabled }: Nu
       onFocus={(event) => event.target.select()}
       onKeyDown={typed.onKeyDown}
     />
-    <span className="unit">{unit}</span>
+    <span className="unit">{typed.unit}</span>
   </span>
 );

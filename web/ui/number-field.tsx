@@ -13,7 +13,7 @@ interface NumberFieldProps extends NumberLimits {
 
 /** A number with its unit: typed, stepped by arrow keys, or dragged. */
 export const NumberField = (props: NumberFieldProps) => {
-  const { label, value, unit, step, hint, slider, disabled, onChange } = props;
+  const { label, value, step, hint, slider, disabled, onChange } = props;
   const id = useId();
   const typed = useTypedNumber(value, props, onChange);
   const note = typed.problem ?? hint;
@@ -37,13 +37,7 @@ export const NumberField = (props: NumberFieldProps) => {
           }}
         />
       )}
-      <NumberBox
-        id={id}
-        typed={typed}
-        unit={unit}
-        noteId={note ? `${id}-note` : undefined}
-        disabled={disabled}
-      />
+      <NumberBox id={id} typed={typed} noteId={note ? `${id}-note` : undefined} disabled={disabled} />
       {note && (
         <p id={`${id}-note`} className={typed.problem ? "note note-error" : "note"}>
           {note}

@@ -1,5 +1,4 @@
 import { useId } from "react";
-import { formatNumber } from "./format.js";
 import { Icon } from "./icon.js";
 import { NumberBox, useTypedNumber, type NumberLimits } from "./number-box.js";
 
@@ -15,7 +14,7 @@ interface OwnNumberProps extends NumberLimits {
 
 /** A number that may be left to what holds for all: empty then, with that as its placeholder. */
 export const OwnNumber = (props: OwnNumberProps) => {
-  const { label, value, inherited, unit, resetLabel, onChange } = props;
+  const { label, value, inherited, resetLabel, onChange } = props;
   const id = useId();
   const typed = useTypedNumber(value, props, onChange, { from: inherited ?? 0, take: () => onChange(null) });
   return (
@@ -24,8 +23,7 @@ export const OwnNumber = (props: OwnNumberProps) => {
       <NumberBox
         id={id}
         typed={typed}
-        unit={unit}
-        placeholder={inherited === null ? "–" : formatNumber(inherited)}
+        placeholder={inherited === null ? "–" : typed.words(inherited)}
         noteId={typed.problem ? `${id}-note` : undefined}
       />
       <button

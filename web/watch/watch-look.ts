@@ -1,7 +1,6 @@
 /** How the plot under way looks: in its pens' colours and widths as far as it is drawn, and where the pen is. */
-import { findMachine, penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
+import { penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import type { Desk } from "../preview/backdrop.js";
 import { jobUntilS } from "../preview/drawn-until.js";
 import type { Marker } from "../preview/overlay.js";
 import type { FrameLook } from "../preview/stage.js";
@@ -28,18 +27,6 @@ export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageSt
 };
 
 const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.settings, layer) : null);
-
-export const deskOfSettings = (settings: Job["settings"]): Desk => {
-  const { paper, landscape, margins, marginMm } = settings.prepare;
-  const long = Math.max(paper.widthMm, paper.heightMm);
-  const short = Math.min(paper.widthMm, paper.heightMm);
-  const machine = findMachine(settings);
-  return {
-    paperMm: landscape ? { width: long, height: short } : { width: short, height: long },
-    margins: margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm },
-    reachMm: machine ? { width: machine.widthMm, height: machine.heightMm } : null,
-  };
-};
 
 /** The pen, while it is known where it is. */
 export const markerOfJob = (state: PageState, job: Job | null): Marker | null => {

@@ -58,6 +58,7 @@ const plannerOf = (store: PageStore): Planner => {
         const key = store.getState().watchPlan?.key;
         if (key !== undefined) answer(store, key, { key, planned: null, fault: fault.message });
       },
+      onImported: () => undefined,
       onExported: () => undefined,
       onExportFailed: () => undefined,
     },

@@ -5,7 +5,8 @@ import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { Icon, type IconName } from "../ui/icon.js";
-import { deskOfSettings, lookOfJob, markerOfJob } from "./watch-look.js";
+import { deskOf } from "../preview/desk.js";
+import { lookOfJob, markerOfJob } from "./watch-look.js";
 import { FullScreenButton } from "./full-screen.js";
 import { watchText } from "./text.js";
 
@@ -67,7 +68,7 @@ const useStage = (
       overlay: overlay.current,
     };
     const state = store.getState();
-    const made = new Stage(canvases, deskOfSettings(settingsOf(state)), lookOf(state));
+    const made = new Stage(canvases, deskOf(settingsOf(state), state.view.lengthUnit), lookOf(state));
     const stopShowing = showState(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,
@@ -105,7 +106,8 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     const planned = plannedOf(state);
     if (!before || planned !== plannedOf(before))
       stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
-    if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(deskOfSettings(settingsOf(state)));
+    if (!before || settingsOf(state) !== settingsOf(before))
+      stage.setDesk(deskOf(settingsOf(state), state.view.lengthUnit));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
     }

@@ -7,7 +7,7 @@ export interface CutOffPicture {
   /** Lines that lie outside entirely, and lines that are drawn in part. */
   readonly outsideCount: number;
   readonly partCount: number;
-  /** mm x, y, x, y … of line i from `offsets[i]` to `offsets[i + 1]`; of very many lines only every so-manieth. */
+  /** mm x, y, x, y … of line i from `offsets[i]` to `offsets[i + 1]`; of very many lines only every Nth. */
   readonly points: Float32Array;
   readonly offsets: Uint32Array;
 }

@@ -14,6 +14,7 @@ import {
   type Trajectory,
 } from "../../src/index.js";
 import {
+  boxOfPoints,
   textOfBytes,
   machineOf,
   penStopsOf,
@@ -85,7 +86,8 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   try {
     const t0 = performance.now();
     const drawing = await drawingOf(request);
-    scope.postMessage({ type: "imported", id }, []);
+    const { widthMm, heightMm } = drawing;
+    scope.postMessage({ type: "imported", id, drawingKey, page: { widthMm, heightMm } }, []);
     const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
@@ -105,6 +107,8 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
       pageToPaper: placement.map,
+      hasFills: drawing.paths.fill.some((color) => color >= 0),
+      drawnBox: boxOfPoints(ready.strokes.xy),
       frameMm: frameOf(placement, settings.prepare.place?.turnDeg ?? 0),
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),

@@ -6,6 +6,7 @@
  * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
  * ended too: a damaged file may keep it busy without end.
  */
+import type { PaperSize } from "../../src/internal.js";
 import type { DrawingText } from "./drawing-text.js";
 import type {
   ExportFormat,
@@ -33,6 +34,8 @@ export interface PlannerTimer {
 }
 
 export interface PlannerListener {
+  /** Before the first plan of a drawing, and of every other one. */
+  onImported(drawingKey: string, page: PaperSize): void;
   onPlanned(planned: Planned): void;
   onFault(fault: PlanFault): void;
   onExported(format: ExportFormat, text: string): void;
@@ -127,7 +130,7 @@ export class Planner {
     this.#stopWaiting?.();
     this.#stopWaiting = null;
     this.#stopReading?.();
-    if (reply.type === "imported") return;
+    if (reply.type === "imported") return this.#listener.onImported(reply.drawingKey, reply.page);
     if (reply.type === "started") {
       this.#stopReading = this.#timer.after(READING_MS, () => this.#endReading());
       return;

@@ -1,7 +1,9 @@
 /** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
 import type { Trajectory } from "../../src/index.js";
 import type {
+  Box,
   DrawingWarning,
+  PaperSize,
   PenStop,
   Placement,
   PreparedLayer,
@@ -52,6 +54,10 @@ export interface Planned {
   readonly pageToPaper: Placement["map"];
   /** The drawing's own box on the paper, before anything is cut off; null for an empty drawing. */
   readonly frameMm: FrameMm | null;
+  /** The box of what the pen draws, with nothing that is cut off or hidden; empty if it draws nothing. */
+  readonly drawnBox: Box;
+  /** Whether the file has filled shapes. */
+  readonly hasFills: boolean;
   /** All of the file's, switched-off ones too. */
   readonly layers: readonly PreparedLayer[];
   /** Where the plot waits for a pen. */
@@ -89,6 +95,14 @@ export interface PlanFault {
   readonly stage: "import" | "plan";
 }
 
+/** The file has been read: this is how large its page is. */
+export interface ImportedReply {
+  readonly type: "imported";
+  readonly id: number;
+  readonly drawingKey: string;
+  readonly page: PaperSize;
+}
+
 export interface PlannedReply {
   readonly type: "planned";
   readonly id: number;
@@ -97,8 +111,7 @@ export interface PlannedReply {
 
 export type WorkerReply =
   | { readonly type: "started"; readonly id: number }
-  /** The file has been read. */
-  | { readonly type: "imported"; readonly id: number }
+  | ImportedReply
   | PlannedReply
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }

@@ -1,0 +1,163 @@
+/** The size on the paper, the machine's reach, and lengths in inches: as a user meets them. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { dropFile, plotBar } from "../support/page-actions.js";
+import { PageTest } from "../support/page-test.js";
+
+const svgOf = (width: number, height: number, d: string): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" width="${width}mm" height="${height}mm" viewBox="0 0 ${width} ${height}">
+    <path d="${d}" fill="none" stroke="#000"/></svg>`;
+/** 60 × 40 mm, which paper and margins let grow to 267 × 178 mm. */
+const FLAG = svgOf(60, 40, "M0 0L60 40M60 0L0 40");
+/** A ruler of 279 mm on A4. */
+const RULER = svgOf(297, 210, "M9 100H288M9 95V105M288 95V105");
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("paper");
+  await test.group("Paper");
+});
+
+afterAll(async () => test.close());
+
+const drawn = async (): Promise<string> =>
+  (await test.page.locator(".drawn-size span").innerText()).replace(/\u202f/g, " ");
+const plot = () => plotBar(test.page).getByRole("button", { name: "Plot", exact: true });
+
+describe("the size on the paper", () => {
+  it("is always told, in mm and in percent of the file", async () => {
+    await test.drop("flag", FLAG);
+    expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
+  });
+
+  it("is the file's where its page is the paper", async () => {
+    await test.drop("ruler", RULER);
+    expect(await drawn()).toBe("Drawn 279 × 10 mm, 100 %");
+    expect(await test.page.getByRole("radio", { name: "True size" }).isChecked()).toBe(true);
+    const { x0, x1 } = await test.queuedBox();
+    expect([x0, x1].map((mm) => Math.round(mm * 100) / 100)).toEqual([9, 288]);
+  });
+
+  it("fits the paper again with the next drawing, and is the file's with one click", async () => {
+    await test.drop("flag", FLAG);
+    expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
+    await test.page.getByRole("button", { name: "Use the file’s page" }).click();
+    await test.planned();
+    expect(await drawn()).toBe("Drawn 60 × 40 mm, 100 %");
+    await test.page.getByRole("button", { name: "Use the file’s page" }).waitFor({ state: "detached" });
+    await test.page.getByRole("button", { name: "Undo" }).click();
+    await test.planned();
+    expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
+  });
+});
+
+describe("what the machine does not reach", () => {
+  it("is told at the plot button, which is off until the drawing is turned", async () => {
+    await test.drop("tall", svgOf(100, 200, "M0 0L100 200"));
+    await test.page.getByRole("radio", { name: "Portrait" }).check();
+    await test.planned();
+    const why = plotBar(test.page).getByText(/AxiDraw V3 reaches 300 × 218/);
+    await why.waitFor();
+    expect(await plot().isDisabled()).toBe(true);
+    await plotBar(test.page).getByRole("button", { name: "Turn for this machine" }).click();
+    await test.planned();
+    await why.waitFor({ state: "detached" });
+    expect(await plot().isEnabled()).toBe(true);
+    expect(await test.page.getByRole("radio", { name: "Landscape" }).isChecked()).toBe(true);
+    expect(await drawn()).toMatch(/^Drawn 267 × 133.5 mm/);
+  });
+
+  it("is mended by itself for a drawing that nothing was chosen for", async () => {
+    await test.field("Rotate").fill("0");
+    await test.page.getByRole("radio", { name: "Portrait" }).check();
+    await test.drop("flag", FLAG);
+    expect(await test.page.getByRole("radio", { name: "Landscape" }).isChecked()).toBe(true);
+    expect(await plot().isEnabled()).toBe(true);
+  });
+
+  it("is mended by a turn of page and paper where the page is the paper", async () => {
+    await test.drop("tall page", svgOf(210, 297, "M20 10V200"));
+    expect(await drawn()).toBe("Drawn 190 × 0 mm, 100 %");
+    expect(await plot().isEnabled()).toBe(true);
+  });
+});
+
+describe("the form", () => {
+  it("keeps mirror, cutting and separate margins folded until they are asked for", async () => {
+    const mirror = test.page.getByRole("radio", { name: "Left–right" });
+    expect(await mirror.isVisible()).toBe(false);
+    const fold = test.page.getByText("Separate margins, mirror, cutting");
+    await fold.click();
+    expect(await test.page.getByText("Each margin by itself").isVisible()).toBe(true);
+    await mirror.waitFor({ state: "attached" });
+    await fold.click();
+  });
+});
+
+describe("a length", () => {
+  it("may be typed with its unit", async () => {
+    await test.drop("flag", FLAG);
+    await test.field("Margin").fill("2 cm");
+    await test.planned();
+    await test.field("Margin").press("Enter");
+    expect(await test.field("Margin").inputValue()).toBe("20");
+    await test.page.getByLabel("Paper", { exact: true }).selectOption("custom");
+    await test.field("Width").fill("8.5in");
+    await test.field("Width").press("Enter");
+    expect(await test.field("Width").inputValue()).toBe("215.9");
+  });
+
+  it("is in inches everywhere once that is chosen, after a reload too", async () => {
+    await test.page.getByRole("radio", { name: "Inches" }).check();
+    expect(await test.field("Width").inputValue()).toBe("8.5");
+    expect(await drawn()).toMatch(/^Drawn .* in, /);
+    await test.field("Margin").fill("0.5");
+    await test.planned();
+    // The kept settings are written a moment after the last change.
+    await test.page.waitForFunction(() =>
+      localStorage.getItem("plotwright.page.v1")?.includes('"marginMm":12.7'),
+    );
+    await test.page.reload();
+    await test.planned();
+    expect(await test.field("Margin").inputValue()).toBe("0.5");
+    expect(await test.field("Width").inputValue()).toBe("8.5");
+    await test.page.getByRole("radio", { name: "Millimetres" }).check();
+    expect(await test.field("Margin").inputValue()).toBe("12.7");
+  });
+});
+
+describe("a file", () => {
+  it("without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
+    await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
+    await test.group("Fill and shade");
+    await test.page.getByText("Fill areas with lines").click();
+    await test.page.getByText(/No shape of this drawing is filled/).waitFor();
+    const strokes = plotBar(test.page).locator("dd").nth(2);
+    const before = Number(await strokes.innerText());
+    await test.page.getByRole("button", { name: "Fill closed outlines" }).click();
+    await test.planned();
+    expect(Number(await strokes.innerText())).toBeGreaterThan(before);
+    await test.page.getByText("Fill areas with lines").click();
+  });
+
+  it("that can't be read leaves the loaded one", async () => {
+    await dropFile(test.page, "torn.svg", "<svg><path d='M0 0");
+    await test.page.getByText(/torn can’t be drawn/).waitFor();
+    await test.planned();
+    await test.page.locator(".drawing-name", { hasText: "box" }).waitFor();
+    expect(await plot().isEnabled()).toBe(true);
+  });
+
+  it("of a picture only is named as that", async () => {
+    await test.drop(
+      "photo",
+      `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"><image href="a.png" width="60mm" height="40mm"/></svg>`,
+    );
+    await test.page.getByText("This file holds only a picture").waitFor();
+    expect(await plot().isDisabled()).toBe(true);
+  });
+
+  it("meets no error in the browser's console on the way", () => {
+    expect(test.complaints).toEqual([]);
+  });
+});

@@ -1,0 +1,50 @@
+import { canBePaper, findMachine, isEmptyBox, isOnFilesPage, onFilesPage } from "../../src/internal.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { formatNumber, formatSize } from "../ui/format.js";
+import { drawnSizeText } from "./text.js";
+import type { Planned } from "../worker/protocol.js";
+
+const words = drawnSizeText;
+
+/** How large the drawing will be on the paper, and the way to the size that its file has. */
+export const DrawnSize = () => {
+  const planned = usePageState((state) => state.planned);
+  const unit = usePageState((state) => state.view.lengthUnit);
+  if (!planned || isEmptyBox(planned.drawnBox)) return null;
+  const { x0, y0, x1, y1 } = planned.drawnBox;
+  return (
+    <div className="drawn-size">
+      <span>{words.drawn(formatSize(x1 - x0, y1 - y0, unit), scaleInWords(planned))}</span>
+      <UseFilesPage planned={planned} />
+    </div>
+  );
+};
+
+/** In percent of the file; two where it is stretched. */
+const scaleInWords = ({ pageToPaper: { a, b, c, d } }: Planned): string => {
+  const percents = [Math.hypot(a, b), Math.hypot(c, d)].map((factor) =>
+    formatNumber(100 * factor, factor < 0.1 ? 1 : 0),
+  );
+  return [...new Set(percents)].join(" × ");
+};
+
+const UseFilesPage = ({ planned }: { planned: Planned }) => {
+  const { changeSettings } = useActions();
+  const page = { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm };
+  const isOnIt = usePageState((state) => isOnFilesPage(state.settings.prepare, page));
+  if (isOnIt || !canBePaper(page)) return null;
+  return (
+    <button
+      type="button"
+      className="link"
+      onClick={() =>
+        changeSettings("file's page", (settings) => ({
+          ...settings,
+          prepare: onFilesPage(settings.prepare, page, findMachine(settings)),
+        }))
+      }
+    >
+      {words.useFilesPage}
+    </button>
+  );
+};

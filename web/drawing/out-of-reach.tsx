@@ -1,0 +1,74 @@
+import {
+  findMachine,
+  isEmptyBox,
+  isReached,
+  orientedPaper,
+  quarterTurned,
+  quarterTurnedBox,
+} from "../../src/internal.js";
+import { paperBoxOf } from "../preview/frame.js";
+import type { Planned } from "../worker/protocol.js";
+import type { PageState } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { formatSize } from "../ui/format.js";
+import { reachText } from "./text.js";
+
+const words = reachText;
+
+/** Whether the pen would have to go where the machine does not. */
+export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
+  const machine = findMachine(settings);
+  return (
+    machine !== null &&
+    planned !== null &&
+    !isEmptyBox(planned.drawnBox) &&
+    !isReached(planned.drawnBox, machine)
+  );
+};
+
+/** What is turned: the paper, or at true size the page on its corner. */
+const turningHeightMm = ({ settings, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
+  const { fit, place, paper, landscape } = settings.prepare;
+  if (fit || place) return orientedPaper(paper, landscape).heightMm;
+  const page = paperBoxOf([0, 0, pageWidthMm, pageHeightMm], pageToPaper);
+  return page.yMm + page.heightMm;
+};
+
+/** Why the drawing can't be plotted, and the turn that helps, where it does. */
+export const OutOfReach = () => {
+  const planned = usePageState((state) => state.planned);
+  const machine = usePageState((state) => findMachine(state.settings));
+  const unit = usePageState((state) => state.view.lengthUnit);
+  const { changeSettings } = useActions();
+  if (!planned || !machine) return null;
+  const { drawnBox, frameMm } = planned;
+  const isTurnOfHelp =
+    frameMm !== null && isReached(quarterTurnedBox(drawnBox, turningHeightMm(planned)), machine);
+  const reach = formatSize(machine.widthMm, machine.heightMm, unit);
+  return (
+    <div className="out-of-reach">
+      <p className="note note-error">
+        {drawnBox.x0 < 0 || drawnBox.y0 < 0
+          ? words.beforeHome(machine.name)
+          : words.tooFar(machine.name, reach, formatSize(drawnBox.x1, drawnBox.y1, unit))}
+        {!isTurnOfHelp && ` ${words.whatToDo}`}
+      </p>
+      {isTurnOfHelp && (
+        <button
+          type="button"
+          className="button"
+          onClick={() => {
+            const { xMm, yMm, widthMm, heightMm } = frameMm;
+            const frame = { x0: xMm, y0: yMm, x1: xMm + widthMm, y1: yMm + heightMm };
+            changeSettings("turn for machine", (settings) => ({
+              ...settings,
+              prepare: quarterTurned(settings.prepare, frame),
+            }));
+          }}
+        >
+          {words.turn}
+        </button>
+      )}
+    </div>
+  );
+};

@@ -1,0 +1,23 @@
+/** The desk of the preview: paper, margins and the machine's reach, from a job's settings. */
+import { findMachine, mmFromLength, type LengthUnit } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { formatSize } from "../ui/format.js";
+import type { Desk } from "./backdrop.js";
+import { previewText } from "./text.js";
+
+export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
+  const { paper, landscape, margins, marginMm } = settings.prepare;
+  const long = Math.max(paper.widthMm, paper.heightMm);
+  const short = Math.min(paper.widthMm, paper.heightMm);
+  const machine = findMachine(settings);
+  return {
+    paperMm: landscape ? { width: long, height: short } : { width: short, height: long },
+    margins: margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm },
+    reach: machine && {
+      width: machine.widthMm,
+      height: machine.heightMm,
+      label: previewText.reach(machine.name, formatSize(machine.widthMm, machine.heightMm, unit)),
+    },
+    unitMm: mmFromLength(1, unit),
+  };
+};
