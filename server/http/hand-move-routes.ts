@@ -49,6 +49,7 @@ export const HAND_MOVE_ROUTES: readonly ApiRoute[] = [
   move("set-home", "Makes the current position home", handMoveRequestSchema),
   move("cycle-pen", "Lowers the pen and raises it again", handMoveRequestSchema),
   move("frame", "Moves around a job's drawing or a box and back, pen up", frameRequestSchema),
+  move("test-line", "Draws a line of 20 mm near the current position", handMoveRequestSchema),
   move("test-patch", "Draws a small test pattern at the current position", handMoveRequestSchema),
   move("square", "Draws a square for measuring", squareRequestSchema),
   move("servo", "Sets a raw servo position", servoRequestSchema),
@@ -83,7 +84,7 @@ export function handMoveRoutes(parts: HandMoveParts): Router {
 type WantedOf = (request: Request, parts: HandMoveParts) => Wanted | Promise<Wanted>;
 
 const plain =
-  (kind: "home" | "set-home" | "cycle-pen" | "test-patch"): WantedOf =>
+  (kind: "home" | "set-home" | "cycle-pen" | "test-line" | "test-patch"): WantedOf =>
   (request) => ({ move: { kind }, settings: bodyOf(request, handMoveRequestSchema).settings });
 
 const MOVES: Readonly<Record<string, WantedOf>> = {
@@ -98,6 +99,7 @@ const MOVES: Readonly<Record<string, WantedOf>> = {
   home: plain("home"),
   "set-home": plain("set-home"),
   "cycle-pen": plain("cycle-pen"),
+  "test-line": plain("test-line"),
   "test-patch": plain("test-patch"),
   frame: async (request, parts) => {
     const body = bodyOf(request, frameRequestSchema);

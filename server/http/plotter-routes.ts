@@ -10,6 +10,7 @@ import {
   penRequestSchema,
   plotterPatchSchema,
   plotterSchema,
+  plotterSettingsSchema,
   queueSettingsSchema,
 } from "../../src/schema/index.js";
 import type { PlotterRegistry, PlotterUse } from "../plotter/plotter-registry.js";
@@ -36,6 +37,21 @@ export const PLOTTER_ROUTES: readonly ApiRoute[] = [
   route("patch", "/plotters/:id/queue", "Changes the queue settings of a plotter", queueSettingsSchema, {
     body: queueSettingsSchema,
   }),
+  route(
+    "get",
+    "/plotters/:id/settings",
+    "Returns heights, pens and presets of a plotter; null if nothing was set",
+    plotterSettingsSchema.nullable(),
+  ),
+  route(
+    "put",
+    "/plotters/:id/settings",
+    "Stores heights, pens and presets of a plotter",
+    plotterSettingsSchema,
+    {
+      body: plotterSettingsSchema,
+    },
+  ),
   route("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text"),
   route("post", "/plotters/:id/pen", "Raises or lowers the pen", plotterSchema, { body: penRequestSchema }),
   route(
@@ -93,6 +109,16 @@ export function plotterRoutes(
   router.patch("/plotters/:id/queue", small, (request, response) => {
     const settings = parseWith(queueSettingsSchema, request.body);
     response.json(queue.saveSettings(settings, request.params.id));
+  });
+
+  router.get("/plotters/:id/settings", (request, response) => {
+    const { id } = find(request.params.id);
+    response.json(registry.settings()[id] ?? null);
+  });
+
+  router.put("/plotters/:id/settings", express.json({ limit: "2mb" }), (request, response) => {
+    const settings = parseWith(plotterSettingsSchema, request.body);
+    response.json(registry.saveSettings(request.params.id, settings));
   });
 
   router.get("/plotters/:id/log", (request, response) => {

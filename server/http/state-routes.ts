@@ -43,6 +43,7 @@ export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () =
   const snapshot = (): Snapshot => ({
     version: parts.version,
     plotters: registry.list(),
+    plotterSettings: registry.settings(),
     queue: queue.settings(),
     queues: queue.allSettings(),
     operator: operatorLock.operator,

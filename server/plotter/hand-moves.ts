@@ -20,6 +20,8 @@ export type HandMove =
   | { readonly kind: "cycle-pen" }
   /** Moves around a box with the pen up, and back. */
   | { readonly kind: "frame"; readonly boxMm: BoxMm }
+  /** Draws a line near the current position, and comes back. */
+  | { readonly kind: "test-line" }
   /** Draws a small pattern at the current position, and comes back. */
   | { readonly kind: "test-patch" }
   /** Draws a square for measuring at the current position, and comes back. */
@@ -46,6 +48,8 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
       return plotter.movePen(true, settings);
     case "frame":
       return traceFrame(plotter, move.boxMm, settings);
+    case "test-line":
+      return drawHere(plotter, testLine(), settings);
     case "test-patch":
       return drawHere(plotter, testPatch(), settings);
     case "square":
@@ -126,6 +130,16 @@ function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: numbe
     "out-of-bounds",
     `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage is elsewhere.`,
   );
+}
+
+/** Starts 5 mm right of and below the carriage, so that it is on the paper even if the carriage is at its corner. */
+function testLine(): StrokeSet {
+  return {
+    xy: Float64Array.from([5, 5, 25, 5]),
+    offsets: Uint32Array.from([0, 2]),
+    layer: new Uint16Array(1),
+    layers: [{ id: "line", name: "Test line", color: null }],
+  };
 }
 
 function squareOf(sizeMm: number): StrokeSet {

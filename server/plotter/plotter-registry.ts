@@ -3,13 +3,24 @@
  * Every change is stored before it is announced.
  */
 import { PlotwrightError } from "../../src/index.js";
-import type { Device, NewPlotter, Plotter, PlotterPatch, ServerEvent } from "../../src/schema/index.js";
+import {
+  plotterSettingsSchema,
+  type Device,
+  type NewPlotter,
+  type Plotter,
+  type PlotterPatch,
+  type PlotterSettings,
+  type ServerEvent,
+} from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, Store } from "../storage/store.js";
 import type { FoundBoard } from "../serial/find-boards.js";
 
 export interface RegistryParts {
-  readonly store: Pick<Store, "plotters" | "savePlotter" | "removePlotter">;
+  readonly store: Pick<
+    Store,
+    "plotters" | "savePlotter" | "removePlotter" | "plotterSettings" | "savePlotterSettings"
+  >;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
   /** Throws `bad-setting` for an unknown machine id. */
@@ -60,6 +71,24 @@ export class PlotterRegistry {
 
   list(): Plotter[] {
     return [...this.#ports.values()].map((port) => port.snapshot());
+  }
+
+  /** By plotter id. A plotter for which nothing was set, or whose record can't be read, has none. */
+  settings(): Record<string, PlotterSettings> {
+    return Object.fromEntries(
+      Object.entries(this.#parts.store.plotterSettings()).flatMap(([id, stored]) => {
+        const parsed = plotterSettingsSchema.safeParse(stored);
+        return parsed.success ? [[id, parsed.data]] : [];
+      }),
+    );
+  }
+
+  /** Throws `not-found`. */
+  saveSettings(id: string, settings: PlotterSettings): PlotterSettings {
+    this.#find(id);
+    this.#parts.store.savePlotterSettings(id, settings);
+    this.#parts.announce({ type: "plotter-settings", plotterId: id, settings });
+    return settings;
   }
 
   async devices(): Promise<Device[]> {

@@ -78,6 +78,7 @@ const MIGRATIONS: readonly string[] = [
   `-- job_id: null in rows older than this column. is_told: the other servers know that it has begun.
    ALTER TABLE shared ADD COLUMN job_id TEXT;
    ALTER TABLE shared ADD COLUMN is_told INTEGER NOT NULL DEFAULT 0;`,
+  `ALTER TABLE plotters ADD COLUMN settings TEXT;                   -- JSON, as plotterSettingsSchema; null: nothing set`,
 ];
 
 /** Brings the database to the newest version, or refuses one that is newer than this program. */

@@ -202,6 +202,16 @@ export class Store {
     );
   }
 
+  /** What was stored for each plotter, by its id; parse it with its schema. */
+  plotterSettings(): Record<string, unknown> {
+    const rows = this.#all("SELECT id, settings FROM plotters WHERE settings IS NOT NULL");
+    return Object.fromEntries(rows.map((row) => [String(row["id"]), JSON.parse(String(row["settings"]))]));
+  }
+
+  savePlotterSettings(id: string, settings: unknown): void {
+    this.#run("UPDATE plotters SET settings = ? WHERE id = ?", [JSON.stringify(settings), id]);
+  }
+
   removePlotter(id: string): void {
     this.#run("DELETE FROM plotters WHERE id = ?", [id]);
   }
@@ -290,6 +300,7 @@ function readAll(db: Database): void {
   db.all("SELECT id, name, device, machine FROM plotters");
   const texts = db.all(
     `SELECT value FROM settings UNION ALL SELECT entry FROM journal
+     UNION ALL SELECT settings FROM plotters WHERE settings IS NOT NULL
      UNION ALL SELECT events FROM webhooks UNION ALL SELECT last FROM webhooks WHERE last IS NOT NULL`,
   );
   for (const { value } of texts) JSON.parse(String(value));

@@ -2,10 +2,11 @@
  * The pens of a drawing: which pen draws which layer, where the plot stops to change pens, and the correction
  * for a pen that sits off-centre in the holder.
  *
- * With layers a (red), b (red) and c (black) the plot stops once, before c's first stroke:
+ * With layers a (red), b (red) and c (black) the plot stops for the first pen too, and before c's first stroke. A
+ * drawing of a single pen does not stop for it:
  *
- *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    5
- *   layers    a     | b   | c            "layers"  3, 5
+ *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    0, 5
+ *   layers    a     | b   | c            "layers"  0, 3, 5
  */
 import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
@@ -60,24 +61,31 @@ export function penOf({ pens, layerPens }: PenSetup, layer: StrokeLayer): PlotPe
 }
 
 /**
- * Where the plot waits for the operator, in order. There is no stop before the first stroke unless its layer
- * asks for one. Linear in strokes.
+ * Where the plot waits for the operator, in order. There is a stop before the first stroke if several pens are needed,
+ * since any of them may be in the holder, or if its layer asks for one. Linear in strokes.
  */
 export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenStop[] {
   if (setup.penStops === "never") return [];
   const stops: PenStop[] = [];
   let inHolder: string | null = null;
   const count = strokeCount(strokes);
+  const hasSeveralPens = pensUsed(strokes, setup).size > 1;
   for (let stroke = 0; stroke < count; stroke++) {
     const isFirst = stroke === 0;
     if (!isFirst && strokes.layer[stroke] === strokes.layer[stroke - 1]) continue;
     const layer = strokes.layers[strokes.layer[stroke]];
     const pen = penOf(setup, layer);
-    const needsOther = !isFirst && pen !== null && pen.id !== inHolder;
+    const needsOther = pen !== null && (isFirst ? hasSeveralPens : pen.id !== inHolder);
     if (pen !== null) inHolder = pen.id;
     if (stopsBefore(setup, layer, isFirst, needsOther)) stops.push(stopAt(stroke, layer, pen));
   }
   return stops;
+}
+
+function pensUsed(strokes: StrokeSet, setup: PenSetup): ReadonlySet<string> {
+  const layers = new Set(strokes.layer.subarray(0, strokeCount(strokes)));
+  const ids = [...layers].map((layer) => penOf(setup, strokes.layers[layer])?.id);
+  return new Set(ids.filter((id) => id !== undefined));
 }
 
 function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, needsOther: boolean): boolean {
@@ -86,7 +94,7 @@ function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, need
   const own = setFor(setup.layerStops, layer.id);
   if (own !== undefined) return own;
   if (parseLayerName(layer.name).pause) return true;
-  return setup.penStops === "layers" ? !isFirst : needsOther;
+  return needsOther || (setup.penStops === "layers" && !isFirst);
 }
 
 const stopAt = (strokeIndex: number, layer: StrokeLayer, pen: PlotPen | null): PenStop => ({

@@ -9,6 +9,7 @@ import { ERROR_CODES } from "../errors.js";
 import { jobPlaceSchema, jobSchema } from "./job.js";
 import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { nameSchema } from "./name.js";
+import { plotterSettingsSchema } from "./plotter-settings.js";
 import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
 
 /** Has either the text of a small drawing, or the id of a drawing uploaded before. */
@@ -130,6 +131,8 @@ export const snapshotSchema = z.object({
   /** The server's name on the network, such as "plotwright.local"; null while it has none. */
   localName: z.string().nullable().default(null),
   plotters: z.array(plotterSchema),
+  /** By plotter id; a plotter for which nothing was set has none. */
+  plotterSettings: z.record(z.string(), plotterSettingsSchema).default({}),
   jobs: z.array(jobSchema),
 });
 export type Snapshot = z.infer<typeof snapshotSchema>;
@@ -145,6 +148,11 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("plotter"), plotter: plotterSchema }),
   /** A plotter was added, renamed or removed; contains all plotters. */
   z.object({ type: z.literal("plotters"), plotters: z.array(plotterSchema) }),
+  z.object({
+    type: z.literal("plotter-settings"),
+    plotterId: z.string(),
+    settings: plotterSettingsSchema,
+  }),
   /** Of the first plotter; a `queues` event with all of them follows. */
   z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
   z.object({ type: z.literal("queues"), queues: queuesSchema }),

@@ -15,7 +15,7 @@ export type WalkRequest = z.infer<typeof walkRequestSchema>;
 export const jogRequestSchema = z.object({ dxMm: distanceMm, dyMm: distanceMm, settings });
 export type JogRequest = z.infer<typeof jogRequestSchema>;
 
-/** …/set-home, …/cycle-pen, …/test-patch. */
+/** …/set-home, …/cycle-pen, …/test-line, …/test-patch. */
 export const handMoveRequestSchema = z.object({ settings });
 export type HandMoveRequest = z.infer<typeof handMoveRequestSchema>;
 

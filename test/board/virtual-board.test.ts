@@ -232,7 +232,7 @@ describe("the virtual board's pen", () => {
   it("draws with the pen down and travels with it up", () => {
     const { ask, board } = boardWith({ speed: Infinity });
     ask("SM,100,800,800");
-    ask("SP,0,500");
+    ask("SP,0,100");
     ask("SM,100,800,-800");
     ask("SP,1,100");
     ask("SM,100,-1600,0");

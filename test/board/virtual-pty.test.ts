@@ -81,7 +81,7 @@ describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo
     );
     await up;
     const { ask } = await openPort(path);
-    await ask("SP,0,500\rSM,100,800,800\rSP,1,10\r", /^(OK\r\n){3}$/);
+    await ask("SP,0,10\rSM,100,800,800\rSP,1,10\r", /^(OK\r\n){3}$/);
     await ask("SM,1,0,0\rSM,1,0,0\rQS\r", /800,800\n\rOK\r\n$/);
     stop();
     await run;

@@ -140,6 +140,7 @@ describe("pens on the page", () => {
     await test.page.getByRole("button", { name: "A pen for each colour" }).click();
     await test.planned();
     expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual([
+      "Stop: put in Red",
       "Stop: put in Blue",
       "Stop: put in Orange",
     ]);
@@ -182,11 +183,14 @@ describe("pens on the page", () => {
   it("are assigned to layers one by one, with a stop by hand where set", async () => {
     await test.page.getByLabel("Pen for sand").selectOption({ label: "Blue" });
     await test.planned();
-    expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual(["Stop: put in Blue"]);
+    expect(await test.page.locator(".layer-stop").allInnerTexts()).toEqual([
+      "Stop: put in Red",
+      "Stop: put in Blue",
+    ]);
     await details("sand").click();
     await test.page.getByRole("radio", { name: "Always" }).check();
     await test.planned();
-    expect(await test.page.locator(".layer-stop").count()).toBe(2);
+    expect(await test.page.locator(".layer-stop").count()).toBe(3);
     const { settings } = await test.queue();
     expect(settings.layerStops).toEqual({ sand: true });
     expect(settings.layerPens["sand"]).toBe(settings.layerPens["sea"]);
@@ -223,11 +227,14 @@ describe("pens on the page", () => {
 
   it("are waited for while plotting, and the board draws the layers in the chosen order", async () => {
     await plotBar(test.page).getByRole("button", { name: "Plot", exact: true }).click();
-    const held = await waitForJob((job) => job.wait !== null);
-    expect([held.state, held.wait]).toMatchObject(["paused", { penName: "Blue" }]);
-    const answer = await fetch(`${test.server.url}/api/v1/jobs/${held.id}/resume`, { method: "POST" });
-    expect(answer.ok).toBe(true);
-    await waitForJob((job) => job.id === held.id && job.state === "done");
+    // The first pen too: any of the two may be in the holder.
+    for (const pen of ["Red", "Blue"]) {
+      const held = await waitForJob(({ wait }) => wait !== null && wait.penName === pen);
+      expect(held.state).toBe("paused");
+      const answer = await fetch(`${test.server.url}/api/v1/jobs/${held.id}/resume`, { method: "POST" });
+      expect(answer.ok).toBe(true);
+    }
+    await waitForJob((job) => job.settings.pens.length > 1 && job.state === "done");
     expect((await plottedOrder()).slice(-3)).toEqual(["sun", "sea", "sand"]);
   });
 

@@ -26,6 +26,8 @@ const SETTINGS: PlotSettings = {
     { id: "k", name: "Black", ...PEN, color: "#111111" },
   ],
   layerPens: { sky: "b", sea: "b", ink: "k" },
+  // The first pen is in the holder.
+  layerStops: { sky: false },
 };
 const BLACK: PlotWait = { kind: "pen", layerName: "Ink", penName: "Black", color: "#111111" };
 
@@ -98,7 +100,7 @@ describe("a plot with a change of pens", () => {
 
   it("waits before the first stroke if its layer's name says so, even without a listener", async () => {
     const strokes = { ...DRAWING, layers: [{ ...LAYERS[0], name: "!Sky" }, ...LAYERS.slice(1)] };
-    const { world, run, held, drawnRows } = await plotting(SETTINGS, {}, strokes);
+    const { world, run, held, drawnRows } = await plotting({ ...SETTINGS, layerStops: {} }, {}, strokes);
     await world.advance(5);
     expect(held).toEqual([[true, expect.objectContaining({ layerName: "Sky", penName: "Blue" })]]);
     expect(drawnRows()).toEqual([]);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import type { TextStore } from "../../web/state/persist.js";
-import { readPresets, withPreset, writePresets } from "../../web/state/presets.js";
+import { readPresets, withPreset } from "../../web/state/presets.js";
 
 const storeWith = (value: string | null): TextStore & { value: string | null } => ({
   value,
@@ -14,11 +14,9 @@ const storeWith = (value: string | null): TextStore & { value: string | null } =
 });
 
 describe("presets", () => {
-  it("are restored as stored", () => {
-    const store = storeWith(null);
+  it("of an earlier version are restored as stored", () => {
     const presets = withPreset([], " Fineliner ", DEFAULT_PLOT_SETTINGS);
-    writePresets(store, presets);
-    expect(readPresets(store)).toEqual(presets);
+    expect(readPresets(storeWith(JSON.stringify(presets)))).toEqual(presets);
     expect(presets[0].name).toBe("Fineliner");
   });
 

@@ -20,6 +20,7 @@ const snapshot = (...ids: string[]): ServerEvent => ({
     serverNotices: [],
     localName: null,
     plotters: [makePlotter("virtual")],
+    plotterSettings: {},
     jobs: ids.map((id) => makeJob(id)),
   },
 });

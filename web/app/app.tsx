@@ -21,7 +21,7 @@ import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
 import { TimeLine } from "../preview/time-line.js";
-import { shownView } from "../state/store.js";
+import { shownView, unfinishedJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
 import { tabsText } from "./text.js";
@@ -54,6 +54,13 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const view = usePageState(shownView);
   const isFull = usePageState((state) => state.isFullScreen);
   const isWatching = view === "watch";
+  const hasJob = usePageState((state) => unfinishedJob(state) !== null);
+  const machine = (
+    <div className="tab-machine">
+      {!isWatching && hasCamera && <Camera />}
+      <MachinePanel />
+    </div>
+  );
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   if (isUnpaired) return <Pairing />;
   return (
@@ -88,13 +95,12 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <PlotBar />
           {isWatching && hasCamera && <Camera />}
           {isWatching && <Adjust />}
+          {/* What a plot begins with comes first, and the queue once something is plotted. */}
+          {!hasJob && machine}
           <div className="tab-queue">
             <QueuePanel />
           </div>
-          <div className="tab-machine">
-            {!isWatching && hasCamera && <Camera />}
-            <MachinePanel />
-          </div>
+          {hasJob && machine}
           <div className="tab-queue">
             <HistoryPanel />
           </div>

@@ -10,7 +10,7 @@ import { browserDrawings, keepDrawing, readKeptDrawing } from "../drawing/kept-d
 import { readRemembered, writeRemembered, type TextStore } from "../state/persist.js";
 import { watchJobs } from "../queue/notify.js";
 import { Player } from "../preview/player.js";
-import { readPresets, writePresets } from "../state/presets.js";
+import { noteTakenOver, readKeptHere } from "../state/kept-here.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
 import { applyServerEvent } from "../state/server-events.js";
 import { createPageStore, type PageStore } from "../state/store.js";
@@ -75,7 +75,6 @@ const actions = createActions({
 const drawings = browserDrawings();
 keepRemembered(store);
 keepDrawing(store, drawings);
-keepPresets(store);
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
 listenForShortcuts(shortcuts);
@@ -95,6 +94,7 @@ backend.listen({
 });
 replanForBoard(store, actions.replan);
 openWatch(store);
+followPlotter(store);
 void greet(store);
 
 const root = document.getElementById("root");
@@ -131,10 +131,27 @@ function keepRemembered(pageStore: PageStore): void {
   });
 }
 
-function keepPresets(pageStore: PageStore): void {
-  pageStore.setState({ presets: readPresets(storage) });
-  pageStore.subscribe(({ presets }, before) => {
-    if (presets !== before.presets) writePresets(storage, presets);
+/** Model, heights, pens and presets are the plotter's; those that this browser has kept go to a plotter without any. */
+function followPlotter(pageStore: PageStore): void {
+  let kept = readKeptHere(storage);
+  if (kept === null) noteTakenOver(storage);
+  const takeOver = async (): Promise<void> => {
+    const keptNow = kept;
+    if (keptNow === null || pageStore.getState().link !== "connected") return;
+    kept = null;
+    const isDone = await actions.takeOverKept(keptNow);
+    if (isDone) noteTakenOver(storage);
+    else kept = keptNow;
+  };
+  pageStore.subscribe((state, before) => {
+    const { plotters, plotterId, plotterSettings, machines, me, operator } = state;
+    if (me !== before.me || operator !== before.operator) void takeOver();
+    const isNews =
+      plotters !== before.plotters ||
+      plotterId !== before.plotterId ||
+      plotterSettings !== before.plotterSettings ||
+      machines !== before.machines;
+    if (isNews) actions.followPlotter();
   });
 }
 

@@ -25,6 +25,7 @@ import type {
   PlotSettings,
   Plotter,
   PlotterPatch,
+  PlotterSettings,
   QueueSettings,
   ServerEvent,
   SharedJob,
@@ -85,6 +86,7 @@ export interface Backend {
   takeOver(): Promise<Operator | null>;
   dismissNotice(id: string): Promise<void>;
 
+  savePlotterSettings(id: string, settings: PlotterSettings): Promise<PlotterSettings>;
   setPlotterMachine(id: string, machine: string): Promise<Plotter>;
   movePen(id: string, request: PenRequest): Promise<Plotter>;
   motorsOff(id: string): Promise<Plotter>;
@@ -112,6 +114,7 @@ export interface HandBackend {
   jog(plotterId: string, settings: PlotSettings, dxMm: number, dyMm: number): Promise<Plotter>;
   setHome(plotterId: string, settings: PlotSettings): Promise<Plotter>;
   cyclePen(plotterId: string, settings: PlotSettings): Promise<Plotter>;
+  testLine(plotterId: string, settings: PlotSettings): Promise<Plotter>;
   testPatch(plotterId: string, settings: PlotSettings): Promise<Plotter>;
   frameBox(plotterId: string, settings: PlotSettings, boxMm: BoxMm): Promise<Plotter>;
   square(plotterId: string, settings: PlotSettings, sizeMm: number): Promise<Plotter>;

@@ -9,7 +9,7 @@ import { SettingField } from "../ui/setting-field.js";
 const words = heightsText;
 type PenSettings = PlotSettings["pen"];
 
-/** Heights, waits and refinements of the pen. */
+/** Waits and refinements of the pen; its heights are in the plotter's panel. */
 export const PenFields = () => {
   const pen = usePageState((state) => state.settings.pen);
   const { changeSettings } = useActions();
@@ -20,21 +20,6 @@ export const PenFields = () => {
     }));
   return (
     <>
-      <HeightField
-        setting={PEN_TABLE.upPct}
-        tryLabel={words.tryUp}
-        value={pen.upPct}
-        isUp
-        onChange={(upPct) => change({ upPct })}
-      />
-      <HeightField
-        setting={PEN_TABLE.downPct}
-        tryLabel={words.tryDown}
-        value={pen.downPct}
-        isUp={false}
-        onChange={(downPct) => change({ downPct })}
-      />
-      <p className="note">{words.heightHint}</p>
       <div className="field-pair">
         <SettingField
           setting={PEN_TABLE.liftMs}

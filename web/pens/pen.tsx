@@ -7,13 +7,13 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const PenFields = lazyPart(async () => (await import("./pen-fields.js")).PenFields);
 
 export const PenPanel = () => {
-  const { upPct, downPct } = usePageState((state) => state.settings.pen);
+  const { liftMs, dropMs } = usePageState((state) => state.settings.pen);
   const isOpen = usePageState((state) => state.view.openGroups.includes("pen"));
   return (
     <SettingsGroup
       id="pen"
       title={heightsText.title}
-      summary={`${formatNumber(upPct)} / ${formatNumber(downPct)} %`}
+      summary={`${formatNumber(liftMs)} / ${formatNumber(dropMs)} ms`}
     >
       {isOpen && <PenFields />}
     </SettingsGroup>

@@ -1,4 +1,4 @@
-/** Words of the pens and their heights. */
+/** Words of the pens and of how they are lifted. */
 export const pensText = {
   title: "Pens",
   hint: "Name your pens and give them to layers: the plot stops where another one is needed.",
@@ -44,11 +44,7 @@ export const pensText = {
 };
 
 export const heightsText = {
-  title: "Pen",
-  heightHint: "Percent of the servo’s way: 100 % is as high as it goes.",
-  try: "Try",
-  tryUp: "Try the height up",
-  tryDown: "Try the height down",
+  title: "Lifting the pen",
   gentle: "Lower the pen gently",
   overlaps: { off: "Off", safe: "Safe", fast: "Fast" },
   tryContact: "Try the height at which the tip leaves the paper",

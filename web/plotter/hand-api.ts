@@ -25,6 +25,7 @@ export const handApi = (
       move("jog", (hand, ...of) => hand.jog(...of, dxMm, dyMm), settings),
     setHome: () => move("set-home", (hand, ...of) => hand.setHome(...of)),
     cyclePen: () => move("cycle-pen", (hand, ...of) => hand.cyclePen(...of)),
+    testLine: () => move("test-line", (hand, ...of) => hand.testLine(...of)),
     testPatch: () => move("test-patch", (hand, ...of) => hand.testPatch(...of)),
     frameBox: (boxMm: BoxMm) => move("frame", (hand, ...of) => hand.frameBox(...of, boxMm)),
     square: (sizeMm: number, settings: PlotSettings) =>

@@ -1,11 +1,12 @@
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
-import { activeJob, currentPlotter, isReady, mayOperate, type DialogName } from "../state/store.js";
+import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { plotterText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
+import { PenAtHand } from "./pen-at-hand.js";
 import { lampOf, plotterWords } from "./machine-words.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
@@ -19,10 +20,16 @@ export const MachinePanel = () => {
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
-      {plotter && <PlotterFacts plotter={plotter} />}
-      {isMine && <ModelSelect />}
-      {isMine && <HandControls />}
-      {isMine && <MoreMoves />}
+      {plotter && <PlotterName plotter={plotter} />}
+      {isMine && <PenAtHand />}
+      <div className="group-in-card">
+        {isMine && <MoreMoves />}
+        <SettingsGroup id="plotter" title={words.more}>
+          {isMine && <ModelSelect />}
+          {plotter && <PlotterFacts plotter={plotter} />}
+          <p className="note">{words.homeHint}</p>
+        </SettingsGroup>
+      </div>
       <p className="link-row">
         {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
         {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
@@ -33,7 +40,6 @@ export const MachinePanel = () => {
           </a>
         )}
       </p>
-      <p className="note">{words.homeHint}</p>
     </section>
   );
 };
@@ -47,18 +53,10 @@ const DialogLink = ({ name, children }: { name: DialogName; children: string }) 
   );
 };
 
-const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
+const PlotterName = ({ plotter }: { plotter: Plotter }) => {
   const job = usePageState(activeJob);
   const isHeard = usePageState((state) => state.link === "connected");
-  const { xMm, yMm, boardName } = plotter;
-  const place =
-    xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
-  const facts = [
-    [words.position, place],
-    [words.pen, plotter.penUp === null ? words.unknown : plotter.penUp ? words.up : words.down],
-    [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
-    [words.firmware, plotter.firmware ?? words.unknown],
-  ] as const;
+  const { boardName } = plotter;
   return (
     <>
       <p className="plotter-name" data-lamp={isHeard ? lampOf(plotter, job) : "fault"}>
@@ -68,15 +66,29 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
         <span className="plotter-doing">{isHeard ? plotterWords(plotter, job) : words.notHeard}</span>
       </p>
       <PlotterMessage plotter={plotter} />
-      <dl className="facts">
-        {facts.map(([label, value]) => (
-          <div key={label}>
-            <dt>{label}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
     </>
+  );
+};
+
+const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
+  const { xMm, yMm } = plotter;
+  const place =
+    xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
+  const facts = [
+    [words.position, place],
+    [words.pen, plotter.penUp === null ? words.unknown : plotter.penUp ? words.up : words.down],
+    [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
+    [words.firmware, plotter.firmware ?? words.unknown],
+  ] as const;
+  return (
+    <dl className="facts">
+      {facts.map(([label, value]) => (
+        <div key={label}>
+          <dt>{label}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
   );
 };
 
@@ -105,35 +117,8 @@ const ModelSelect = () => {
       label={words.model}
       value={machine}
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(id) => void chooseMachine(all.find((one) => one.id === id) ?? null)}
+      onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
-  );
-};
-
-const HandControls = () => {
-  const pen = usePageState((state) => state.settings.pen);
-  const { movePen, motorsOff, home } = useActions();
-  const isOff = usePageState((state) => !isReady(state));
-  return (
-    <div className="button-grid">
-      <button type="button" className="button" disabled={isOff} onClick={() => void movePen(true, pen.upPct)}>
-        {words.penUp}
-      </button>
-      <button
-        type="button"
-        className="button"
-        disabled={isOff}
-        onClick={() => void movePen(false, pen.downPct)}
-      >
-        {words.penDown}
-      </button>
-      <button type="button" className="button" disabled={isOff} onClick={() => void motorsOff()}>
-        {words.motorsOff}
-      </button>
-      <button type="button" className="button" disabled={isOff} onClick={() => void home()}>
-        {words.home}
-      </button>
-    </div>
   );
 };
 
@@ -141,10 +126,8 @@ const HandControls = () => {
 const MoreMoves = () => {
   const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
   return (
-    <div className="group-in-card">
-      <SettingsGroup id="moves" title={words.moves}>
-        {isOpen && <HandMoves />}
-      </SettingsGroup>
-    </div>
+    <SettingsGroup id="moves" title={words.moves}>
+      {isOpen && <HandMoves />}
+    </SettingsGroup>
   );
 };

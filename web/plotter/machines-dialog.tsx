@@ -40,7 +40,7 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
               type="button"
               className="machine-name"
               aria-pressed={machine.id === chosen}
-              onClick={() => void chooseMachine(machine)}
+              onClick={() => chooseMachine(machine)}
             >
               <strong>{machine.name}</strong>
               <span className="note">{words.size(machine.widthMm, machine.heightMm)}</span>
@@ -132,7 +132,7 @@ const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) =>
   const save = async (): Promise<void> => {
     const saved = await hand.saveMachine(profile);
     if (!saved) return;
-    await chooseMachine(saved);
+    chooseMachine(saved);
     onDone();
   };
   return (

@@ -3,10 +3,6 @@ export const plotterText = {
   title: "Plotter",
   virtual: "Virtual board: no plotter plugged in",
   virtualHint: "Plots run on a model of the board. Plug in a plotter and it is found by itself.",
-  penUp: "Pen up",
-  penDown: "Pen down",
-  motorsOff: "Motors off",
-  home: "Home",
   homeHint:
     "Home is where the carriage stood when the motors came on: there are no end switches. Move it to the corner by hand with the motors off.",
   position: "Pen at",
@@ -20,6 +16,7 @@ export const plotterText = {
   firmware: "Firmware",
   which: "Send to",
   model: "Model",
+  more: "Model and position",
   moves: "Move by hand",
   setUp: "Set up a plotter…",
   profiles: "Machines…",
@@ -43,6 +40,24 @@ export const plotterText = {
     connecting: "Connecting to plotwright…",
     lost: "The server can’t be reached. Trying again…",
   },
+};
+
+/** Words of the pen's heights, home and the first plot. */
+export const penText = {
+  up: "Pen up",
+  down: "Pen down",
+  motorsOff: "Motors off",
+  home: "Home",
+  testLine: "Draw a test line",
+  testLineHint: "A line of 2 cm, half a centimetre from where the carriage is",
+  firstPlot: "First plot with this plotter",
+  steps: {
+    home: "Motors off, push the carriage into its corner, then Home.",
+    heights: "Move the sliders until the pen is well clear of the paper when up, and draws when down.",
+    mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
+    plot: "Press Plot.",
+  },
+  hide: "Don’t show these steps",
 };
 
 export const presetsText = {

@@ -28,7 +28,7 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
   const save = async (): Promise<void> => {
     const saved = await hand.saveMachine(named);
     if (!saved) return;
-    await chooseMachine(saved);
+    chooseMachine(saved);
     onNext(saved);
   };
   return (

@@ -1,24 +1,25 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import { MACHINES, type MachineProfile } from "../../src/index.js";
+import type { MachineProfile } from "../../src/index.js";
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
 import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
-import {
-  machineProfileSchema,
-  type Job,
-  type JobChange,
-  type JobPlace,
-  type JobPatch,
-  type MovePlace,
-  type NewJob,
-  type PlotSettings,
-  type QueueSettings,
+import type {
+  Job,
+  JobChange,
+  JobPlace,
+  JobPatch,
+  MovePlace,
+  NewJob,
+  PlotSettings,
+  Preset,
+  QueueSettings,
 } from "../../src/schema/index.js";
 import { stateText } from "./text.js";
 import type { Planner } from "../worker/planner.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { ExportFormat, PlanFault } from "../worker/protocol.js";
 import { forOtherDrawing } from "./other-drawing.js";
-import { fromPreset, withPreset, type Preset } from "./presets.js";
+import { createPlotterSync, openedSettings, withMachine } from "./plotter-sync.js";
+import { fromPreset, withPreset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
 import {
   activeJob,
@@ -30,6 +31,7 @@ import {
   type PageState,
   type PageStore,
   type PageView,
+  type UndoStep,
 } from "./store.js";
 
 export type Actions = ReturnType<typeof createActions>;
@@ -128,25 +130,58 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** `what` names the thing changed, for undo. */
-  const changeSettings = (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
-    const { settings, undoStack } = store.getState();
+  /** `what` names the thing that is about to change, for undo. */
+  const noteStep = (what: string): UndoStep => {
+    const { settings, presets, undoStack } = store.getState();
+    const before = { settings, presets };
     const isSame = what === lastChange.what && deps.nowMs() - lastChange.atMs < COALESCE_MS;
     lastChange = { what, atMs: deps.nowMs() };
     store.setState({
-      undoStack: isSame ? undoStack : [...undoStack, settings].slice(-UNDO_DEPTH),
+      undoStack: isSame ? undoStack : [...undoStack, before].slice(-UNDO_DEPTH),
       redoStack: [],
     });
-    setSettings(change(settings));
+    return before;
   };
+
+  const changeSettings = (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
+    const before = noteStep(what);
+    setSettings(change(before.settings));
+    sync.changed(before);
+  };
+
+  const changePresets = (what: string, change: (step: UndoStep) => UndoStep["presets"]): void => {
+    const before = noteStep(what);
+    store.setState({ presets: change(before) });
+    sync.changed(before);
+  };
+
+  /** What belongs to the plotter: the model, heights, pens and presets. */
+  const sync = createPlotterSync({
+    store,
+    backend,
+    after: deps.after,
+    failed: (error) => notify("error", error instanceof Error ? error.message : String(error)),
+    show: ({ settings, presets }, isStep) => {
+      if (isStep) noteStep("of the plotter, elsewhere");
+      else store.setState({ undoStack: [], redoStack: [] });
+      store.setState({ presets });
+      if (settings !== store.getState().settings) setSettings(settings);
+    },
+  });
 
   const step = (from: "undoStack" | "redoStack", to: "undoStack" | "redoStack"): void => {
     const state = store.getState();
     const target = state[from].at(-1);
     if (!target) return;
     lastChange = { what: "", atMs: -Infinity };
-    store.setState({ [from]: state[from].slice(0, -1), [to]: [...state[to], state.settings] });
-    setSettings(target);
+    const { settings, presets } = state;
+    store.setState({
+      [from]: state[from].slice(0, -1),
+      [to]: [...state[to], { settings, presets }],
+      presets: target.presets,
+    });
+    if (target.settings !== settings) setSettings(target.settings);
+    sync.changed(state);
   };
 
   const openDrawing = (name: string, svg: DrawingText, jobId: string | null = null): void => {
@@ -164,6 +199,8 @@ export const createActions = (deps: ActionDeps) => {
       fault: null,
       pageView: "prepare",
     });
+    // After a job, the plotter's own heights and pens apply again.
+    if (jobId === null) sync.follow(false);
     replan();
   };
 
@@ -194,16 +231,23 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
+  const showJobSettings = (job: Job): void => {
+    const settings = openedSettings(store.getState(), job);
+    const isJobs = JSON.stringify(settings) === JSON.stringify(job.settings);
+    store.setState(({ drawing }) => ({
+      settings,
+      drawing: drawing && { ...drawing, jobId: isJobs ? job.id : null },
+    }));
+    replan();
+  };
+
   /** A drawing that came back as a job's has that job's settings, whatever another tab has kept meanwhile. */
   const takeJobSettings = (): void => {
     const { drawing, jobs, settings } = store.getState();
     if (!drawing || drawing.jobId === null) return;
     const job = jobs.find(({ id }) => id === drawing.jobId);
     if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
-    else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) {
-      store.setState({ settings: job.settings });
-      replan();
-    }
+    else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) showJobSettings(job);
   };
 
   const openFile = async (file: File): Promise<void> => {
@@ -226,8 +270,9 @@ export const createActions = (deps: ActionDeps) => {
   const openJob = async (job: Job): Promise<void> => {
     const svg = await attempt(`open ${job.id}`, () => backend.jobDrawing(job.id));
     if (svg === null) return;
-    store.setState({ settings: job.settings, undoStack: [], redoStack: [] });
+    store.setState({ undoStack: [], redoStack: [] });
     openDrawing(job.name, svg, job.id);
+    showJobSettings(job);
   };
 
   const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
@@ -331,30 +376,22 @@ export const createActions = (deps: ActionDeps) => {
       if (id) await attempt("home", () => backend.home(id, store.getState().settings));
     },
     /** For this page's settings, and for the plotter, which takes it for moves by hand and keeps it. */
-    chooseMachine: async (profile: MachineProfile | null): Promise<void> => {
-      if (!profile) return;
-      changeSettings("machine", (settings) => ({ ...settings, ...machineChoice(profile) }));
-      const plotter = currentPlotter(store.getState());
-      if (plotter && plotter.machine !== profile.id) {
-        await attempt("plotter", () => backend.setPlotterMachine(plotter.id, profile.id));
-      }
+    chooseMachine: (profile: MachineProfile | null): void => {
+      if (profile) changeSettings("machine", (settings) => withMachine(settings, profile));
     },
-    /** Looks at another plotter; its machine comes with it. */
+    /** Looks at another plotter; its model, heights, pens and presets come with it. */
     choosePlotter: (id: string): void => {
       store.setState({ plotterId: id });
-      const { plotters, machines, settings } = store.getState();
-      const wanted = plotters.find((plotter) => plotter.id === id)?.machine ?? null;
-      const profile = [...MACHINES, ...machines].find((machine) => machine.id === wanted);
-      if (profile && wanted !== settings.machine) {
-        changeSettings("machine", (before) => ({ ...before, ...machineChoice(profile) }));
-      }
+      sync.follow();
     },
+    followPlotter: (): void => sync.follow(),
+    takeOverKept: sync.takeOver,
     loadMachines: async (): Promise<void> => {
       const machines = await attempt("machines", () => backend.machines());
       if (machines) store.setState({ machines });
     },
     savePreset: (name: string): void =>
-      store.setState(({ presets, settings }) => ({ presets: withPreset(presets, name, settings) })),
+      changePresets(`keep ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
     /** Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. */
@@ -370,17 +407,11 @@ export const createActions = (deps: ActionDeps) => {
       else notify("info", stateText.added(job.name));
     },
     removePreset: (name: string): void =>
-      store.setState(({ presets }) => ({ presets: presets.filter((preset) => preset.name !== name) })),
+      changePresets(`forget ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
       const samples = await attempt("samples", () => backend.samples());
       if (samples) store.setState({ samples });
     },
   };
-};
-
-/** The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. */
-const machineChoice = (profile: MachineProfile): Pick<PlotSettings, "machine" | "customMachine"> => {
-  const isKnown = MACHINES.some(({ id }) => id === profile.id);
-  return { machine: profile.id, customMachine: isKnown ? null : machineProfileSchema.parse(profile) };
 };

@@ -7,7 +7,7 @@ import { findMachine, LENGTH_UNITS, type LengthUnit } from "../../src/internal.j
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 
-const KEY = "plotwright.page.v1";
+export const PAGE_KEY = "plotwright.page.v1";
 
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
@@ -25,6 +25,8 @@ export interface ViewSettings {
   readonly cameraUrl: string;
   /** Seconds between still pictures; 0: it is a stream. */
   readonly cameraEveryS: number;
+  /** The steps of a first plot were put away. */
+  readonly hidesFirstPlot: boolean;
 }
 
 export const DEFAULT_VIEW: ViewSettings = {
@@ -36,6 +38,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   openGroups: ["drawing", "paper", "layers", "motion"],
   cameraUrl: "",
   cameraEveryS: 0,
+  hidesFirstPlot: false,
 };
 
 const viewSchema = z.object({
@@ -47,6 +50,7 @@ const viewSchema = z.object({
   openGroups: z.array(z.string().max(50)).max(50),
   cameraUrl: z.string().max(2_000),
   cameraEveryS: z.number().min(0).max(3_600),
+  hidesFirstPlot: z.boolean(),
 }) satisfies z.ZodType<ViewSettings>;
 
 export interface Remembered {
@@ -121,7 +125,7 @@ const recordOf = (value: unknown): Record<string, unknown> => (isRecord(value) ?
 
 export const readRemembered = (store: TextStore | null): Remembered => {
   try {
-    return parseRemembered(store?.getItem(KEY) ?? null);
+    return parseRemembered(store?.getItem(PAGE_KEY) ?? null);
   } catch {
     return parseRemembered(null);
   }
@@ -130,7 +134,7 @@ export const readRemembered = (store: TextStore | null): Remembered => {
 /** Layer switches too: the drawing that they belong to comes back with them (see kept-drawing.ts). */
 export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
   try {
-    store?.setItem(KEY, JSON.stringify({ settings, view }));
+    store?.setItem(PAGE_KEY, JSON.stringify({ settings, view }));
   } catch {
     // A full or refused store only means that the next visit begins with the defaults.
   }

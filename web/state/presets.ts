@@ -1,46 +1,9 @@
-/** Named settings for a pen or a paper, kept in the browser and parsed by the schema like everything stored. */
-import { z } from "zod";
-import {
-  motionSettingsSchema,
-  penSettingsSchema,
-  plotSettingsSchema,
-  prepareSettingsSchema,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+/** Named settings for a pen or a paper: they belong to the plotter, and are stored with it on the server. */
+import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
 import type { TextStore } from "./persist.js";
 
-const KEY = "plotwright.presets.v1";
-const MAX_PRESETS = 100;
-
-const inks = plotSettingsSchema.shape;
-const prepare = prepareSettingsSchema.shape;
-
-/** What a preset carries: how pens move and stand and which layers they draw, not where the drawing lies. */
-const presetSchema = z.object({
-  name: z.string().trim().min(1).max(60),
-  motion: motionSettingsSchema,
-  pen: penSettingsSchema,
-  /** Presets from before there were pens leave those as they are. */
-  pens: z
-    .object({
-      pens: inks.pens,
-      layerPens: inks.layerPens,
-      penStops: inks.penStops,
-      layerStops: inks.layerStops,
-    })
-    .optional(),
-  layers: z
-    .object({
-      layers: prepare.layers,
-      hiddenLayers: prepare.hiddenLayers,
-      shownLayers: prepare.shownLayers,
-      layerOrder: prepare.layerOrder,
-      layerRepeats: prepare.layerRepeats,
-      layerHatches: prepare.layerHatches,
-    })
-    .optional(),
-});
-export type Preset = z.infer<typeof presetSchema>;
+/** Where earlier versions kept them in the browser. */
+export const PRESETS_KEY = "plotwright.presets.v1";
 
 export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
   ...settings,
@@ -50,9 +13,10 @@ export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }
   prepare: { ...settings.prepare, ...layers },
 });
 
+/** Those that an earlier version kept in this browser; what does not parse is left out. */
 export const readPresets = (store: TextStore | null): Preset[] => {
   try {
-    const list: unknown = JSON.parse(store?.getItem(KEY) ?? "[]");
+    const list: unknown = JSON.parse(store?.getItem(PRESETS_KEY) ?? "[]");
     if (!Array.isArray(list)) return [];
     return list.flatMap((item) => {
       const parsed = presetSchema.safeParse(item);
@@ -60,14 +24,6 @@ export const readPresets = (store: TextStore | null): Preset[] => {
     });
   } catch {
     return [];
-  }
-};
-
-export const writePresets = (store: TextStore | null, presets: readonly Preset[]): void => {
-  try {
-    store?.setItem(KEY, JSON.stringify(presets));
-  } catch {
-    // A full or refused store: the presets last as long as the page.
   }
 };
 

@@ -22,6 +22,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return { plotters: upserted(state.plotters, event.plotter) };
     case "plotters":
       return withPlotters(state, event.plotters);
+    case "plotter-settings":
+      return { plotterSettings: { ...state.plotterSettings, [event.plotterId]: event.settings } };
     case "queue":
       return {};
     case "queues":
@@ -41,13 +43,14 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
 
 /** Everything at once, when the page has connected: what was live before is not known to go on. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
-  const { version, plotters, jobs, queues, operator, serverNotices, localName } = snapshot;
+  const { version, plotters, plotterSettings, jobs, queues, operator, serverNotices, localName } = snapshot;
   const isGoing = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
     ...withPlotters(state, plotters),
     ...(isGoing ? {} : { live: null }),
     version,
     isOutdated: state.isOutdated || (state.version !== null && state.version !== version),
+    plotterSettings,
     jobs,
     queues,
     operator,

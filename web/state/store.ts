@@ -9,6 +9,8 @@ import type {
   Operator,
   PlotSettings,
   Plotter,
+  PlotterSettings,
+  Preset,
   QueueSettings,
 } from "../../src/schema/index.js";
 import type { Hover } from "../scene/hover.js";
@@ -16,7 +18,6 @@ import type { SnapLines } from "../scene/placing.js";
 import type { SampleInfo } from "../backend/backend.js";
 import type { DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
-import type { Preset } from "./presets.js";
 import type { Remembered, ViewSettings } from "./persist.js";
 
 /** The drawing on the paper. */
@@ -72,10 +73,13 @@ interface TakeOverQuestion {
 /** Sheets over the page, one at a time. */
 export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
 
+/** What undo brings back. */
+export type UndoStep = Pick<PageState, "settings" | "presets">;
+
 export interface PageState {
   readonly settings: PlotSettings;
-  readonly undoStack: readonly PlotSettings[];
-  readonly redoStack: readonly PlotSettings[];
+  readonly undoStack: readonly UndoStep[];
+  readonly redoStack: readonly UndoStep[];
   readonly view: ViewSettings;
 
   readonly pageView: PageView;
@@ -115,6 +119,8 @@ export interface PageState {
   readonly isOutdated: boolean;
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
+  /** Heights, pens and presets as the server has them, by plotter id; a plotter for which nothing was set has none. */
+  readonly plotterSettings: Readonly<Record<string, PlotterSettings>>;
   readonly jobs: readonly Job[];
   /** How each plotter's queue continues from job to job, by the plotter's id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
@@ -131,6 +137,7 @@ export interface PageState {
 
   /** Those that come with plotwright, and those made by the users of this server. */
   readonly machines: readonly ListedMachine[];
+  /** Of the current plotter. */
   readonly presets: readonly Preset[];
   readonly openDialog: DialogName | null;
   readonly notices: readonly Notice[];
@@ -168,6 +175,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     isOutdated: false,
     plotters: [],
     plotterId: null,
+    plotterSettings: {},
     jobs: [],
     queues: {},
     me: null,

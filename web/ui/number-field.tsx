@@ -9,11 +9,13 @@ interface NumberFieldProps extends NumberLimits {
   readonly slider?: readonly [from: number, to: number];
   readonly disabled?: boolean;
   onChange(value: number): void;
+  /** Besides, while the slider is dragged. */
+  onSlide?(value: number): void;
 }
 
 /** A number with its unit: typed, stepped by arrow keys, or dragged. */
 export const NumberField = (props: NumberFieldProps) => {
-  const { label, value, step, hint, slider, disabled, onChange } = props;
+  const { label, value, step, hint, slider, disabled, onChange, onSlide } = props;
   const id = useId();
   const typed = useTypedNumber(value, props, onChange);
   const note = typed.problem ?? hint;
@@ -34,6 +36,7 @@ export const NumberField = (props: NumberFieldProps) => {
           onChange={(event) => {
             typed.forget();
             onChange(Number(event.target.value));
+            onSlide?.(Number(event.target.value));
           }}
         />
       )}

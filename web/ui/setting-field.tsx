@@ -8,10 +8,12 @@ interface SettingFieldProps {
   /** Where the range depends on other settings. */
   readonly max?: number;
   onChange(value: number): void;
+  /** Besides, while the slider is dragged. */
+  onSlide?(value: number): void;
 }
 
 /** A number of the settings tables: label, range, unit and step come from there. */
-export const SettingField = ({ setting, max, value, hint, onChange }: SettingFieldProps) => (
+export const SettingField = ({ setting, max, value, hint, onChange, onSlide }: SettingFieldProps) => (
   <NumberField
     label={setting.label}
     value={value}
@@ -23,6 +25,7 @@ export const SettingField = ({ setting, max, value, hint, onChange }: SettingFie
     {...(setting.digits === undefined ? {} : { digits: setting.digits })}
     {...(setting.slider === undefined ? {} : { slider: setting.slider })}
     {...(hint === undefined ? {} : { hint })}
+    {...(onSlide === undefined ? {} : { onSlide })}
     onChange={(typed) => onChange(setting.isWhole ? Math.round(typed) : typed)}
   />
 );

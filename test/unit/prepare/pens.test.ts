@@ -52,15 +52,26 @@ describe("stops for pens", () => {
 
   it("are placed where the next layer needs another pen", () => {
     const layerPens = { g0: "red", g1: "red", g2: "black", g3: "red" };
-    expect(stopsOf(["a", "b", "c", "d"], { pens, layerPens })).toEqual([
+    expect(stopsOf(["a", "b", "c", "d"], { pens, layerPens }).slice(1)).toEqual([
       { strokeIndex: 4, layerId: "g2", layerName: "c", penName: "Pen black", color: "#00aa00" },
       { strokeIndex: 6, layerId: "g3", layerName: "d", penName: "Pen red", color: "#ff0000" },
     ]);
   });
 
+  it("stand before the first pen where several are needed, since any of them may be in the holder", () => {
+    expect(stopsOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "black" } })[0]).toMatchObject({
+      strokeIndex: 0,
+      penName: "Pen red",
+    });
+    expect(placesOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "red" } })).toEqual([]);
+    // A pen that only a hidden layer uses is not needed.
+    const hidden = { hiddenLayers: ["g1"] };
+    expect(placesOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "black" } }, hidden)).toEqual([]);
+  });
+
   it("skip layers without a set pen, and remember which one is in", () => {
     expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "red" } })).toEqual([]);
-    expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "black" } })).toEqual([4]);
+    expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "black" } })).toEqual([0, 4]);
     expect(placesOf(["a", "b"], { pens, layerPens: { g1: "red" } })).toEqual([2]);
   });
 
@@ -85,13 +96,13 @@ describe("stops for pens", () => {
   it("are set or removed for a single layer by hand", () => {
     const layerPens = { g0: "red", g1: "black" };
     const layerStops = { g1: false, g2: true };
-    expect(placesOf(["a", "b", "c", "!d"], { pens, layerPens, layerStops })).toEqual([4, 6]);
+    expect(placesOf(["a", "b", "c", "!d"], { pens, layerPens, layerStops })).toEqual([0, 4, 6]);
   });
 
   it("follow the order in which layers are drawn, hidden ones left out", () => {
     const layerPens = { g0: "red", g1: "black", g2: "red" };
     const layerOrder = ["g2", "g0", "g1"];
-    expect(placesOf(["a", "b", "c"], { pens, layerPens }, { layerOrder })).toEqual([4]);
+    expect(placesOf(["a", "b", "c"], { pens, layerPens }, { layerOrder })).toEqual([0, 4]);
     expect(placesOf(["a", "b", "c"], { pens, layerPens }, { hiddenLayers: ["g1"] })).toEqual([]);
   });
 

@@ -19,6 +19,7 @@ export const handRoutes = ({ ask }: Requests): HandBackend => {
     jog: (id, settings, dxMm, dyMm) => move(id, "jog", { dxMm, dyMm, settings }),
     setHome: (id, settings) => move(id, "set-home", { settings }),
     cyclePen: (id, settings) => move(id, "cycle-pen", { settings }),
+    testLine: (id, settings) => move(id, "test-line", { settings }),
     testPatch: (id, settings) => move(id, "test-patch", { settings }),
     frameBox: (id, settings, boxMm) => move(id, "frame", { boxMm, settings }),
     square: (id, settings, sizeMm) => move(id, "square", { sizeMm, settings }),

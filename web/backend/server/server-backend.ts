@@ -7,6 +7,7 @@ import {
   meSchema,
   operatorSchema,
   plotterSchema,
+  plotterSettingsSchema,
   queueSettingsSchema,
 } from "../../../src/schema/index.js";
 import { contentOf } from "../../worker/drawing-text.js";
@@ -43,6 +44,8 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     takeOver: async () => (await ask(operatorAnswerSchema, "POST", "/operator/take")).operator,
     dismissNotice: (id) => tell("DELETE", one("notices", id)),
 
+    savePlotterSettings: (id, settings) =>
+      ask(plotterSettingsSchema, "PUT", `${one("plotters", id)}/settings`, settings),
     setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", one("plotters", id), { machine }),
     movePen: (id, request) => ask(plotterSchema, "POST", `${one("plotters", id)}/pen`, request),
     motorsOff: (id) => ask(plotterSchema, "POST", `${one("plotters", id)}/motors-off`),

@@ -117,9 +117,10 @@ export class BoardCore {
     readonly features: FirmwareFeatures,
     readonly machine: MachineProfile,
     recordLine: boolean,
-    private readonly servoOptions: VirtualServo,
+    /** Null: the tip touches and leaves the paper with the command. */
+    private readonly servoOptions: VirtualServo | null,
   ) {
-    const { speed, framePhaseMs } = servoOptions;
+    const { speed, framePhaseMs } = servoOptions ?? {};
     const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
     this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
     this.line = recordLine ? new DrawnLine(machine, false) : null;
@@ -281,13 +282,13 @@ export class BoardCore {
     const { servo, nowTick, machine } = this;
     servo.moveTo(position, rate, nowTick);
     this.servoUsed = true;
-    const { contactPct } = this.servoOptions;
+    const contactPct = this.servoOptions?.contactPct;
     const touches = contactPct === undefined ? !up : pctFromServoPos(machine, position) <= contactPct;
     this.contactTick = Infinity;
     if (touches !== this.isLifted) return;
     if (contactPct !== undefined) this.contactTick = servo.passTick(servoPosFromPct(machine, contactPct));
     // The frame in which the last part of the way is done.
-    else this.contactTick = touches ? servo.arrivalTick - FRAME_TICKS : nowTick;
+    else this.contactTick = touches && this.servoOptions ? servo.arrivalTick - FRAME_TICKS : nowTick;
     if (this.contactTick <= nowTick) this.changeContact();
   }
 

@@ -45,7 +45,7 @@ export interface VirtualBoardOptions {
   readonly parseMs?: number;
   /** Max unparsed bytes before the board stops reading. Default 256. */
   readonly inputBytes?: number;
-  /** The pen's servo. */
+  /** The pen's servo takes its time to reach the paper. Default: the tip touches and leaves it with the command. */
   readonly servo?: VirtualServo;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
@@ -114,7 +114,7 @@ export class VirtualBoard {
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
     const features = firmwareFeatures(this.firmware);
-    this.core = new BoardCore(features, this.machine, options.recordLine ?? true, options.servo ?? {});
+    this.core = new BoardCore(features, this.machine, options.recordLine ?? true, options.servo ?? null);
     this.interpreter = this.makeInterpreter();
   }
 

@@ -1,0 +1,69 @@
+/**
+ * What belongs to a plotter and not to a drawing: its pen's heights and waits, its pens, and its presets. The server
+ * stores one such record for each plotter. The plotter's model is `Plotter.machine`.
+ */
+import { z } from "zod";
+import {
+  motionSettingsSchema,
+  penSettingsSchema,
+  plotSettingsSchema,
+  prepareSettingsSchema,
+  type PlotSettings,
+} from "./settings.js";
+
+const { pens, layerPens, penStops, layerStops } = plotSettingsSchema.shape;
+const prepare = prepareSettingsSchema.shape;
+
+/** Settings under a name: how pens move and which layers they draw, not where the drawing is on the paper. */
+export const presetSchema = z.object({
+  name: z.string().trim().min(1).max(60),
+  motion: motionSettingsSchema,
+  pen: penSettingsSchema,
+  /** Missing in presets of versions without pens: these leave the pens as they are. */
+  pens: z.object({ pens, layerPens, penStops, layerStops }).optional(),
+  layers: z
+    .object({
+      layers: prepare.layers,
+      hiddenLayers: prepare.hiddenLayers,
+      shownLayers: prepare.shownLayers,
+      layerOrder: prepare.layerOrder,
+      layerRepeats: prepare.layerRepeats,
+      layerHatches: prepare.layerHatches,
+    })
+    .optional(),
+});
+export type Preset = z.infer<typeof presetSchema>;
+
+export const MAX_PRESETS = 100;
+
+export const plotterSettingsSchema = z.object({
+  /** Without the heights of single layers, which belong to a drawing. */
+  pen: penSettingsSchema.omit({ layers: true }),
+  pens,
+  presets: z.array(presetSchema).max(MAX_PRESETS).default([]),
+});
+export type PlotterSettings = z.infer<typeof plotterSettingsSchema>;
+
+/** The plotter's part of a drawing's settings. */
+export function plotterPartOf(settings: PlotSettings): Pick<PlotterSettings, "pen" | "pens"> {
+  // Parsing leaves out `layers`.
+  return { pen: plotterSettingsSchema.shape.pen.parse(settings.pen), pens: settings.pens };
+}
+
+/**
+ * The settings with a plotter's own heights and pens. Pens that layers of the drawing use and the plotter does not
+ * have are kept.
+ */
+export function withPlotterPart(
+  settings: PlotSettings,
+  { pen, pens }: Pick<PlotterSettings, "pen" | "pens">,
+): PlotSettings {
+  const { layers } = settings.pen;
+  const used = new Set(Object.values(settings.layerPens));
+  const others = settings.pens.filter(({ id }) => used.has(id) && !pens.some((own) => own.id === id));
+  return {
+    ...settings,
+    pen: layers === undefined ? pen : { ...pen, layers },
+    pens: [...pens, ...others],
+  };
+}

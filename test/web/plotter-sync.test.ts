@@ -1,0 +1,271 @@
+/** Pages that share a plotter: the same heights, pens and presets on each, with undo; and what browsers kept before. */
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  plotterSettingsSchema,
+  type PlotSettings,
+  type PlotterSettings,
+} from "../../src/schema/index.js";
+import type { Backend } from "../../web/backend/backend.js";
+import { createActions } from "../../web/state/actions.js";
+import { noteTakenOver, readKeptHere } from "../../web/state/kept-here.js";
+import { DEFAULT_VIEW, type TextStore } from "../../web/state/persist.js";
+import { createPageStore, type PageState, type PageStore } from "../../web/state/store.js";
+import { makeJob, makePlotter } from "./fixtures.js";
+
+const settle = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 5));
+
+/** What the server stores, told to each page that is open. */
+class Plotters {
+  readonly stored: Record<string, PlotterSettings> = {};
+  machine: string | null = null;
+  refuses = false;
+  putCount = 0;
+  readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
+
+  readonly backend = {
+    savePlotterSettings: (id: string, settings: PlotterSettings) => {
+      this.putCount++;
+      if (this.refuses) return Promise.reject(new Error("Somebody else is operating."));
+      this.stored[id] = plotterSettingsSchema.parse(JSON.parse(JSON.stringify(settings)));
+      this.tell();
+      return Promise.resolve(this.stored[id]);
+    },
+    setPlotterMachine: (id: string, machine: string) => {
+      this.machine = machine;
+      this.tell();
+      return Promise.resolve(makePlotter(id, { machine }));
+    },
+  } as unknown as Backend;
+
+  tell(): void {
+    for (const { store, follow } of this.#pages) {
+      store.setState({ ...this.#state() });
+      follow();
+    }
+  }
+
+  open(more: Partial<PageState> = {}) {
+    const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
+    store.setState(more);
+    let nowMs = 0;
+    const actions = createActions({
+      store,
+      backend: this.backend,
+      planner: { request: () => undefined, export: () => undefined },
+      nowMs: () => (nowMs += 10_000),
+      after: (_delayMs, callback) => void setTimeout(callback, 0),
+    });
+    this.#pages.push({ store, follow: actions.followPlotter });
+    store.setState({ link: "connected", me: { role: "operate", id: "a", name: "A" }, ...this.#state() });
+    actions.followPlotter();
+    return {
+      store,
+      actions,
+      pen: () => store.getState().settings.pen,
+      setUp: async (upPct: number) => {
+        actions.changeSettings("up", (settings) => ({ ...settings, pen: { ...settings.pen, upPct } }));
+        await settle();
+      },
+      undo: async () => {
+        actions.undo();
+        await settle();
+      },
+    };
+  }
+
+  #state() {
+    return {
+      plotters: [makePlotter("left", { machine: this.machine }), makePlotter("right")],
+      plotterSettings: { ...this.stored },
+    };
+  }
+}
+
+describe("two pages of one plotter", () => {
+  it("have the same heights, whichever of them changes them", async () => {
+    const plotters = new Plotters();
+    const [anna, ben] = [plotters.open(), plotters.open()];
+    await anna.setUp(71);
+    expect(ben.pen().upPct).toBe(71);
+    await ben.setUp(72);
+    expect([anna.pen().upPct, plotters.stored["left"].pen.upPct]).toEqual([72, 72]);
+    expect(plotters.open().pen().upPct).toBe(72);
+    // A page that only follows stores nothing.
+    expect(plotters.putCount).toBe(2);
+  });
+
+  it("have the same pens, presets and model", async () => {
+    const plotters = new Plotters();
+    const [anna, ben] = [plotters.open(), plotters.open()];
+    const pen = { id: "pen-1", name: "Red", color: null, widthMm: 0.4, offsetXMm: 0, offsetYMm: 0 };
+    anna.actions.changeSettings("pens", (settings) => ({ ...settings, pens: [pen] }));
+    anna.actions.savePreset("Fineliner");
+    anna.actions.changeSettings("machine", (settings) => ({ ...settings, machine: "axidraw-se-a3" }));
+    await settle();
+    const { settings, presets } = ben.store.getState();
+    expect([settings.pens, presets.map(({ name }) => name), settings.machine]).toEqual([
+      [pen],
+      ["Fineliner"],
+      "axidraw-se-a3",
+    ]);
+  });
+
+  it("undo on each of them what was changed on either", async () => {
+    const plotters = new Plotters();
+    const [anna, ben] = [plotters.open(), plotters.open()];
+    await anna.setUp(71);
+    await anna.setUp(80);
+    await ben.undo();
+    expect([anna.pen().upPct, plotters.stored["left"].pen.upPct]).toEqual([71, 71]);
+    anna.actions.savePreset("Brush");
+    await settle();
+    anna.actions.removePreset("Brush");
+    await settle();
+    expect(plotters.stored["left"].presets).toEqual([]);
+    await anna.undo();
+    expect(plotters.stored["left"].presets.map(({ name }) => name)).toEqual(["Brush"]);
+    expect(ben.store.getState().presets).toHaveLength(1);
+  });
+
+  it("show the plotter's values again where a change is refused, and say why", async () => {
+    const plotters = new Plotters();
+    const anna = plotters.open();
+    await anna.setUp(71);
+    plotters.refuses = true;
+    await anna.setUp(99);
+    expect(anna.pen().upPct).toBe(71);
+    expect(anna.store.getState().notices.map(({ text }) => text)).toEqual(["Somebody else is operating."]);
+  });
+
+  it("leave what belongs to the drawing to each page", async () => {
+    const plotters = new Plotters();
+    const [anna, ben] = [plotters.open(), plotters.open()];
+    anna.actions.changeSettings("layer", (settings) => ({
+      ...settings,
+      pen: { ...settings.pen, layers: { sky: { upPct: 90 } } },
+      prepare: { ...settings.prepare, marginMm: 33 },
+    }));
+    await settle();
+    expect(plotters.putCount).toBe(0);
+    await ben.setUp(64);
+    expect(anna.pen()).toMatchObject({ upPct: 64, layers: { sky: { upPct: 90 } } });
+  });
+});
+
+describe("another plotter", () => {
+  it("has its own values, and undo does not carry those of the first to it", async () => {
+    const plotters = new Plotters();
+    const page = plotters.open();
+    await page.setUp(71);
+    page.actions.choosePlotter("right");
+    expect(page.pen().upPct).toBe(DEFAULT_PLOT_SETTINGS.pen.upPct);
+    expect(page.store.getState().undoStack).toEqual([]);
+    await page.setUp(55);
+    page.actions.choosePlotter("left");
+    expect(page.pen().upPct).toBe(71);
+    expect(Object.entries(plotters.stored).map(([id, { pen }]) => [id, pen.upPct])).toEqual([
+      ["left", 71],
+      ["right", 55],
+    ]);
+  });
+});
+
+describe("a job that is opened", () => {
+  const old: PlotSettings = {
+    ...DEFAULT_PLOT_SETTINGS,
+    pen: { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 5, layers: { sky: { upPct: 90 } } },
+  };
+  const open = async (state: "done" | "paused") => {
+    const plotters = new Plotters();
+    Object.assign(plotters.backend, { jobDrawing: () => Promise.resolve("<svg/>") });
+    const page = plotters.open({ jobs: [makeJob("a", { settings: old, state })] });
+    await page.setUp(71);
+    await page.actions.openJob(page.store.getState().jobs[0]);
+    return { plotters, page };
+  };
+
+  it("has the plotter's heights of now, not those of then", async () => {
+    const { page } = await open("done");
+    expect(page.pen()).toMatchObject({ upPct: 71, layers: { sky: { upPct: 90 } } });
+    expect(page.store.getState().drawing).toMatchObject({ jobId: null, sourceId: "a" });
+  });
+
+  it("while it is plotted, is as it is plotted; the next drawing has the plotter's again", async () => {
+    const { plotters, page } = await open("paused");
+    expect(page.pen().upPct).toBe(5);
+    plotters.tell();
+    expect(page.pen().upPct).toBe(5);
+    page.actions.openDrawing("next", "<svg/>");
+    expect(page.pen().upPct).toBe(71);
+    expect(plotters.stored["left"].pen.upPct).toBe(71);
+  });
+});
+
+describe("what a browser kept before the server did", () => {
+  /** Both entries as version 0.1 wrote them. */
+  const STORED: Readonly<Record<string, string>> = {
+    "plotwright.page.v1": JSON.stringify({
+      settings: {
+        ...DEFAULT_PLOT_SETTINGS,
+        machine: "axidraw-se-a3",
+        pen: { upPct: 66, downPct: 41, liftMs: 200, dropMs: 210, layers: { sky: { upPct: 80 } } },
+        pens: [{ id: "pen-1", name: "Gold", color: "#d4af37", widthMm: 1, offsetXMm: 0, offsetYMm: 0 }],
+      },
+      view: DEFAULT_VIEW,
+    }),
+    "plotwright.presets.v1": JSON.stringify([
+      {
+        name: "Brush",
+        motion: DEFAULT_PLOT_SETTINGS.motion,
+        pen: { upPct: 90, downPct: 10, liftMs: 1, dropMs: 1 },
+      },
+    ]),
+  };
+  const browser = (): TextStore => {
+    const texts = new Map(Object.entries(STORED));
+    return { getItem: (key) => texts.get(key) ?? null, setItem: (key, text) => void texts.set(key, text) };
+  };
+
+  it("goes to plotters that have nothing, model and presets with it, once", async () => {
+    const plotters = new Plotters();
+    const page = plotters.open();
+    const texts = browser();
+    const kept = readKeptHere(texts);
+    expect(await page.actions.takeOverKept(kept!)).toBe(true);
+    for (const id of ["left", "right"]) {
+      expect(plotters.stored[id].pen).toEqual({ upPct: 66, downPct: 41, liftMs: 200, dropMs: 210 });
+      expect(plotters.stored[id].pens.map(({ name }) => name)).toEqual(["Gold"]);
+      expect(plotters.stored[id].presets.map(({ name }) => name)).toEqual(["Brush"]);
+    }
+    expect(plotters.machine).toBe("axidraw-se-a3");
+    noteTakenOver(texts);
+    expect(readKeptHere(texts)).toBeNull();
+    expect(texts.getItem("plotwright.presets.v1")).toBe(STORED["plotwright.presets.v1"]);
+  });
+
+  it("changes nothing of a plotter that has its own", async () => {
+    const plotters = new Plotters();
+    const page = plotters.open();
+    await page.setUp(71);
+    await page.actions.takeOverKept(readKeptHere(browser())!);
+    expect(plotters.stored["left"].pen.upPct).toBe(71);
+    expect(plotters.stored["right"].pen.upPct).toBe(66);
+  });
+
+  it("waits while another browser operates, and where this one only watches", async () => {
+    const plotters = new Plotters();
+    const kept = readKeptHere(browser())!;
+    const busy = plotters.open({ operator: { id: "b", name: "B" } });
+    expect(await busy.actions.takeOverKept(kept)).toBe(false);
+    const watcher = plotters.open();
+    watcher.store.setState({ me: { role: "watch", id: "w", name: "W" } });
+    expect(await watcher.actions.takeOverKept(kept)).toBe(false);
+    expect(plotters.stored).toEqual({});
+  });
+
+  it("is nothing in a browser that comes for the first time", () => {
+    expect(readKeptHere({ getItem: () => null, setItem: () => undefined })).toBeNull();
+    expect(readKeptHere(null)).toBeNull();
+  });
+});

@@ -1,0 +1,159 @@
+import { useMemo, useState, type ReactNode } from "react";
+import { PEN_TABLE } from "../../src/internal.js";
+import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { SettingField } from "../ui/setting-field.js";
+import { servoFollower } from "./servo-follow.js";
+import { penText } from "./text.js";
+import { useHand } from "./use-hand.js";
+import "./pen-at-hand.css";
+
+const words = penText;
+
+type Step = "home" | "heights" | "mark";
+
+/** Home, heights and a test line: what every plot begins with. Before the first plot they are numbered steps. */
+export const PenAtHand = () => {
+  const isFirst = usePageState(isFirstPlot);
+  const { changeView } = useActions();
+  const [done, setDone] = useState<ReadonlySet<Step>>(new Set());
+  const note = (step: Step): void => setDone(new Set([...done, step]));
+  const part = (step: Step, content: ReactNode): ReactNode =>
+    isFirst ? (
+      <li key={step} data-done={done.has(step) || undefined}>
+        <p className="note">{words.steps[step]}</p>
+        {content}
+      </li>
+    ) : (
+      <div key={step}>{content}</div>
+    );
+  const parts = [
+    part("home", <HomeButtons onHome={() => note("home")} />),
+    part("heights", <Heights onTry={() => note("heights")} />),
+    part("mark", <TestLine onDraw={() => note("mark")} />),
+  ];
+  if (!isFirst) return <div className="pen-at-hand">{parts}</div>;
+  return (
+    <section className="pen-at-hand first-plot" aria-label={words.firstPlot}>
+      <h3>{words.firstPlot}</h3>
+      <ol>
+        {parts}
+        <li>
+          <p className="note">{words.steps.plot}</p>
+        </li>
+      </ol>
+      <button type="button" className="link" onClick={() => changeView({ hidesFirstPlot: true })}>
+        {words.hide}
+      </button>
+    </section>
+  );
+};
+
+/** Nothing was ever plotted with this plotter. */
+const isFirstPlot = (state: PageState): boolean => {
+  const id = currentPlotter(state)?.id;
+  const hasPlotted = state.jobs.some((job) => job.plotterId === id && job.startedAt !== null);
+  return !state.view.hidesFirstPlot && state.link === "connected" && !hasPlotted;
+};
+
+const HomeButtons = ({ onHome }: { onHome(): void }) => {
+  const isOff = usePageState((state) => !isReady(state));
+  const { home, motorsOff } = useActions();
+  return (
+    <div className="button-grid">
+      <button
+        type="button"
+        className="button"
+        disabled={isOff}
+        onClick={() => {
+          onHome();
+          void home();
+        }}
+      >
+        {words.home}
+      </button>
+      <button type="button" className="button" disabled={isOff} onClick={() => void motorsOff()}>
+        {words.motorsOff}
+      </button>
+    </div>
+  );
+};
+
+/** While the pen moves, the plotter is busy for a moment, and the slider goes on. */
+const mayFollow = (state: PageState): boolean => {
+  const connection = currentPlotter(state)?.connection;
+  return (
+    state.link === "connected" &&
+    otherOperator(state) === null &&
+    activeJob(state) === null &&
+    (connection === "idle" || connection === "busy")
+  );
+};
+
+const Heights = ({ onTry }: { onTry(): void }) => {
+  const pen = usePageState((state) => state.settings.pen);
+  const isFollowing = usePageState(mayFollow);
+  const { changeSettings, movePen } = useActions();
+  const follow = useMemo(
+    () =>
+      servoFollower(
+        ({ isUp, pct }) => movePen(isUp, pct),
+        (delayMs, callback) => void setTimeout(callback, delayMs),
+      ),
+    [movePen],
+  );
+  const row = (which: "upPct" | "downPct"): ReactNode => (
+    <div className="field-with-button">
+      <SettingField
+        setting={PEN_TABLE[which]}
+        value={pen[which]}
+        onChange={(pct) =>
+          changeSettings(`pen ${which}`, (settings) => ({
+            ...settings,
+            pen: { ...settings.pen, [which]: pct },
+          }))
+        }
+        onSlide={(pct) => {
+          onTry();
+          if (isFollowing) follow({ isUp: which === "upPct", pct });
+        }}
+      />
+      <button
+        type="button"
+        className="button"
+        disabled={!isFollowing}
+        onClick={() => {
+          onTry();
+          follow({ isUp: which === "upPct", pct: pen[which] });
+        }}
+      >
+        {which === "upPct" ? words.up : words.down}
+      </button>
+    </div>
+  );
+  return (
+    <div className="pen-heights">
+      {row("upPct")}
+      {row("downPct")}
+    </div>
+  );
+};
+
+const TestLine = ({ onDraw }: { onDraw(): void }) => {
+  const isOff = usePageState((state) => !isReady(state));
+  const hand = useHand();
+  return (
+    <button
+      type="button"
+      className="button test-line"
+      title={words.testLineHint}
+      disabled={isOff}
+      onClick={() => {
+        onDraw();
+        void hand.testLine();
+      }}
+    >
+      {words.testLine}
+    </button>
+  );
+};

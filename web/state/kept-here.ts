@@ -1,0 +1,33 @@
+/**
+ * Model, heights, pens and presets that an earlier version kept in this browser. They are taken over once, into
+ * plotters that have none on the server. What was stored stays where it is.
+ */
+import { plotterPartOf } from "../../src/schema/index.js";
+import { PAGE_KEY, readRemembered, type TextStore } from "./persist.js";
+import type { KeptHere } from "./plotter-sync.js";
+import { PRESETS_KEY, readPresets } from "./presets.js";
+
+const DONE_KEY = "plotwright.taken-over.v1";
+
+/** Null where nothing was kept, or where it has been taken over. */
+export const readKeptHere = (store: TextStore | null): KeptHere | null => {
+  try {
+    if (store === null || store.getItem(DONE_KEY) !== null) return null;
+    if (store.getItem(PAGE_KEY) === null && store.getItem(PRESETS_KEY) === null) return null;
+  } catch {
+    return null;
+  }
+  const { settings } = readRemembered(store);
+  return {
+    machine: settings.machine,
+    settings: { ...plotterPartOf(settings), presets: readPresets(store) },
+  };
+};
+
+export const noteTakenOver = (store: TextStore | null): void => {
+  try {
+    store?.setItem(DONE_KEY, new Date().toISOString());
+  } catch {
+    // A store that refuses this has refused the settings, too.
+  }
+};
