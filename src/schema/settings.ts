@@ -127,10 +127,12 @@ function upgradePen(stored: unknown): unknown {
   return { ...(stored as object), overlap: "fast", contactPct, ...(hop && { fullHeightMm: hop.longestMm }) };
 }
 
-export const penSettingsSchema = z.preprocess(
-  upgradePen,
-  z.object(penShape),
-) satisfies z.ZodType<PenSettings>;
+const penObject = z.object(penShape);
+
+export const penSettingsSchema = z.preprocess(upgradePen, penObject) satisfies z.ZodType<PenSettings>;
+
+/** Without the heights of single layers, which belong to a drawing. */
+export const plotterPenSchema = z.preprocess(upgradePen, penObject.omit({ layers: true }));
 
 export const plotPenSchema = z.object({
   id: z.string().min(1).max(100),
