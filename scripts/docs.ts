@@ -3,22 +3,22 @@ import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
 import { libraryReference } from "./library-reference.js";
+import { penGainsTable } from "./pen-gains.js";
 import { settingsTable } from "./settings-table.js";
 
 const DOCS = path.join(import.meta.dirname, "..", "docs");
-const CLI_DOC = path.join(DOCS, "cli.md");
 
-const text = readFileSync(CLI_DOC, "utf8");
-writeFileSync(
-  CLI_DOC,
-  withPart(withPart(text, "settings", settingsTable()), "commands", await cliReference()),
-);
+writePart("cli.md", "settings", settingsTable());
+writePart("cli.md", "commands", await cliReference());
+writePart("motion.md", "pen gains", penGainsTable());
 writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
 
-function withPart(document: string, name: string, part: string): string {
+function writePart(file: string, name: string, part: string): void {
+  const at = path.join(DOCS, file);
+  const document = readFileSync(at, "utf8");
   const begin = `<!-- ${name} -->\n`;
   const end = `<!-- /${name} -->`;
   const [from, to] = [document.indexOf(begin), document.indexOf(end)];
-  if (from < 0 || to < 0) throw new Error(`docs/cli.md has no part ${name}`);
-  return `${document.slice(0, from)}${begin}\n${part}\n\n${document.slice(to)}`;
+  if (from < 0 || to < 0) throw new Error(`docs/${file} has no part ${name}`);
+  writeFileSync(at, `${document.slice(0, from)}${begin}\n${part}\n\n${document.slice(to)}`);
 }

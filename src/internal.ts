@@ -48,9 +48,11 @@ export {
 } from "./settings/motion.js";
 export {
   type LayerPen,
+  type PenOverlap,
   DROP_RATE,
-  HOP_TABLE,
   LAYER_WAIT,
+  OVERLAP_TABLE,
+  PEN_OVERLAPS,
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";

@@ -15,11 +15,11 @@ import {
   type MotionSettings,
 } from "../settings/motion.js";
 import {
-  CLEAR_SHARE,
   DROP_RATE,
-  HOP_TABLE,
   LAYER_WAIT,
   LIFT_RATE,
+  OVERLAP_TABLE,
+  PEN_OVERLAPS,
   PEN_TABLE,
   type PenSettings,
 } from "../settings/pen.js";
@@ -82,13 +82,10 @@ function checkPen(name: string, pen: PenSettings): void {
   }
   checkNumber(name, LIFT_RATE, pen.liftPctPerS);
   checkNumber(name, DROP_RATE, pen.dropPctPerS);
-  checkNumber(name, CLEAR_SHARE, pen.clearPct);
-  if (!pen.hop) return;
-  checkNumbers(`${name} hop`, HOP_TABLE, pen.hop);
-  if (pen.hop.upPct <= pen.downPct) {
-    throw bad(
-      `${name} hop height ${pen.hop.upPct} % is not above its down height ${pen.downPct} %: raise it`,
-    );
+  checkNumber(name, OVERLAP_TABLE.contactPct, pen.contactPct);
+  checkNumber(name, OVERLAP_TABLE.fullHeightMm, pen.fullHeightMm);
+  if (!PEN_OVERLAPS.includes(pen.overlap)) {
+    throw bad(`${name} overlap is "${String(pen.overlap)}": choose one of ${PEN_OVERLAPS.join(", ")}`);
   }
 }
 

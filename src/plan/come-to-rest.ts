@@ -48,6 +48,8 @@ const PIECE_TURN = 0.01;
 const SHARE_OF_ACCEL = 0.995;
 /** Shortest piece, s: a motor cannot follow anything shorter. */
 const SHORTEST_PIECE_S = 2e-5;
+/** An acceleration that leaves the motion as planned, mm/s². */
+const NO_BRAKING = 1e-9;
 /** Below this speed the carriage counts as at rest, mm/s. */
 const REST_SPEED = 1e-6;
 /** Below this curvature the path counts as straight, 1/mm. */
@@ -66,17 +68,25 @@ export function comeToRest(
   pen: PenSettings | null,
 ): RestPlan {
   const state = stateAt(trajectory, tS);
-  const accel = state.penUp ? limits.travelAccel : limits.drawAccel;
-  if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, pen);
+  // A pen that comes down on the way to a stroke must not touch the paper before it: go on to the stroke's start.
+  const isLowering = !state.penUp && state.stroke < 0;
+  const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
+  // A drop that the plan has for later than the stop is not given any more.
+  const liftedBy = isPenUpBefore(trajectory, tS) ? null : pen;
+  if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, liftedBy);
   const pieces = new BlockColumns(0, false);
   const speed = Math.hypot(state.vx, state.vy);
-  if (speed <= REST_SPEED) return finish(trajectory, pieces, state, tS, -1, pen);
+  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, liftedBy);
   const planS = slowDown(trajectory, tS, speed * speed, accel, pieces);
   const stroke = state.penUp ? -1 : state.stroke;
-  return finish(trajectory, pieces, stateAt(trajectory, planS), planS, stroke, pen);
+  return finish(pieces, stateAt(trajectory, planS), planS, stroke, liftedBy);
 }
 
-/** The planned motion brakes, and the shaper makes the carriage's motion of it. */
+/**
+ * The planned motion brakes, and the shaper makes the carriage's motion of it.
+ *
+ * @param pen lifts at the end; null: it is up
+ */
 function shapedRest(
   trajectory: Trajectory,
   { trajectory: planned, kernel }: PlannedMotion,
@@ -88,7 +98,7 @@ function shapedRest(
   const runEndS = endOfRun(trajectory, run);
   const state = stateAt(trajectory, tS);
   const pieces = new BlockColumns(0, false);
-  if (tS >= runEndS) return finish(trajectory, pieces, state, tS, -1, pen);
+  if (tS >= runEndS) return finish(pieces, state, tS, -1, pen);
   const plannedEndS = endOfRun(planned, run);
   const { vx, vy } = stateAt(planned, tS);
   const speed2 = vx * vx + vy * vy;
@@ -97,9 +107,9 @@ function shapedRest(
   const end = stateAt(planned, stopS);
   const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
   // At the very start of a run nothing moves yet.
-  if (rest.shaped.count === 0) return finish(trajectory, pieces, end, tS, -1, pen);
+  if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, pen);
   const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;
-  return finish(trajectory, rest.shaped, end, planS, state.stroke, pen, { rest: rest.planned, kernel });
+  return finish(rest.shaped, end, planS, state.stroke, pen, { rest: rest.planned, kernel });
 }
 
 /** Fills `pieces` and returns the plan time at which the carriage stops. `speed2`: v₀². */
@@ -221,8 +231,8 @@ function timeAfter(trajectory: Trajectory, k: number, t: number, end: number, mm
   return high;
 }
 
+/** @param pen lifts at the end; null: it is up */
 function finish(
-  original: Trajectory,
   pieces: BlockColumns,
   end: { readonly x: number; readonly y: number },
   planS: number,
@@ -230,10 +240,10 @@ function finish(
   pen: PenSettings | null,
   planned?: { readonly rest: BlockColumns; readonly kernel: Kernel },
 ): RestPlan {
-  const lifts = pen !== null && !isPenUpBefore(original, planS);
-  const waitS = lifts ? liftTiming(pen, pen.upPct).waitS : 0;
+  const waitS = pen ? liftTiming(pen, pen.upPct).waitS : 0;
   const runs = pieces.count > 0 ? 1 : 0;
-  const lift = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, heightPct: pen?.upPct ?? 0 };
+  const heightPct = pen?.upPct ?? 0;
+  const lift = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
   const oneRun = (blocks: BlockColumns): Trajectory => ({
     blockCount: blocks.count,
     durationS: blocks.durationS,
@@ -253,7 +263,7 @@ function finish(
       stroke: runs ? Int32Array.of(stroke) : new Int32Array(0),
       startS: new Float64Array(runs),
     },
-    penMoves: penMoveColumns(lifts ? [lift] : []),
+    penMoves: penMoveColumns(pen ? [lift] : []),
     totalS: pieces.clockS + waitS,
     endX: end.x,
     endY: end.y,

@@ -7,6 +7,7 @@ export class PenMoveWriter implements PenMoveColumns {
   readonly up: Uint8Array;
   readonly startS: Float64Array;
   readonly waitS: Float64Array;
+  readonly moveS: Float64Array;
   readonly heightPct: Float64Array;
 
   /** @param max the max number of moves that will be pushed */
@@ -15,6 +16,7 @@ export class PenMoveWriter implements PenMoveColumns {
     this.up = new Uint8Array(max);
     this.startS = new Float64Array(max);
     this.waitS = new Float64Array(max);
+    this.moveS = new Float64Array(max);
     this.heightPct = new Float64Array(max);
   }
 
@@ -24,13 +26,14 @@ export class PenMoveWriter implements PenMoveColumns {
     this.up[i] = move.up ? 1 : 0;
     this.startS[i] = move.startS;
     this.waitS[i] = move.waitS;
+    this.moveS[i] = move.moveS;
     this.heightPct[i] = move.heightPct;
   }
 
   /** Plain columns, which can cross threads. */
   finish(): PenMoveColumns {
-    const { count, beforeRun, up, startS, waitS, heightPct } = this;
-    return { count, beforeRun, up, startS, waitS, heightPct };
+    const { count, beforeRun, up, startS, waitS, moveS, heightPct } = this;
+    return { count, beforeRun, up, startS, waitS, moveS, heightPct };
   }
 }
 
@@ -39,6 +42,7 @@ export const penMoveAt = (moves: PenMoveColumns, i: number): PenMove => ({
   up: moves.up[i] === 1,
   startS: moves.startS[i],
   waitS: moves.waitS[i],
+  moveS: moves.moveS[i],
   heightPct: moves.heightPct[i],
 });
 

@@ -1,10 +1,7 @@
 /**
- * The pen's motion: its height, and how long the carriage waits for it.
+ * The time of whole pen moves, for which the carriage waits. What it need not wait for: pen-flight.ts.
  *
  *   lift time = delay + distance / rate     distance: between the down and up heights, % of the servo's range
- *
- * The carriage starts after `clearPct` of the lift time. A hop lifts only part of the full height, and takes
- * that part of the full time.
  */
 import type { PenSettings } from "../settings/pen.js";
 
@@ -26,15 +23,8 @@ export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
   };
 }
 
-/** The pen-up height for a travel of `travelMm`. */
-export function upHeight(pen: PenSettings, travelMm: number): number {
-  const { hop } = pen;
-  return hop && travelMm <= hop.longestMm ? Math.min(pen.upPct, hop.upPct) : pen.upPct;
-}
-
 export function liftTiming(pen: PenSettings, heightPct: number): PenTiming {
-  const wholeS = moveTime(pen, heightPct, pen.liftMs, pen.liftPctPerS);
-  return { heightPct, waitS: (wholeS * (pen.clearPct ?? 100)) / 100 };
+  return { heightPct, waitS: moveTime(pen, heightPct, pen.liftMs, pen.liftPctPerS) };
 }
 
 /** @param fromPct the height before the drop */

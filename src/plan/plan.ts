@@ -3,6 +3,7 @@
  *
  *   travel | drop | draw stroke 0 | lift | travel | drop | draw stroke 1 | lift | travel home
  *
+ * The carriage waits for each pen move, or only for the part of it near the paper (pen-flight.ts).
  * A travel of zero length has no run. A dot (a stroke of a single point) is a draw run without blocks. If a
  * stroke begins exactly where the previous one of the same layer ended, the pen stays down.
  */
@@ -14,7 +15,8 @@ import { checkSettings } from "./check-settings.js";
 import type { Kernel } from "./filter.js";
 import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
-import { dropTiming, liftTiming, penOfLayer, upHeight, type PenTiming } from "./pen-times.js";
+import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
+import { dropTiming, liftTiming, penOfLayer } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
@@ -136,6 +138,8 @@ class PlanBuilder {
   private pen: PenSettings;
   private penUp = true;
   private heightPct: number;
+  /** When the last lift of this plan began, s; null: none, and how high the pen really is may not be known. */
+  private liftS: number | null = null;
   private lastLayer = -1;
 
   constructor(
@@ -158,13 +162,13 @@ class PlanBuilder {
     );
     this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
-    // Runs: a travel and a stroke each, and the travel home. Pen moves: a lift, a wait and a drop each, and
-    // one at either end.
+    // Runs: a travel and a stroke each, and the travel home. Pen moves: a lift, a lowering to
+    // the hop height, a wait and a drop each, and one at either end.
     const count = strokeCount(strokes);
     this.firstBlock = new Uint32Array(2 * count + 2);
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
-    this.penMoves = new PenMoveWriter(3 * count + 2);
+    this.penMoves = new PenMoveWriter(4 * count + 2);
     // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
     // A controller that plans by itself is not shaped.
     this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
@@ -189,12 +193,14 @@ class PlanBuilder {
     const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
     if (layer !== this.lastLayer || gap >= SHORTEST_MM) this.lift(layer === this.lastLayer ? gap : Infinity);
+    const travelS = this.blocks.clockS;
     this.travel(x, y);
-    if (fromAlong === 0 && this.beginsLayer(stroke)) this.wait(this.waitsS[layer]);
+    const waitS = fromAlong === 0 && this.beginsLayer(stroke) ? this.waitsS[layer] : 0;
+    this.wait(waitS);
     this.lastLayer = layer;
     path.startAt(this.x, this.y);
     this.pen = this.pens[layer]!;
-    this.drop();
+    this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
     this.writer.write(path, this.drawLimits[layer], this.blocks, this.planned);
@@ -211,15 +217,16 @@ class PlanBuilder {
     this.y = y;
   }
 
-  /** @param travelMm length of the travel with the pen up: a short hop may lift less */
+  /** @param travelMm length of the travel with the pen up: a short one may lift less */
   lift(travelMm: number): void {
     if (this.penUp) return;
-    this.heightPct = upHeight(this.pen, travelMm);
-    this.liftAnyway();
+    this.liftS = this.blocks.clockS;
+    this.movePen(true, liftBefore(this.pen, travelMm));
   }
 
   liftAnyway(): void {
-    this.movePen(true, liftTiming(this.pen, this.heightPct));
+    const { heightPct, waitS } = liftTiming(this.pen, this.heightPct);
+    this.movePen(true, { heightPct, waitS, moveS: waitS });
   }
 
   private beginsLayer(stroke: number): boolean {
@@ -229,18 +236,31 @@ class PlanBuilder {
 
   /** With the pen up: repeat the command to go to the current height. */
   private wait(waitS: number): void {
-    if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS });
+    if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS, moveS: waitS });
   }
 
-  private drop(): void {
-    if (this.penUp) this.movePen(false, dropTiming(this.pen, this.heightPct));
+  /** @param travelS when the travel began that has just ended; null: the carriage has waited since */
+  private drop(travelS: number | null): void {
+    if (!this.penUp) return;
+    const { blocks, pen, heightPct, liftS } = this;
+    const endS = blocks.clockS;
+    if (travelS === null || travelS === endS || liftS === null || !dropsInFlight(pen)) {
+      const { waitS } = dropTiming(pen, heightPct);
+      this.movePen(false, { heightPct: pen.downPct, waitS, moveS: waitS });
+      return;
+    }
+    const travel = { startS: travelS, endS, accel: this.motion.travel.accelMmPerS2 };
+    const { hoverS, dropS, downS } = lowerDuring(pen, { heightPct, liftS }, travel);
+    if (hoverS !== null) this.movePen(true, hopLift(pen), hoverS);
+    const { waitS: moveS } = dropTiming(pen, this.heightPct);
+    this.movePen(false, { heightPct: pen.downPct, waitS: downS - endS, moveS }, dropS);
   }
 
-  private movePen(up: boolean, { heightPct, waitS }: PenTiming): void {
+  private movePen(up: boolean, { heightPct, waitS, moveS }: Lift, startS = this.blocks.clockS): void {
     this.penUp = up;
-    const { blocks } = this;
-    this.penMoves.push({ beforeRun: this.runCount, up, startS: blocks.clockS, waitS, heightPct });
-    blocks.clockS += waitS;
+    if (up) this.heightPct = heightPct;
+    this.penMoves.push({ beforeRun: this.runCount, up, startS, waitS, moveS, heightPct });
+    this.blocks.clockS += waitS;
   }
 
   private beginRun(stroke: number): void {

@@ -15,6 +15,8 @@ import type { Place } from "./trajectory.js";
 /** Tolerance for rounded corners, merged blocks and whole steps, mm. */
 const NEAR_MM = 0.08;
 
+/** So near to a stroke's start the pen may have begun to come down, mm (see `pen-flight.ts`), and rounding. */
+const LANDING_MM = 0.15;
 /** How far the carriage may stand beside the drawing: `leavesMm` by shaping (shapers.ts), and by all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
@@ -58,6 +60,9 @@ export function stoppedPlace(
         return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
+    const landsAtMm = Math.hypot(xy[next] - pen.x, xy[next + 1] - pen.y);
+    const isOnNext = !pen.up && alongOf(strokes, stroke + 1, 0, pen.x, pen.y, nearMm) !== null;
+    if (!pen.up && !isOnNext && landsAtMm <= LANDING_MM) return { stroke: stroke + 1, alongMm: 0 };
     const travel = [xy[end], xy[end + 1], xy[next], xy[next + 1]] as const;
     if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= nearMm)
       return { stroke: stroke + 1, alongMm: 0 };

@@ -9,6 +9,8 @@ import type { Kernel } from "./filter.js";
  * two runs the pen may move, and the carriage waits for it:
  *
  *     run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
+ *
+ * With the setting `pen.overlap`, a lift goes on during the travel after it, and a drop begins in the travel before.
  */
 export interface Trajectory {
   /** Number of blocks. */
@@ -71,6 +73,7 @@ export interface PenMoveColumns {
   readonly up: Uint8Array;
   readonly startS: Float64Array;
   readonly waitS: Float64Array;
+  readonly moveS: Float64Array;
   readonly heightPct: Float64Array;
 }
 
@@ -78,10 +81,12 @@ export interface PenMoveColumns {
 export interface PenMove {
   readonly beforeRun: number;
   readonly up: boolean;
-  /** Seconds from the trajectory's start. */
+  /** Seconds from the trajectory's start. Before the end of run `beforeRun` − 1: it begins while the carriage moves. */
   readonly startS: number;
-  /** How long the carriage waits for it. */
+  /** How long the carriage waits for it, at rest before run `beforeRun`. */
   readonly waitS: number;
+  /** How long the pen takes for the way between the down height and the up height of this move. */
+  readonly moveS: number;
   /** Target height, percent of the servo's range. */
   readonly heightPct: number;
 }

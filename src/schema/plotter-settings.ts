@@ -6,6 +6,7 @@ import { z } from "zod";
 import {
   motionSettingsSchema,
   penSettingsSchema,
+  plotterPenSchema,
   plotSettingsSchema,
   prepareSettingsSchema,
   type PlotSettings,
@@ -37,8 +38,7 @@ export type Preset = z.infer<typeof presetSchema>;
 export const MAX_PRESETS = 100;
 
 export const plotterSettingsSchema = z.object({
-  /** Without the heights of single layers, which belong to a drawing. */
-  pen: penSettingsSchema.omit({ layers: true }),
+  pen: plotterPenSchema,
   pens,
   presets: z.array(presetSchema).max(MAX_PRESETS).default([]),
 });

@@ -12,12 +12,11 @@ import {
   type MotionSettings,
 } from "../settings/motion.js";
 import {
-  CLEAR_SHARE,
   DEFAULT_PEN,
   DROP_RATE,
-  HOP_TABLE,
   LAYER_WAIT,
   LIFT_RATE,
+  OVERLAP_TABLE,
   PEN_TABLE,
   PLOT_PEN_TABLE,
   type PenSettings,
@@ -96,16 +95,44 @@ export const motionSettingsSchema = z.object({
   layers: byLayer(z.object(shapeOf(DRAW_TABLE)).partial()).optional(),
 }) satisfies z.ZodType<MotionSettings>;
 
-export const penSettingsSchema = z.object({
+const penShape = {
   ...shapeWithDefaults(PEN_TABLE),
+  ...shapeWithDefaults(OVERLAP_TABLE),
   liftPctPerS: numberSchema(LIFT_RATE).nullable().optional(),
   dropPctPerS: numberSchema(DROP_RATE).nullable().optional(),
-  clearPct: numberSchema(CLEAR_SHARE).optional(),
-  hop: z.object(shapeOf(HOP_TABLE)).nullable().optional(),
   layers: byLayer(
     z.object({ ...shapeOf(PEN_TABLE), beforeMs: numberSchema(LAYER_WAIT) }).partial(),
   ).optional(),
-}) satisfies z.ZodType<PenSettings>;
+};
+
+/** Replaced by `overlap`; settings and jobs stored before may still have them. */
+const replacedPenSchema = z.object({
+  upPct: numberSchema(PEN_TABLE.upPct),
+  downPct: numberSchema(PEN_TABLE.downPct),
+  /** Share of the lift after which the carriage started. */
+  clearPct: numberSchema(PEN_TABLE.upPct).optional(),
+  /** The height for short travels: at that height the pen was known to be clear of the paper. */
+  hop: z.object({ longestMm: z.number(), upPct: numberSchema(PEN_TABLE.upPct) }).nullish(),
+});
+
+/** Both told how far up the pen is clear of the paper: the higher of the two is the contact height. */
+function upgradePen(stored: unknown): unknown {
+  const replaced = replacedPenSchema.safeParse(stored);
+  if (!replaced.success || "overlap" in (stored as object)) return stored;
+  const { upPct, downPct, clearPct = 100, hop } = replaced.data;
+  const hopSharePct = hop && upPct > downPct ? (100 * (hop.upPct - downPct)) / (upPct - downPct) : 0;
+  const clearSharePct = clearPct < 100 ? clearPct : 0;
+  const contactPct = Math.round(Math.min(100, Math.max(hopSharePct, clearSharePct)));
+  if (contactPct === 0) return stored;
+  return { ...(stored as object), overlap: "fast", contactPct, ...(hop && { fullHeightMm: hop.longestMm }) };
+}
+
+const penObject = z.object(penShape);
+
+export const penSettingsSchema = z.preprocess(upgradePen, penObject) satisfies z.ZodType<PenSettings>;
+
+/** Without the heights of single layers, which belong to a drawing. */
+export const plotterPenSchema = z.preprocess(upgradePen, penObject.omit({ layers: true }));
 
 export const plotPenSchema = z.object({
   id: z.string().min(1).max(100),

@@ -61,13 +61,39 @@ export const DROP_RATE = {
   default: 60,
 } as const satisfies NumberSetting;
 
-/** Share of the lift after which the pen is clear and the carriage may start. */
-export const CLEAR_SHARE = {
-  ...height,
-  label: "Clear after",
-  about: "share of the lift after which the carriage may start",
-  default: 100,
-} as const satisfies NumberSetting;
+export const PEN_OVERLAPS = ["off", "safe", "fast"] as const;
+export type PenOverlap = (typeof PEN_OVERLAPS)[number];
+
+/** Whether the carriage moves while the pen does (src/plan/pen-flight.ts). */
+export const OVERLAP_TABLE = {
+  overlap: {
+    kind: "choice",
+    label: "Move while the pen lifts",
+    about: "whether the carriage moves while the pen lifts and lowers clear of the paper",
+    flag: "--pen-overlap",
+    default: "off",
+    choices: PEN_OVERLAPS,
+  },
+  /** Share of the way from down to up. */
+  contactPct: {
+    ...height,
+    label: "Leaves the paper at",
+    about: "share of the lift at which the tip leaves the paper",
+    flag: "--pen-contact",
+    default: 50,
+  },
+  fullHeightMm: {
+    kind: "number",
+    label: "Full height from",
+    about: "travels at least this long lift the pen to its full height, shorter ones only clear of the paper",
+    flag: "--pen-full-height",
+    default: 20,
+    min: 0,
+    max: 1_000,
+    unit: "mm",
+    step: 1,
+  },
+} as const satisfies SettingsTable;
 
 /** A wait with the pen up before a layer's first stroke. */
 export const LAYER_WAIT = {
@@ -81,24 +107,6 @@ export const LAYER_WAIT = {
   step: 500,
 } as const satisfies NumberSetting;
 
-export const HOP_TABLE = {
-  longestMm: {
-    kind: "number",
-    label: "Up to",
-    about: "longest travel that counts as a hop",
-    default: 3,
-    min: 0,
-    minExcluded: true,
-    max: 1_000,
-    unit: "mm",
-    step: 0.5,
-  },
-  upPct: { ...height, label: "Height", about: "pen height during a hop", default: 40 },
-} as const satisfies SettingsTable;
-
-/** Short travel moves: for hops up to `longestMm` the pen is lifted less, which is faster. */
-export type HopSettings = ValuesOf<typeof HOP_TABLE>;
-
 /** Overrides for one layer's pen; what is left out is as for all layers. */
 export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undefined } & {
   /** A wait with the pen up before the layer's first stroke. */
@@ -106,23 +114,17 @@ export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undef
 };
 
 /** Pen heights, and how long the motion waits for the pen. Start from `DEFAULT_PEN`. */
-export interface PenSettings extends ValuesOf<typeof PEN_TABLE> {
+export interface PenSettings extends ValuesOf<typeof PEN_TABLE>, ValuesOf<typeof OVERLAP_TABLE> {
   /** How fast the pen rises; null or left out: as fast as the servo can. */
   readonly liftPctPerS?: number | null | undefined;
   /** How fast the pen sinks; null or left out: as fast as the servo can. A low rate is gentle. */
   readonly dropPctPerS?: number | null | undefined;
-  /**
-   * Share of the lift after which the pen is clear and the carriage may start: 100 waits for the whole lift.
-   */
-  readonly clearPct?: number | undefined;
-  /** Lower lifts for short travels; null or left out: none. */
-  readonly hop?: HopSettings | null | undefined;
   /** By layer id: heights and waits of its own. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
 }
 
 /** 60 % up, 30 % down, and waits that suit a standard servo. */
-export const DEFAULT_PEN: PenSettings = defaultsOf(PEN_TABLE);
+export const DEFAULT_PEN: PenSettings = { ...defaultsOf(PEN_TABLE), ...defaultsOf(OVERLAP_TABLE) };
 
 const offset = { kind: "number", default: 0, min: -100, max: 100, unit: "mm", step: 0.05 } as const;
 

@@ -1,6 +1,6 @@
 /** All settings tables, by their path in a job's settings ("": top level). */
 import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
-import { PEN_TABLE } from "./pen.js";
+import { OVERLAP_TABLE, PEN_TABLE } from "./pen.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
 import { QUALITY_TABLE } from "./quality.js";
 import { SPRINGS_TABLE } from "./springs.js";
@@ -13,7 +13,7 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   motion: MOTION_TABLE,
   "motion.draw": DRAW_TABLE,
   "motion.travel": TRAVEL_TABLE,
-  pen: PEN_TABLE,
+  pen: { ...PEN_TABLE, ...OVERLAP_TABLE },
   "": STREAM_TABLE,
 };
 

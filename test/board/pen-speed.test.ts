@@ -15,7 +15,8 @@ import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** One on the standard servo output (SP), one with a brushless lift (S2). */
 const MACHINES = ["axidraw-v3", "nextdraw-8511"];
-const GENTLE: PenSettings = { ...DEFAULT_PEN, liftMs: 60, dropMs: 90, liftPctPerS: 150, dropPctPerS: 20 };
+const WAITING: PenSettings = { ...DEFAULT_PEN, overlap: "off" };
+const GENTLE: PenSettings = { ...WAITING, liftMs: 60, dropMs: 90, liftPctPerS: 150, dropPctPerS: 20 };
 const WAY_PCT = GENTLE.upPct - GENTLE.downPct;
 /** A servo moves in frames. */
 const FRAME_S = 0.024;
@@ -76,11 +77,9 @@ describe.each(MACHINES)("the pen of %s", (machine) => {
   });
 
   it.each([
-    ["by time", DEFAULT_PEN],
+    ["by time", WAITING],
     ["by rate", GENTLE],
-    ["by time, with hops", { ...DEFAULT_PEN, hop: { longestMm: 5, upPct: 40 } }],
-    ["by rate, with hops", { ...GENTLE, hop: { longestMm: 5, upPct: 40 } }],
-    ["by layer", { ...DEFAULT_PEN, layers: { l1: { downPct: 10, dropMs: 120, liftMs: 120 } } }],
+    ["by layer", { ...WAITING, layers: { l1: { downPct: 10, dropMs: 120, liftMs: 120 } } }],
   ] as const)("has arrived before the carriage moves: %s", (_, pen) => {
     const dash = (x: number, y: number): Point[] => [
       [x, y],

@@ -253,7 +253,7 @@ describe("the virtual board's pen", () => {
     ask("SP,0,300");
     await clock.advance(5);
     ask("SP,1,300");
-    await clock.advance(0.121);
+    await clock.advance(0.12);
     expect(board.state()).toMatchObject({ penUp: true, isBusy: true });
     expect(board.state().penPct).toBeCloseTo((100 * (15_000 - 7_500)) / 20_500, 5);
     await clock.advance(0.18);

@@ -1,6 +1,6 @@
 /** Changes of speeds and heights during a plot, and requests right after them. */
 import { describe, expect, it } from "vitest";
-import type { VirtualBoard } from "../../src/index.js";
+import type { PenSettings, VirtualBoard } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
@@ -69,9 +69,10 @@ describe("changes while it runs", () => {
   });
 
   it.each([0, 10, 25])("waits for the servo if the pen is pressed down to %i percent", async (downPct) => {
-    const { world, board, run } = await plotting("junction");
+    const waiting: PenSettings = { ...DEFAULT_PLOT_SETTINGS.pen, overlap: "off" };
+    const { world, board, run } = await plotting("junction", DRAWING, "2.8.1", waiting);
     await world.advance(2);
-    await world.run(run.change({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct } }));
+    await world.run(run.change({ pen: { ...waiting, downPct } }));
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expect(board.statistics().movesBeforePenArrivedCount).toBe(0);
   });

@@ -27,7 +27,7 @@ describe("a hold at any instant", () => {
       const undisturbedMm = await wholeMm(mode);
       for (let i = 0; i < 70; i++) {
         const { world, board, run } = await plotting(mode);
-        await world.advance(0.05 + 13 * random());
+        await world.advance(0.05 + 12.4 * random());
         const beforeS = world.nowS();
         await world.run(run.pause());
         expect(world.nowS() - beforeS).toBeLessThan(HELD_WITHIN_S);
@@ -70,7 +70,7 @@ describe("an emergency stop at any instant", () => {
       const undisturbedMm = await wholeMm(mode, firmware);
       for (let i = 0; i < 34; i++) {
         const { world, board, run } = await plotting(mode, DRAWING, firmware);
-        await world.advance(0.05 + 13 * random());
+        await world.advance(0.05 + 12.4 * random());
         const beforeS = world.nowS();
         await world.run(run.emergencyStop());
         expect(world.nowS() - beforeS).toBeLessThan(HELD_WITHIN_S);

@@ -2,12 +2,14 @@ import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const SETTINGS = DEFAULT_PLOT_SETTINGS;
+/** The carriage waits for the pen. */
+const WAITING: PlotSettings = { ...SETTINGS, pen: { ...SETTINGS.pen, overlap: "off" } };
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
 const outcome = (promise: Promise<unknown>): Promise<unknown> =>
   promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
@@ -17,9 +19,9 @@ async function newPlotter(firmware?: string) {
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
   const board = virtualBoardOf(driver);
-  const begin = async (strokes: StrokeSet = TWO_LINES) => {
+  const begin = async (strokes: StrokeSet = TWO_LINES, settings = SETTINGS) => {
     const planner = new LocalPlanner(strokes);
-    const run = await world.run(driver.plot(planner, SETTINGS));
+    const run = await world.run(driver.plot(planner, settings));
     return { planner, run };
   };
   return { world, driver, board, begin };
@@ -44,7 +46,7 @@ describe("a plotter", () => {
     "plots to the end and is idle at home again, on firmware %s",
     async (firmware) => {
       const { world, driver, board, begin } = await newPlotter(firmware);
-      const { run } = await begin();
+      const { run } = await begin(TWO_LINES, WAITING);
       expect(driver.state.connection).toBe("busy");
       expect(await world.run(run.finished)).toEqual({ kind: "done" });
       expect(drawn(board)).toEqual([

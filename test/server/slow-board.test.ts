@@ -14,6 +14,7 @@ const { motion } = DEFAULT_PLOT_SETTINGS;
 const SLOW: PlotSettings = {
   ...DEFAULT_PLOT_SETTINGS,
   motion: { ...motion, draw: { ...motion.draw, speedMmPerS: 20 } },
+  pen: { ...DEFAULT_PLOT_SETTINGS.pen, overlap: "off" },
 };
 const LINES = strokesOf([10, 10, 290, 10], [290, 60, 250, 100, 290, 150]);
 

@@ -34,11 +34,16 @@ export const settingsOf = (mode: MotionMode): PlotSettings => ({
   motion: { ...DEFAULT_PLOT_SETTINGS.motion, mode },
 });
 
-export async function plotting(mode: MotionMode, strokes = DRAWING, firmware = "2.8.1"): Promise<LivePlot> {
+export async function plotting(
+  mode: MotionMode,
+  strokes = DRAWING,
+  firmware = "2.8.1",
+  pen = DEFAULT_PLOT_SETTINGS.pen,
+): Promise<LivePlot> {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
-  const run = await world.run(driver.plot(new LocalPlanner(strokes), settingsOf(mode)));
+  const run = await world.run(driver.plot(new LocalPlanner(strokes), { ...settingsOf(mode), pen }));
   return { world, driver, board: virtualBoardOf(driver), run };
 }
 

@@ -1,15 +1,13 @@
-import { DROP_RATE, HOP_TABLE, PEN_TABLE } from "../../src/internal.js";
+import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE, type NumberSetting } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { isReady } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { heightsText } from "./text.js";
-import { Switch } from "../ui/choice.js";
+import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
 
 const words = heightsText;
 type PenSettings = PlotSettings["pen"];
-
-/** A hop is lifted by this share of the full lift when it is switched on. */
-const FIRST_HOP_SHARE = 0.4;
 
 /** Waits and refinements of the pen; its heights are in the plotter's panel. */
 export const PenFields = () => {
@@ -35,7 +33,7 @@ export const PenFields = () => {
         />
       </div>
       <Gentle pen={pen} change={change} />
-      <Hop pen={pen} change={change} />
+      <Overlap pen={pen} change={change} />
     </>
   );
 };
@@ -62,29 +60,63 @@ const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
   </>
 );
 
-const Hop = ({ pen: { hop, upPct, downPct }, change }: RefinementProps) => (
-  <>
-    <Switch
-      label={words.hop}
-      isOn={Boolean(hop)}
-      onChange={(isOn) => {
-        const firstPct = Math.round(downPct + (upPct - downPct) * FIRST_HOP_SHARE);
-        change({ hop: isOn ? { longestMm: HOP_TABLE.longestMm.default, upPct: firstPct } : null });
-      }}
-    />
-    {hop && (
-      <div className="field-pair">
-        <SettingField
-          setting={HOP_TABLE.longestMm}
-          value={hop.longestMm}
-          onChange={(longestMm) => change({ hop: { ...hop, longestMm } })}
-        />
-        <SettingField
-          setting={HOP_TABLE.upPct}
-          value={hop.upPct}
-          onChange={(hopPct) => change({ hop: { ...hop, upPct: hopPct } })}
-        />
-      </div>
-    )}
-  </>
-);
+const Overlap = ({ pen, change }: RefinementProps) => {
+  const { overlap, contactPct, fullHeightMm, upPct, downPct } = pen;
+  return (
+    <>
+      <Segments
+        label={OVERLAP_TABLE.overlap.label}
+        value={overlap}
+        options={OVERLAP_TABLE.overlap.choices.map((value) => ({ value, label: words.overlaps[value] }))}
+        onChange={(value) => change({ overlap: value })}
+      />
+      {overlap !== "off" && (
+        <>
+          <HeightField
+            setting={OVERLAP_TABLE.contactPct}
+            tryLabel={words.tryContact}
+            value={contactPct}
+            heightPct={downPct + ((upPct - downPct) * contactPct) / 100}
+            isUp={false}
+            onChange={(value) => change({ contactPct: value })}
+          />
+          <p className="note">{words.contactHint}</p>
+          <SettingField
+            setting={OVERLAP_TABLE.fullHeightMm}
+            value={fullHeightMm}
+            onChange={(value) => change({ fullHeightMm: value })}
+          />
+        </>
+      )}
+    </>
+  );
+};
+
+interface HeightFieldProps {
+  readonly setting: NumberSetting;
+  readonly tryLabel: string;
+  readonly value: number;
+  readonly isUp: boolean;
+  /** The height to try, if it is not the value itself. */
+  readonly heightPct?: number;
+  onChange(value: number): void;
+}
+
+const HeightField = ({ setting, tryLabel, value, heightPct = value, isUp, onChange }: HeightFieldProps) => {
+  const isIdle = usePageState(isReady);
+  const { movePen } = useActions();
+  return (
+    <div className="field-with-button">
+      <SettingField setting={setting} value={value} onChange={onChange} />
+      <button
+        type="button"
+        className="button"
+        aria-label={tryLabel}
+        disabled={!isIdle}
+        onClick={() => void movePen(isUp, heightPct)}
+      >
+        {words.try}
+      </button>
+    </div>
+  );
+};

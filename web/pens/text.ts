@@ -46,5 +46,9 @@ export const pensText = {
 export const heightsText = {
   title: "Lifting the pen",
   gentle: "Lower the pen gently",
-  hop: "Lift less for short hops",
+  overlaps: { off: "Off", safe: "Safe", fast: "Fast" },
+  try: "Try",
+  tryContact: "Try the height at which the tip leaves the paper",
+  contactHint:
+    "Put paper under the pen, press Try, and lower the number until the tip just marks. 0 % is the height down, 100 % the height up.",
 };

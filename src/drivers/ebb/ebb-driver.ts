@@ -10,5 +10,5 @@ export const ebbDriver: Driver = {
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
   virtualMachine: ({ firmware, ...options }) =>
-    new VirtualBoard(firmware === undefined ? options : { ...options, firmware }),
+    new VirtualBoard({ ...options, servo: {}, ...(firmware === undefined ? {} : { firmware }) }),
 };

@@ -70,11 +70,13 @@ export function planGrblJob(
 /** The pen as moved by the Z axis: always between the profile's two heights. */
 function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
   const ms = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
-  const { upPct, downPct, layers = {} } = pen;
+  const { upPct, downPct, layers = {}, contactPct, fullHeightMm } = pen;
   const waits = Object.entries(layers).map(([id, { beforeMs }]) => {
     return [id, beforeMs ? { beforeMs: 1_000 * dwellS(beforeMs / 1_000) } : {}] as const;
   });
-  return { upPct, downPct, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
+  // A Grbl moves the pen at rest only.
+  const heights = { upPct, downPct, overlap: "off", contactPct, fullHeightMm } as const;
+  return { ...heights, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
 }
 
 /** Duration of the move of the Z axis. */

@@ -47,8 +47,8 @@ describe("codes in layer names, as settings", () => {
   it("act in the plan: its speed, its heights, and the wait with the pen up", () => {
     const strokes = strokesNamed("plain", "+s10+h15+d2000 slow");
     const { motion, pen } = withLayerCodes(SETTINGS, strokes.layers);
-    const coded = plan(strokes, motion, pen);
-    const given = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN);
+    const coded = plan(strokes, motion, { ...pen, overlap: "off" });
+    const given = plan(strokes, DEFAULT_MOTION, { ...DEFAULT_PEN, overlap: "off" });
     expect(penMovesOf(coded).map(({ up, heightPct, waitS }) => [up, heightPct, waitS])).toEqual([
       [false, 30, 0.3],
       [true, 60, 0.25],

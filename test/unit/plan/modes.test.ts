@@ -180,7 +180,7 @@ describe("settings beyond speed and acceleration", () => {
   it("give a layer its own limits and its own pen", () => {
     const strokes = strokeSetOf([square, square.map(([x, y]): Point => [x + 40, y])], [0, 1]);
     const motion = { ...base, layers: { l1: { speedMmPerS: 5 } } };
-    const pen: PenSettings = { ...DEFAULT_PEN, layers: { l1: { downPct: 10, dropMs: 900 } } };
+    const pen: PenSettings = { ...DEFAULT_PEN, overlap: "off", layers: { l1: { downPct: 10, dropMs: 900 } } };
     const t = plan(strokes, motion, pen);
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
@@ -190,15 +190,6 @@ describe("settings beyond speed and acceleration", () => {
       [10, 0.9],
       [60, 0.25],
     ]);
-  });
-
-  it("lift the pen less for short hops, and start moving once it is clear", () => {
-    const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]], [[100, 100], [90, 90]]]); // prettier-ignore
-    const pen: PenSettings = { ...DEFAULT_PEN, clearPct: 50, hop: { longestMm: 3, upPct: 40 } };
-    const lifts = penMovesOf(plan(strokes, base, pen)).filter((m) => m.up);
-    expect(lifts.map((m) => m.heightPct)).toEqual([40, 60, 60]);
-    expect(lifts[0].waitS).toBeCloseTo(0.25 / 3 / 2, 9);
-    expect(lifts[1].waitS).toBeCloseTo(0.125, 9);
   });
 
   it("time the pen by its rate and delay", () => {
@@ -224,8 +215,8 @@ describe("settings beyond speed and acceleration", () => {
       [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
       [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
       [{}, { dropPctPerS: 0 }, /sinks at/],
-      [{}, { clearPct: 120 }, /clear after/],
-      [{}, { hop: { longestMm: 3, upPct: 20 } }, /hop height 20 % is not above/],
+      [{}, { contactPct: 120 }, /leaves the paper at is 120/],
+      [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
     ];
     for (const [motion, pen, message] of wrong) {

@@ -31,7 +31,7 @@ describe("the sequence of runs", () => {
         ],
       ]),
       motion,
-      DEFAULT_PEN,
+      { ...DEFAULT_PEN, overlap: "off" },
     );
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1, 1, -1]);
     expect(penMovesOf(t).map((m) => [m.beforeRun, m.up, m.heightPct, m.waitS])).toEqual([

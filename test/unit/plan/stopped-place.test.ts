@@ -58,6 +58,15 @@ describe("where a plot was interrupted", () => {
     expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, 500)).toEqual({ stroke: 1, alongMm: 0 });
   });
 
+  it("is the next stroke where the pen has begun to come down just before it", () => {
+    const landing = { x: 100, y: 49.9, up: false };
+    expect(stoppedPlace(two, journal, landing, 500)).toEqual({ stroke: 1, alongMm: 0 });
+    // On the stroke already: from there on.
+    const begun = stoppedPlace(two, journal, { x: 99.9, y: 50, up: false }, 500);
+    expect(begun.stroke).toBe(1);
+    expect(begun.alongMm).toBeCloseTo(0.1, 6);
+  });
+
   it("is the end if the pen is up on the way home from the last stroke", () => {
     const end = { stroke: 2, alongMm: 10 };
     const late = { stroke: 2, alongMm: 1 };

@@ -24,7 +24,7 @@ export interface CommandStream extends MachineCommands {
   /** Predicted accumulators after each command, 0 … 2^31 − 1. */
   readonly acc1: Uint32Array;
   readonly acc2: Uint32Array;
-  /** Trajectory run each command belongs to; −1 for pen and set-up commands. */
+  /** Trajectory run each command belongs to; −1 for pen and set-up commands between two runs. */
   readonly run: Int32Array;
   /** Messages about limits that required splitting or slowing down. */
   readonly warnings: readonly string[];

@@ -98,53 +98,91 @@ class Compiler {
     if (penMoves.count > 0) this.setUpPen();
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {
-      while (next < penMoves.count && penMoves.beforeRun[next] <= r)
-        this.penMove(penMoveAt(penMoves, next++));
-      if (r < runs.count) this.runs.write(r);
+      for (; next < penMoves.count && penMoves.beforeRun[next] <= r; next++)
+        this.penMove(penMoveAt(penMoves, next));
+      if (r === runs.count) break;
+      const inFlight: PenMove[] = [];
+      const endS = runEndS(trajectory, r);
+      for (; next < penMoves.count && penMoves.startS[next] < endS; next++)
+        inFlight.push(penMoveAt(penMoves, next));
+      this.runs.write(
+        r,
+        inFlight.map((move) => ({ atS: move.startS, write: (run) => this.penMoveInFlight(move, run) })),
+      );
+      for (const { waitS } of inFlight) this.waitForPen(waitS, endS);
     }
     return this.columns.finish(trajectory.totalS);
   }
 
   private setUpPen(): void {
-    this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0);
+    this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
   }
 
-  /** A pen move, preceded by its height and speed if they changed. */
+  /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
+    const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
+    const way = this.wayOf(move, false, -1);
+    this.still(
+      penCommand(this.options.machine, way, waitMs),
+      Math.max(1, waitMs * TICKS_PER_MS),
+      move.startS,
+      -1,
+    );
+  }
+
+  /** A pen move that costs the run a tick. */
+  private penMoveInFlight(move: PenMove, run: number): void {
+    const way = this.wayOf(move, !move.up, run);
+    this.still(penCommand(this.options.machine, way, 0), 1, move.startS, run);
+  }
+
+  /** The rest of a pen move that began in flight. */
+  private waitForPen(waitS: number, planS: number): void {
+    const waitMs = Math.round(waitS * 1_000);
+    if (waitMs > 0) this.still(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
+  }
+
+  /** Sets the height and speed of a pen move if they changed. */
+  private wayOf(move: PenMove, inFlight: boolean, run: number): PenWay {
     const { machine, pen } = this.options;
     const { heights } = this;
     const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
     if (move.up) heights.up = move.heightPct;
     else heights.down = move.heightPct;
-    const wholeS = move.up ? (move.waitS * 100) / (pen.clearPct ?? 100) : move.waitS;
     const way: PenWay = {
       up: move.up,
       heightPct: move.heightPct,
       wayPct,
-      timeMs: 1_000 * wholeS,
+      timeMs: 1_000 * move.moveS,
       ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
+      inFlight,
     };
-    this.setUp(penMoveSetUp(machine, way), move.startS);
-    const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    this.still(penCommand(machine, way, waitMs), Math.max(1, waitMs * TICKS_PER_MS), move.startS);
+    this.setUp(penMoveSetUp(machine, way), move.startS, run);
+    return way;
   }
 
   /** Writes the set-up lines that differ from those sent before. */
-  private setUp(lines: readonly string[], planS: number): void {
+  private setUp(lines: readonly string[], planS: number, run: number): void {
     for (const line of lines) {
       const parameter = line.slice(0, line.lastIndexOf(","));
       if (this.parameters.get(parameter) === line) continue;
       this.parameters.set(parameter, line);
-      this.still(line, 0, planS);
+      this.still(line, 0, planS, run);
     }
   }
 
   /** A command during which the motors do not move. */
-  private still(line: string, ticks: number, planS: number): void {
+  private still(line: string, ticks: number, planS: number, run: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);
-    columns.add(ticks, planS, -1, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
+}
+
+/** Trajectory seconds at the end of a run's motion. */
+function runEndS({ runs, startS, durationS }: Trajectory, run: number): number {
+  const end = runs.firstBlock[run + 1];
+  return end > runs.firstBlock[run] ? startS[end - 1] + durationS[end - 1] : runs.startS[run];
 }
 
 function runWriterFor(

@@ -12,7 +12,15 @@
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
-import { newLeg, type Leg, type LegWriter, type MotorLeg, type MotorPlace, type RunWriter } from "./leg.js";
+import {
+  newLeg,
+  type Leg,
+  type LegWriter,
+  type Midway,
+  type MotorLeg,
+  type MotorPlace,
+  type RunWriter,
+} from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
@@ -40,6 +48,8 @@ export class LegRuns implements RunWriter {
   private cutTick = 0;
   private cutBlock = 0;
   private cutIsRunEnd = false;
+  /** What is still to be written during the run, in order of time. */
+  private midway: readonly Midway[] = [];
 
   constructor(
     private readonly trajectory: Trajectory,
@@ -55,11 +65,12 @@ export class LegRuns implements RunWriter {
     return this.trajectory.planned ? SHAPED_TURN_TICKS : this.writer.turnTicks;
   }
 
-  write(run: number): void {
+  write(run: number, midway: readonly Midway[]): void {
     const { walk, columns, leg } = this;
     walk.begin(run, columns.boardTicks);
     if (walk.first === walk.end) return;
     this.runIndex = run;
+    this.midway = midway;
     let block = walk.first;
     let notBefore = 0;
     for (;;) {
@@ -73,9 +84,25 @@ export class LegRuns implements RunWriter {
       } else {
         notBefore = this.cutTick + this.writer.minTicks;
       }
+      this.writeMidway(this.cutIsRunEnd ? Infinity : columns.boardTicks);
       if (this.cutIsRunEnd) break;
     }
     this.rest(run);
+  }
+
+  /** Writes what is due by `tick`. */
+  private writeMidway(tick: number): void {
+    while (this.midwayTick() <= tick) {
+      const [next, ...later] = this.midway;
+      if (!next) return;
+      this.midway = later;
+      next.write(this.runIndex);
+    }
+  }
+
+  private midwayTick(): number {
+    const next = this.midway[0];
+    return next ? this.walk.tickOf(next.atS) : Infinity;
   }
 
   /**
@@ -111,6 +138,11 @@ export class LegRuns implements RunWriter {
       if (end - soonest >= writer.minTicks) end = soonest;
     } else {
       end = this.withinBlock(tick, block, soonest, end);
+    }
+    const midwayTick = this.midwayTick();
+    if (midwayTick < end) {
+      end = Math.max(soonest, midwayTick);
+      k = walk.blockAt(end, block);
     }
     if (writer.turnTicks > 0) {
       let turn = this.firstTurn(tick, block, k, shortest, end);

@@ -30,9 +30,19 @@ export interface MotorPlace {
   acc: number;
 }
 
-/** Writes the commands for one run of the trajectory, from the motors' current positions to its end. */
-export interface RunWriter {
+/** Something to write while a run goes on: a pen move. */
+export interface Midway {
+  /** Trajectory seconds. */
+  readonly atS: number;
   write(run: number): void;
+}
+
+/**
+ * Writes the commands for one run of the trajectory, from the motors' current positions to its end, with what comes
+ * midway at the first end of a command that is not before its time.
+ */
+export interface RunWriter {
+  write(run: number, midway: readonly Midway[]): void;
 }
 
 /** Writes the command for a leg, and updates the motors' predicted states exactly. */

@@ -29,6 +29,10 @@ export class RunWalk {
     this.origin = boardTicks - runs.startS[run] * TICKS_PER_S;
   }
 
+  tickOf(planS: number): number {
+    return Math.round(this.origin + planS * TICKS_PER_S);
+  }
+
   planS(tick: number): number {
     return (tick - this.origin) * S_PER_TICK;
   }

@@ -9,7 +9,7 @@ import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
-import { newLeg, type MotorPlace, type RunWriter } from "./leg.js";
+import { newLeg, type Midway, type MotorPlace, type RunWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
@@ -36,7 +36,7 @@ export class SliceRuns implements RunWriter {
     private readonly m2: MotorPlace,
   ) {}
 
-  write(run: number): void {
+  write(run: number, midway: readonly Midway[]): void {
     const { walk, columns, features, leg, m1, m2 } = this;
     walk.begin(run, columns.boardTicks - this.lateTicks);
     if (walk.first === walk.end) return;
@@ -44,7 +44,13 @@ export class SliceRuns implements RunWriter {
     const last = walk.end - 1;
     let block = walk.first;
     let isLast = false;
+    let written = 0;
+    const writeMidway = (tick: number): void => {
+      while (written < midway.length && walk.tickOf(midway[written].atS) <= tick)
+        midway[written++].write(run);
+    };
     while (!isLast) {
+      writeMidway(columns.boardTicks);
       const leftTicks = walk.endTick(last) - columns.boardTicks;
       isLast = leftTicks < 1.5 * SLICE_TICKS;
       const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
@@ -60,6 +66,7 @@ export class SliceRuns implements RunWriter {
       if (leastMs > ms + 1) columns.warnOnce(TOO_FAST);
       this.writeSlice(Math.max(leastMs, ms), steps1, steps2, run);
     }
+    writeMidway(Infinity);
     this.lateTicks = columns.boardTicks - walk.endTick(last);
   }
 

@@ -11,6 +11,8 @@ import { servoPosFromPct } from "./servo-height.js";
 
 /** The servo moves during this part of the wait for it; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
+/** A drop in flight is as slow as its time says: a quicker one would touch the paper before the carriage arrives. */
+const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
 const STANDARD_PIN = 4;
@@ -51,6 +53,8 @@ export interface PenWay {
   readonly timeMs: number;
   /** Requested speed; null or left out: fast enough to arrive within `timeMs`. */
   readonly ratePctPerS?: number | null | undefined;
+  /** It comes down while the carriage moves. */
+  readonly inFlight?: boolean | undefined;
 }
 
 /** The move between the two heights of the settings. */
@@ -87,12 +91,13 @@ export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number 
 export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
-function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS }: PenWay): number {
+function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS, inFlight }: PenWay): number {
   const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
   const unitsPerPct = Math.abs(servoPosAt100Pct - servoPosAt0Pct) / 100;
+  const partOfWait = inFlight ? WHOLE_WAIT : SERVO_PART_OF_WAIT;
   const frames = ratePctPerS
     ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
-    : Math.max(1, Math.floor((timeMs * SERVO_PART_OF_WAIT) / SERVO_FRAME_MS));
+    : Math.max(1, Math.floor((timeMs * partOfWait) / SERVO_FRAME_MS));
   const rate = ratePctPerS && wayPct === 0 ? 1 : (wayPct * unitsPerPct) / frames;
   return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
 }

@@ -7,16 +7,30 @@
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
-import { sFromTicks, stepsPerSFromRate } from "../../../units.js";
+import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
+import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
 import { DrawnLine, type DrawnPolyline } from "./drawn-line.js";
 import { RunningMove, type Order } from "../model/orders.js";
-import { Servo } from "./servo.js";
+import { FRAME_TICKS, Servo } from "./servo.js";
 
 /** A gap after a slower move does not count as an underrun. */
 const MOVING_MM_PER_S = 1;
 const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
 const BOOT_SERVO_RATE = 400;
+
+/** How the simulated servo differs from what the board tells it. */
+export interface VirtualServo {
+  /** 0.8: it needs a quarter more time than the board's rate says. Default 1. */
+  readonly speed?: number;
+  /** When its 24 ms frames begin, ms. Default: with every command. */
+  readonly framePhaseMs?: number;
+  /**
+   * Height at which the tip touches the paper, percent of the servo's range. Default: it touches where a drop ends,
+   * and leaves the paper where a lift begins.
+   */
+  readonly contactPct?: number;
+}
 
 export interface BoardStatistics {
   readonly moveCount: number;
@@ -69,10 +83,12 @@ export class BoardCore {
   servoUsed = false;
   readonly fifo: Order[] = [];
 
-  /** The actual pen state. */
+  /** The tip is clear of the paper. */
   private isLifted = true;
+  /** When the tip touches or leaves the paper next; Infinity: not before the next pen command. */
+  private contactTick = Infinity;
   private running: Running | null = null;
-  private servo = new Servo(BOOT_SERVO_UP);
+  private readonly servo: Servo;
   private line: DrawnLine | null;
   /** When the motion froze (a simulated fault); null while it runs. */
   private frozenTick: number | null = null;
@@ -101,7 +117,12 @@ export class BoardCore {
     readonly features: FirmwareFeatures,
     readonly machine: MachineProfile,
     recordLine: boolean,
+    /** Null: the tip touches and leaves the paper with the command. */
+    private readonly servoOptions: VirtualServo | null,
   ) {
+    const { speed, framePhaseMs } = servoOptions ?? {};
+    const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
+    this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
     this.line = recordLine ? new DrawnLine(machine, false) : null;
   }
 
@@ -113,9 +134,19 @@ export class BoardCore {
     return this.running === null || this.fifo.length < this.fifoDepth;
   }
 
-  /** Tick at which the running order ends; Infinity if nothing runs or it never ends. */
+  /**
+   * Tick at which the running order ends, or the tip touches or leaves the paper during it; Infinity if nothing runs or
+   * it never ends. While nothing runs the tip draws nothing: what it did meanwhile counts when the next order begins.
+   */
   get nextEventTick(): number {
-    return this.frozenTick === null ? (this.running?.endTick ?? Infinity) : Infinity;
+    if (this.running === null || this.frozenTick !== null) return Infinity;
+    return Math.min(this.running.endTick, this.contactTick);
+  }
+
+  /** The event of `nextEventTick`. */
+  happen(): void {
+    if (this.running !== null && this.contactTick <= this.running.endTick) this.changeContact();
+    else this.finishRunning();
   }
 
   /** Freezes the running order: it neither moves nor ends. When unfrozen it continues where it was. */
@@ -161,7 +192,7 @@ export class BoardCore {
   }
 
   /** Ends the running order (at `nowTick`) and starts the next. */
-  finishRunning(): void {
+  private finishRunning(): void {
     const running = this.running;
     if (running === null) return;
     this.settle(running, running.endTick);
@@ -242,22 +273,33 @@ export class BoardCore {
     return [tick < running.move.motion1.ticks, tick < running.move.motion2.ticks];
   }
 
-  moveServo(position: number, rate: number): void {
-    this.servo.moveTo(position, rate, this.nowTick);
-    this.servoUsed = true;
-  }
-
   servoPosition(): number {
     return this.servo.positionAt(this.nowTick);
   }
 
-  /** The actual pen goes up or down, which ends or starts a stroke. */
-  liftPen(up: boolean): void {
-    if (up === this.isLifted) return;
-    this.isLifted = up;
+  /** Moves the pen; `up`: whether the board takes that for a lift. */
+  movePen(position: number, rate: number, up: boolean): void {
+    const { servo, nowTick, machine } = this;
+    servo.moveTo(position, rate, nowTick);
+    this.servoUsed = true;
+    const contactPct = this.servoOptions?.contactPct;
+    const touches = contactPct === undefined ? !up : pctFromServoPos(machine, position) <= contactPct;
+    this.contactTick = Infinity;
+    if (touches !== this.isLifted) return;
+    if (contactPct !== undefined) this.contactTick = servo.passTick(servoPosFromPct(machine, contactPct));
+    // The frame in which the last part of the way is done.
+    else this.contactTick = touches && this.servoOptions ? servo.arrivalTick - FRAME_TICKS : nowTick;
+    if (this.contactTick <= nowTick) this.changeContact();
+  }
+
+  /** The tip touches the paper or leaves it, which begins or ends a stroke. */
+  private changeContact(): void {
+    this.contactTick = Infinity;
+    this.splitRunning();
+    this.isLifted = !this.isLifted;
     this.totals.penMoveCount++;
     const [steps1, steps2] = this.stepsNow();
-    this.line?.begin(!up, steps1, steps2);
+    this.line?.begin(!this.isLifted, steps1, steps2);
   }
 
   enableMotors(mode1: number, mode2: number | null): void {
@@ -274,7 +316,7 @@ export class BoardCore {
     const running = this.running;
     if (running !== null) this.settle(running, this.motionTick);
     this.running = null;
-    const fresh = new BoardCore(this.features, this.machine, false);
+    const fresh = new BoardCore(this.features, this.machine, false, this.servoOptions);
     fresh.nowTick = this.nowTick;
     fresh.line = this.line;
     Object.assign(fresh.totals, this.totals);
@@ -308,12 +350,14 @@ export class BoardCore {
       this.startMove(RunningMove.begin(order, this.features.arithmetic, this.acc1, this.acc2), order);
       return;
     }
+    const { lastMove } = this;
     this.lastMove = null;
     let ticks = 1;
     if (order.kind === "servo") {
+      // A pen command between two moves holds the motors for a tick, which does not count as a stop.
+      if (order.ticks <= 1 && lastMove) this.lastMove = { ...lastMove, endTick: lastMove.endTick + 1 };
       if (order.movesPen) {
-        this.liftPen(order.penUp ?? order.position > this.servoPosition());
-        this.moveServo(order.position, order.rate);
+        this.movePen(order.position, order.rate, order.penUp ?? order.position > this.servoPosition());
       }
       if (order.penUp !== null) this.penUp = order.penUp;
       ticks = Math.max(1, order.ticks);

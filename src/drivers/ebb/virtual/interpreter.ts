@@ -241,9 +241,8 @@ export class Interpreter {
       if (!core.features.hasImmediateLift) throw new BoardFault(6, "Err: Invalid parameter value");
       if (value === 3) this.liftForGood();
       return this.done(() => {
-        core.moveServo(core.servoUp, core.servoRateUp);
+        core.movePen(core.servoUp, core.servoRateUp, true);
         core.penUp = true;
-        core.liftPen(true);
       });
     }
     const delayMs = p.optionalUint(0, MS16);

@@ -16,14 +16,14 @@ import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
 import type { Clock, Transport } from "../../transport.js";
-import { BoardCore, type BoardStatistics } from "./core.js";
+import { BoardCore, type BoardStatistics, type VirtualServo } from "./core.js";
 import type { DrawnPolyline } from "./drawn-line.js";
 import { InputLines } from "./input.js";
 import { Interpreter } from "./interpreter.js";
 import { VirtualLink } from "./link.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 
-export type { BoardStatistics } from "./core.js";
+export type { BoardStatistics, VirtualServo } from "./core.js";
 export type { DrawnPolyline } from "./drawn-line.js";
 
 /** Min supply voltage at which the motors turn. */
@@ -45,6 +45,8 @@ export interface VirtualBoardOptions {
   readonly parseMs?: number;
   /** Max unparsed bytes before the board stops reading. Default 256. */
   readonly inputBytes?: number;
+  /** The pen's servo takes its time to reach the paper. Default: the tip touches and leaves it with the command. */
+  readonly servo?: VirtualServo;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
 }
@@ -111,7 +113,8 @@ export class VirtualBoard {
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
-    this.core = new BoardCore(firmwareFeatures(this.firmware), this.machine, options.recordLine ?? true);
+    const features = firmwareFeatures(this.firmware);
+    this.core = new BoardCore(features, this.machine, options.recordLine ?? true, options.servo ?? null);
     this.interpreter = this.makeInterpreter();
   }
 
@@ -366,10 +369,10 @@ export class VirtualBoard {
 
   private happen(tick: number): void {
     const { core } = this;
-    const isOrderEnd = core.nextEventTick <= this.nextParseTick();
+    const isEvent = core.nextEventTick <= this.nextParseTick();
     core.nowTick = Math.max(core.nowTick, tick);
-    if (isOrderEnd) {
-      core.finishRunning();
+    if (isEvent) {
+      core.happen();
     } else {
       this.parserFreeTick = core.nowTick + this.parseTicks;
       this.interpreter.run(this.takeLine());

@@ -1,0 +1,235 @@
+/**
+ * Pens that land in flight: no mark beside a stroke, and none missing, whatever the servo does. The servo here is not
+ * the planner's: its speed, its frames and the height at which the tip touches are its own.
+ */
+import { readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { compile } from "../../../src/drivers/ebb/compile/compile.js";
+import { motionForFirmware } from "../../../src/drivers/ebb/protocol/firmware-motion.js";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  DEFAULT_PREPARE,
+  importSvg,
+  machineById,
+  plan,
+  prepare,
+  type MachineProfile,
+  type MotionSettings,
+  type PenSettings,
+  type StrokeSet,
+} from "../../../src/index.js";
+import { MOTION_MODES, type PenOverlap } from "../../../src/internal.js";
+import { strokeSetOf, type Point } from "../../support/arbitraries.js";
+import { cases } from "../../support/full-run.js";
+import { SPRINGS, swinging } from "../../support/swinging.js";
+import { tipMarks, type TipMarks, type TipServo } from "../../support/tip-marks.js";
+
+const unmeasured = machineById("axidraw-v3");
+const FIRMWARES = ["2.4.4", "2.5.3", "2.7.0", "2.8.1", "3.0.3"];
+const SAFE_MM = 0.15;
+const FAST_MM = 0.3;
+
+const penOf = (overlap: PenOverlap, more: Partial<PenSettings> = {}): PenSettings => ({
+  ...DEFAULT_PEN,
+  overlap,
+  ...more,
+});
+
+interface Job {
+  readonly strokes: StrokeSet;
+  readonly pen: PenSettings;
+  readonly motion?: MotionSettings;
+  readonly firmware?: string;
+  readonly machine?: MachineProfile;
+}
+
+function marksOf(
+  { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3", machine = unmeasured }: Job,
+  servo: TipServo,
+): TipMarks {
+  const trajectory = plan(strokes, motionForFirmware(motion, firmware), pen, { machine });
+  return tipMarks(trajectory, compile(trajectory, { machine, firmware, pen }), machine, pen, servo);
+}
+
+/** Strokes near together and far apart: the next one begins at a random distance from the last one's end. */
+const arbitraryStrokes: fc.Arbitrary<StrokeSet> = fc
+  .array(
+    fc.record({
+      gapMm: fc.oneof(
+        fc.double({ min: 0.05, max: 3, noNaN: true }),
+        fc.double({ min: 1, max: 120, noNaN: true }),
+      ),
+      turn: fc.double({ min: 0, max: 2 * Math.PI, noNaN: true }),
+      lengthMm: fc.oneof(fc.constant(0), fc.double({ min: 0.3, max: 20, noNaN: true })),
+      bend: fc.double({ min: -2, max: 2, noNaN: true }),
+    }),
+    { minLength: 2, maxLength: 8 },
+  )
+  .map((parts) => {
+    let [x, y] = [100, 100];
+    const strokes = parts.map(({ gapMm, turn, lengthMm, bend }): Point[] => {
+      x += gapMm * Math.cos(turn);
+      y += gapMm * Math.sin(turn);
+      if (lengthMm === 0) return [[x, y]];
+      const points: Point[] = [[x, y]];
+      for (let i = 0; i < 3; i++) {
+        x += (lengthMm / 3) * Math.cos(turn + i * bend);
+        y += (lengthMm / 3) * Math.sin(turn + i * bend);
+        points.push([x, y]);
+      }
+      return points;
+    });
+    return strokeSetOf(strokes);
+  });
+
+const arbitraryServo: fc.Arbitrary<TipServo> = fc.record({
+  speed: fc.oneof(fc.constantFrom(0.8, 1.2), fc.double({ min: 0.8, max: 1.2, noNaN: true })),
+  phaseMs: fc.double({ min: 0, max: 24, noNaN: true }),
+  contact: fc.oneof(fc.constantFrom(0.45, 0.55), fc.double({ min: 0.45, max: 0.55, noNaN: true })),
+});
+
+/** A servo that is as stated. */
+const arbitraryPhase: fc.Arbitrary<TipServo> = fc
+  .double({ min: 0, max: 24, noNaN: true })
+  .map((phaseMs) => ({ speed: 1, phaseMs, contact: 0.5 }));
+
+const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Job> =>
+  fc.record({
+    strokes: arbitraryStrokes,
+    pen: fc
+      .record({
+        liftMs: fc.integer({ min: 100, max: 400 }),
+        dropMs: fc.integer({ min: 100, max: 500 }),
+        fullHeightMm: fc.constantFrom(0, 5, 20, 1_000),
+      })
+      .map((more) => penOf(overlap, more)),
+    motion: fc
+      .record({ mode: fc.constantFrom(...MOTION_MODES), accel: fc.integer({ min: 200, max: 1_000 }) })
+      .map(({ mode, accel }) => ({
+        ...DEFAULT_MOTION,
+        mode,
+        travel: { ...DEFAULT_MOTION.travel, accelMmPerS2: accel },
+      })),
+    firmware: fc.constantFrom(...FIRMWARES),
+  });
+
+/** The motion is shaped for a machine that swings. */
+const shaped = (jobs: fc.Arbitrary<Job>, shaper: "zv" | "ei"): fc.Arbitrary<Job> =>
+  fc
+    .tuple(jobs, fc.constantFrom(...SPRINGS), fc.constantFrom("junction", "blend"))
+    .map(([job, springs, mode]): Job => ({
+      ...job,
+      motion: { ...(job.motion ?? DEFAULT_MOTION), mode, shaper },
+      firmware: job.firmware === "2.4.4" ? "2.5.3" : (job.firmware ?? "3.0.3"),
+      machine: swinging(springs),
+    }));
+
+describe("random drawings", () => {
+  it("are drawn without a stray mark and without a late start by a servo that differs: safe", () => {
+    fc.assert(
+      fc.property(arbitraryJob("safe"), arbitraryServo, (job, servo) => {
+        const marks = marksOf(job, servo);
+        expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
+        expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
+        expect(marks.brokenCount).toBe(0);
+      }),
+      { numRuns: cases() },
+    );
+  });
+
+  it("are drawn within 0.3 mm by a servo that is as stated: fast", () => {
+    fc.assert(
+      fc.property(arbitraryJob("fast"), arbitraryPhase, (job, servo) => {
+        const marks = marksOf(job, servo);
+        expect(marks.strayMm).toBeLessThanOrEqual(FAST_MM);
+        expect(marks.lateMm).toBeLessThanOrEqual(FAST_MM);
+        expect(marks.brokenCount).toBe(0);
+      }),
+      { numRuns: cases() },
+    );
+  });
+
+  it.each([
+    ["safe", SAFE_MM, "zv"],
+    ["fast", FAST_MM, "zv"],
+    ["safe", SAFE_MM, "ei"],
+  ] as const)(
+    "are drawn as well when the motion is shaped: %s, within %d mm, by %s",
+    (overlap, mm, shaper) => {
+      const servos = overlap === "safe" ? arbitraryServo : arbitraryPhase;
+      fc.assert(
+        fc.property(shaped(arbitraryJob(overlap), shaper), servos, (job, servo) => {
+          const marks = marksOf(job, servo);
+          expect(marks.strayMm).toBeLessThanOrEqual(mm);
+          expect(marks.lateMm).toBeLessThanOrEqual(mm);
+          expect(marks.brokenCount).toBe(0);
+        }),
+        { numRuns: cases() },
+      );
+    },
+  );
+});
+
+const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
+const samples = readdirSync(FOLDER).filter((name) => name.endsWith(".svg"));
+const sampleStrokes = (file: string): StrokeSet =>
+  prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes;
+const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
+
+describe.each(samples)("the sample %s", (file) => {
+  const strokes = sampleStrokes(file);
+
+  it.each([
+    { speed: 0.8, phaseMs: 1, contact: 0.55 },
+    { speed: 1.2, phaseMs: 13, contact: 0.55 },
+    { speed: 0.8, phaseMs: 23, contact: 0.45 },
+    { speed: 1.2, phaseMs: 7, contact: 0.45 },
+  ])("is drawn safely by a servo of $speed times the speed that touches at $contact", (servo) => {
+    const marks = marksOf({ strokes, pen: penOf("safe") }, servo);
+    expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
+    expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
+    expect(marks.brokenCount).toBe(0);
+  });
+
+  it("is drawn fast by a servo that is as stated", () => {
+    const marks = marksOf({ strokes, pen: penOf("fast") }, STATED);
+    expect(marks.strayMm).toBeLessThanOrEqual(FAST_MM);
+    expect(marks.lateMm).toBeLessThanOrEqual(FAST_MM);
+    expect(marks.brokenCount).toBe(0);
+  });
+
+  it("takes less time the more the pen overlaps", () => {
+    const [off, safe, fast] = (["off", "safe", "fast"] as const).map(
+      (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
+    );
+    expect(safe).toBeLessThan(off);
+    expect(fast).toBeLessThan(safe);
+  });
+});
+
+describe("the check itself", () => {
+  it("finds a planner that takes the tip to be clear at 30 % of the way", () => {
+    const strokes = sampleStrokes("moonrise.svg");
+    const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 30 }) }, STATED);
+    expect(marks.strayMm).toBeGreaterThan(SAFE_MM);
+  });
+
+  it("finds nothing where the carriage waits for the pen", () => {
+    const strokes = sampleStrokes("hello-paper.svg");
+    const marks = marksOf({ strokes, pen: penOf("off") }, STATED);
+    expect(marks.strayMm).toBeLessThan(1e-9);
+    expect([marks.lateMm, marks.brokenCount]).toEqual([0, 0]);
+  });
+});
+
+it("draws moonrise in 5 000 s safely and in 4 300 s fast", () => {
+  const strokes = sampleStrokes("moonrise.svg");
+  const [safe, fast] = (["safe", "fast"] as const).map(
+    (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
+  );
+  expect(safe).toBeLessThanOrEqual(5_000);
+  expect(fast).toBeLessThanOrEqual(4_300);
+});

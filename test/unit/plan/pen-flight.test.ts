@@ -1,0 +1,110 @@
+import { describe, expect, it } from "vitest";
+import {
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  plan,
+  stateAt,
+  type PenSettings,
+  type Trajectory,
+} from "../../../src/index.js";
+import { comeToRest } from "../../../src/plan/come-to-rest.js";
+import { penMovesOf } from "../../../src/plan/pen-moves.js";
+import { placeAt } from "../../../src/plan/place-on-plan.js";
+import { strokeSetOf } from "../../support/arbitraries.js";
+import { SPRINGS, swinging } from "../../support/swinging.js";
+
+const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
+const SAFE: PenSettings = { ...DEFAULT_PEN, overlap: "safe" };
+
+/** A stroke, a short way, a stroke, a long way, a stroke, the way home. */
+const planned = (pen: PenSettings): Trajectory =>
+  plan(
+    strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
+    DEFAULT_MOTION,
+    pen,
+  );
+
+/** The same on a machine that swings. */
+const shaped = (pen: PenSettings): Trajectory =>
+  plan(
+    strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
+    { ...DEFAULT_MOTION, shaper: "zv" },
+    pen,
+    { machine: swinging(SPRINGS[0]) },
+  );
+
+describe("a pen in flight", () => {
+  it("rises to 65 % of the way for a short travel, and to its full height for a long one", () => {
+    for (const pen of [SAFE, FAST]) {
+      const lifts = penMovesOf(planned(pen)).filter(({ up, waitS }) => up && waitS > 0);
+      expect(lifts.map(({ heightPct }) => heightPct)).toEqual([30 + 0.65 * 30, 60, 60]);
+    }
+  });
+
+  it("lets the carriage start when the tip is clear, a frame of the servo later", () => {
+    const waitOf = (pen: PenSettings): number => penMovesOf(planned(pen)).find(({ up }) => up)!.waitS;
+    expect(waitOf(SAFE)).toBeCloseTo(0.024 + 0.65 * 0.25, 9);
+    expect(waitOf(FAST)).toBeCloseTo(0.024 + 0.5 * 0.25, 9);
+  });
+
+  it("comes down within 0.1 mm of the next stroke at a height that is clear of the paper", () => {
+    const t = planned(SAFE);
+    const drops = penMovesOf(t).filter(({ up }) => !up);
+    for (const { startS, beforeRun } of drops.slice(1)) {
+      const block = t.runs.firstBlock[beforeRun];
+      const { x, y, stroke } = stateAt(t, startS);
+      expect(stroke).toBe(-1);
+      const awayMm = Math.hypot(x - t.x[block], y - t.y[block]);
+      expect(awayMm).toBeGreaterThan(0.05);
+      expect(awayMm).toBeLessThanOrEqual(0.1 + 1e-6);
+    }
+  });
+
+  it("waits for the whole first drop, because the height of the pen is not known", () => {
+    const [drop] = penMovesOf(planned(FAST));
+    expect([drop.startS, drop.waitS]).toEqual([0, 0.3]);
+  });
+
+  it("hovers at the lower height before it comes down from the full one", () => {
+    const moves = penMovesOf(planned(SAFE));
+    const hover = moves.findIndex(({ up, waitS }) => up && waitS === 0);
+    expect(moves[hover].heightPct).toBe(30 + 0.65 * 30);
+    expect(moves[hover + 1].up).toBe(false);
+    expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
+  });
+
+  it("goes on to the stroke's start and lifts there, when it is stopped while it comes down", () => {
+    for (const [t, pen] of [SAFE, FAST].flatMap((p) => [planned(p), shaped(p)].map((u) => [u, p] as const))) {
+      const limits = { drawAccel: 500, travelAccel: 1_000 };
+      for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
+        const block = t.runs.firstBlock[drop.beforeRun];
+        const endS = t.runs.startS[drop.beforeRun] - drop.waitS;
+        for (const share of [0.05, 0.5, 0.95]) {
+          const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, pen);
+          expect(rest.trajectory.endX).toBeCloseTo(t.x[block], 6);
+          expect(rest.trajectory.endY).toBeCloseTo(t.y[block], 6);
+          const [lift] = penMovesOf(rest.trajectory);
+          expect([lift.up, lift.heightPct, lift.waitS]).toEqual([true, 60, 0.25]);
+          expect(placeAt(t, rest.planS)).toEqual({ stroke: t.runs.stroke[drop.beforeRun], alongMm: 0 });
+        }
+        // Before the drop it stops where it can, and the pen is up.
+        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory)).toEqual([]);
+      }
+    }
+  });
+
+  it("keeps the times of a pen that rises and sinks at a rate of its own", () => {
+    const gentle = { liftPctPerS: 60, dropPctPerS: 20 };
+    expect(planned({ ...FAST, ...gentle })).toEqual(planned({ ...DEFAULT_PEN, overlap: "off", ...gentle }));
+  });
+
+  it("waits before a layer at full height, and then for the whole drop", () => {
+    const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 1], [0, 1]]], [0, 1]); // prettier-ignore
+    const pen = { ...FAST, layers: { l1: { beforeMs: 3_000 } } };
+    const moves = penMovesOf(plan(strokes, DEFAULT_MOTION, pen));
+    expect(moves.map(({ up, waitS, heightPct }) => [up, waitS, heightPct]).slice(2, 4)).toEqual([
+      [true, 3, 60],
+      [false, 0.3, 30],
+    ]);
+  });
+});
