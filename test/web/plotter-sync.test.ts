@@ -234,7 +234,13 @@ describe("what a browser kept before the server did", () => {
     const kept = readKeptHere(texts);
     expect(await page.actions.takeOverKept(kept!)).toBe(true);
     for (const id of ["left", "right"]) {
-      expect(plotters.stored[id].pen).toEqual({ upPct: 66, downPct: 41, liftMs: 200, dropMs: 210 });
+      expect(plotters.stored[id].pen).toEqual({
+        ...DEFAULT_PLOT_SETTINGS.pen,
+        upPct: 66,
+        downPct: 41,
+        liftMs: 200,
+        dropMs: 210,
+      });
       expect(plotters.stored[id].pens.map(({ name }) => name)).toEqual(["Gold"]);
       expect(plotters.stored[id].presets.map(({ name }) => name)).toEqual(["Brush"]);
     }
