@@ -48,8 +48,9 @@ describe("what a browser kept before the server did", () => {
       );
       await page.reload();
       await expect.poll(storedPen).toMatchObject({ upPct: 66, downPct: 41 });
-      const { plotters, plotterSettings } = await state();
-      expect(plotters[0].machine).toBe("axidraw-se-a3");
+      // The model follows by a request of its own.
+      await expect.poll(async () => (await state()).plotters[0].machine).toBe("axidraw-se-a3");
+      const { plotterSettings } = await state();
       expect(plotterSettings["main"].presets.map(({ name }) => name)).toEqual(["Brush"]);
       const context = await test.browser.newContext({ viewport: { width: 390, height: 844 } });
       phone = await context.newPage();
