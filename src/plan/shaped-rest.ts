@@ -2,7 +2,7 @@
  * A stop in a shaped motion: the planned motion brakes, and goes through the shaper as the rest of it would have, so
  * that the pen does not swing afterwards.
  *
- *   planned   ──window──|──braking──|            window: what the shaper still remembers at the stop
+ *   planned   ──recent──|──braking──|            recent: what the shaper still remembers at the stop
  *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
  */
 import { BlockColumns } from "./block-columns.js";
@@ -36,21 +36,21 @@ export function shapeRest(
   braking: BlockColumns,
   end: { readonly x: number; readonly y: number; readonly alongMm: number },
 ): ShapedRest {
-  const window = new BlockColumns(0, false);
-  addWindow(planned, run, tS - kernel.lengthS, tS, window);
-  for (let k = 0; k < braking.count; k++) window.pushFrom(braking, k);
+  const recent = new BlockColumns(0, false);
+  addWindow(planned, run, tS - kernel.lengthS, tS, recent);
+  for (let k = 0; k < braking.count; k++) recent.pushFrom(braking, k);
   const whole = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);
-  if (window.count === 0) return { planned: window, shaped };
-  whole.clockS = window.startS[0];
-  const blocks = window.count;
-  writeFiltered(window, { ...end, segmentCount: 0 }, kernel, whole);
+  if (recent.count === 0) return { planned: recent, shaped };
+  whole.clockS = recent.startS[0];
+  const blocks = recent.count;
+  writeFiltered(recent, { ...end, segmentCount: 0 }, kernel, whole);
   // Without the rests that the filter adds.
-  window.count = blocks;
+  recent.count = blocks;
   const exact = new BlockColumns(0, false);
   addAfter(whole, exact);
   joinFrom(carriage, exact, end, shaped);
-  return { planned: window, shaped };
+  return { planned: recent, shaped };
 }
 
 /**
