@@ -138,10 +138,13 @@ export type { PlotProgress } from "./drivers/run-progress.js";
 // ringing sheet
 export {
   frequencyOfRipples,
+  NEXT_STAIRS_MM,
   ringingChecks,
   RINGING_MOTION,
   RINGING_SPEEDS,
   ringingSheet,
+  STAIRS_MM,
+  stairsPath,
   type RingingCheck,
 } from "./job/ringing-sheet.js";
 

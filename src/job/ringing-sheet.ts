@@ -19,8 +19,10 @@ export const RINGING_SPEEDS: readonly number[] = [30, 50, 75].map((speed) => spe
 /** Side of a step, mm. */
 const STEP_MM = 25;
 const STEPS = 3;
-/** Where a figure begins below the one before, mm. */
-const NEXT_MM = 12;
+/** Width and height of a figure, mm. */
+export const STAIRS_MM = STEPS * STEP_MM;
+/** Each figure is this far to the right of and above the one before, mm, so that no lines touch. */
+export const NEXT_STAIRS_MM = 12;
 /** The page: broader than high, so that it is not turned on the paper, with room for margins. */
 const PAGE_MM = { width: 150, height: 148 };
 const FROM_MM = 22;
@@ -37,7 +39,7 @@ export const RINGING_MOTION: MotionSettings = {
 export function ringingSheet(): string {
   const layers = RINGING_SPEEDS.map((speed, i) => {
     const label = `${i + 1}+s${codeOfSpeed(speed)} ${speed} mm/s`;
-    return `<g inkscape:groupmode="layer" id="v${i + 1}" inkscape:label="${label}">${stairs(i * NEXT_MM)}</g>`;
+    return `<g inkscape:groupmode="layer" id="v${i + 1}" inkscape:label="${label}">${stairs(i)}</g>`;
   });
   return svg(layers.join("\n"));
 }
@@ -76,10 +78,15 @@ export function frequencyOfRipples(speedMmPerS: number, ripples: number, overMm:
   return hz;
 }
 
-/** A line of steps, down and to the right. */
-function stairs(topMm: number): string {
-  const steps = Array.from({ length: STEPS }, () => `v${STEP_MM}h${STEP_MM}`).join("");
-  return `<path d="M${FROM_MM} ${FROM_MM + topMm}${steps}" fill="none" stroke="#000"/>`;
+/** Path data of a figure: a line of steps, down and to the right. */
+export const stairsPath = (xMm: number, yMm: number): string =>
+  `M${xMm} ${yMm}${`v${STEP_MM}h${STEP_MM}`.repeat(STEPS)}`;
+
+/** The sheet's figure of the i-th speed; the first is at the bottom left. */
+function stairs(i: number): string {
+  const xMm = FROM_MM + i * NEXT_STAIRS_MM;
+  const yMm = FROM_MM + (RINGING_SPEEDS.length - 1 - i) * NEXT_STAIRS_MM;
+  return `<path d="${stairsPath(xMm, yMm)}" fill="none" stroke="#000"/>`;
 }
 
 const svg = (content: string): string =>

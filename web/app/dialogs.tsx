@@ -8,6 +8,7 @@ const AboutDialog = lazyPart(async () => (await import("./about.js")).AboutDialo
 const Wizard = lazyPart(async () => (await import("../plotter/wizard.js")).Wizard);
 const MachinesDialog = lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog);
 const Console = lazyPart(async () => (await import("../plotter/console.js")).Console);
+const RingingDialog = lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog);
 const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
 
 /** The sheet that lies over the page, if any. */
@@ -28,6 +29,8 @@ export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
       return <Console />;
     case "studio":
       return <StudioDialog />;
+    case "ringing":
+      return <RingingDialog />;
     case null:
       return null;
   }

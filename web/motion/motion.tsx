@@ -1,174 +1,109 @@
-import { useId } from "react";
-import {
-  DRAW_TABLE,
-  EASE_TABLE,
-  FIT_TABLE,
-  STREAM_TABLE,
-  TRAVEL_TABLE,
-  DEFAULT_FIT,
-  MOTION_MODES,
-  type MotionLimits,
-  type MotionMode,
-} from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { QUALITIES, qualityOf, type Quality } from "../../src/internal.js";
+import { withQuality } from "../state/motion-of-machine.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { motionText } from "./text.js";
-import { Switch } from "../ui/choice.js";
-import { formatNumber } from "../ui/format.js";
-import { SettingField } from "../ui/setting-field.js";
-import { CornerPicture } from "./corner-picture.js";
+import { Segments } from "../ui/choice.js";
+import { formatInUnit, formatNumber } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
+import { useSprings } from "./use-springs.js";
 
 const words = motionText;
-type MotionSettings = PlotSettings["motion"];
+const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);
+/** Remembered like the groups. */
+const DETAILS_ID = "motion-details";
 
-/** What slow-in starts with when it is switched on. */
-const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TABLE.speedMmPerS.default };
-
-const useMotionChange = () => {
-  const { changeSettings } = useActions();
-  return (what: string, change: Partial<MotionSettings>): void =>
-    changeSettings(`motion ${what}`, (settings) => ({
-      ...settings,
-      motion: { ...settings.motion, ...change },
-    }));
-};
-
+/** Speed, acceleration and corners in three steps; the numbers behind them are folded. */
 export const MotionPanel = () => {
   const motion = usePageState((state) => state.settings.motion);
+  const springs = useSprings();
+  const chosen = qualityOf(motion, springs) ?? "custom";
+  const summary = `${words.qualities[chosen]}, ${formatNumber(motion.draw.speedMmPerS)} mm/s`;
   return (
-    <SettingsGroup id="motion" title={words.title} summary={`${formatNumber(motion.draw.speedMmPerS)} mm/s`}>
-      <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
-      <ModeChoice mode={motion.mode} />
-      <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
-      <Refinements motion={motion} />
-      <SendAhead />
+    <SettingsGroup id="motion" title={words.title} summary={summary}>
+      <QualityChoice chosen={chosen} />
+      <Swing />
+      <Details />
     </SettingsGroup>
   );
 };
 
-const ModeChoice = ({ mode }: { mode: MotionMode }) => {
-  const name = useId();
-  const change = useMotionChange();
-  return (
-    <fieldset className="subgroup">
-      <legend>{words.mode}</legend>
-      <div className="mode-choice">
-        {MOTION_MODES.map((value) => (
-          <label key={value} className="mode-option">
-            <input
-              type="radio"
-              name={name}
-              checked={value === mode}
-              onChange={() => change("mode", { mode: value })}
-            />
-            <span>
-              <CornerPicture mode={value} />
-              {words.modes[value].name}
-            </span>
-          </label>
-        ))}
-      </div>
-      <p className="note">{words.modes[mode].hint}</p>
-    </fieldset>
-  );
-};
-
-interface LimitFieldsProps {
-  readonly which: "draw" | "travel";
-  readonly title: string;
-  readonly limits: MotionLimits;
-  readonly mode: MotionMode;
-}
-
-const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
-  const changeMotion = useMotionChange();
-  const table = which === "draw" ? DRAW_TABLE : TRAVEL_TABLE;
-  const change = (part: Partial<MotionLimits>): void =>
-    changeMotion(`${which} ${Object.keys(part).join()}`, { [which]: { ...limits, ...part } });
-  return (
-    <fieldset className="subgroup">
-      <legend>{title}</legend>
-      <SettingField
-        setting={table.speedMmPerS}
-        value={limits.speedMmPerS}
-        onChange={(speedMmPerS) => change({ speedMmPerS })}
-      />
-      <SettingField
-        setting={table.accelMmPerS2}
-        value={limits.accelMmPerS2}
-        onChange={(accelMmPerS2) => change({ accelMmPerS2 })}
-      />
-      {which === "draw" && (
-        <SettingField
-          setting={table.cornerMm}
-          value={limits.cornerMm}
-          hint={words.cornerHint}
-          onChange={(cornerMm) => change({ cornerMm })}
-        />
-      )}
-      {mode === "scurve" && (
-        <SettingField
-          setting={table.jerkMmPerS3}
-          value={limits.jerkMmPerS3}
-          hint={words.jerkHint}
-          onChange={(jerkMmPerS3) => change({ jerkMmPerS3 })}
-        />
-      )}
-    </fieldset>
-  );
-};
-
-const SendAhead = () => {
-  const sendAheadMs = usePageState((state) => state.settings.sendAheadMs);
+const QualityChoice = ({ chosen }: { chosen: Quality | "custom" }) => {
+  const { draw } = usePageState((state) => state.settings.motion);
+  const lengthUnit = usePageState((state) => state.view.lengthUnit);
+  const springs = useSprings();
   const { changeSettings } = useActions();
+  const steps = QUALITIES.map((value) => ({
+    value,
+    label: words.qualities[value],
+    isOff: springs === null && value !== "normal",
+  }));
+  const hint = springs === null && chosen === "normal" ? words.plainHint : words.hints[chosen];
   return (
-    <SettingField
-      setting={STREAM_TABLE.sendAheadMs}
-      value={sendAheadMs}
-      hint={words.sendAheadHint}
-      onChange={(value) => changeSettings("send ahead", (settings) => ({ ...settings, sendAheadMs: value }))}
-    />
+    <div className="quality">
+      <Segments<Quality | "custom">
+        label={words.quality}
+        value={chosen}
+        options={chosen === "custom" ? [...steps, { value: "custom", label: words.qualities.custom }] : steps}
+        onChange={(quality) => {
+          if (quality === "custom") return;
+          changeSettings("quality", (settings) => ({
+            ...settings,
+            motion: withQuality(settings.motion, quality, springs),
+          }));
+        }}
+      />
+      <p className="note">{hint}</p>
+      <p className="note">
+        {words.figures(
+          formatNumber(draw.speedMmPerS),
+          formatNumber(draw.accelMmPerS2),
+          `${formatInUnit(draw.cornerMm, lengthUnit, 3)} ${lengthUnit}`,
+        )}
+      </p>
+    </div>
   );
 };
 
-const Refinements = ({ motion }: { motion: MotionSettings }) => {
-  const change = useMotionChange();
-  const { ease, fit } = motion;
+/** How the machine swings, or why to measure it. */
+const Swing = () => {
+  const springs = useSprings();
+  const store = usePageStore();
+  const note =
+    springs === null
+      ? words.unmeasured
+      : words.measured(formatNumber(springs.xHz, 1), formatNumber(springs.yHz, 1));
   return (
-    <div className="subgroup refinements">
-      <Switch
-        label={words.ease}
-        isOn={Boolean(ease)}
-        onChange={(isOn) => change("ease", { ease: isOn ? FIRST_EASE : null })}
-      />
-      {ease && (
-        <div className="field-pair">
-          <SettingField
-            setting={EASE_TABLE.lengthMm}
-            value={ease.lengthMm}
-            onChange={(lengthMm) => change("ease length", { ease: { ...ease, lengthMm } })}
-          />
-          <SettingField
-            setting={EASE_TABLE.speedMmPerS}
-            value={ease.speedMmPerS}
-            onChange={(speedMmPerS) => change("ease speed", { ease: { ...ease, speedMmPerS } })}
-          />
-        </div>
-      )}
-      <Switch
-        label={words.fit}
-        isOn={Boolean(fit)}
-        onChange={(isOn) => change("fit", { fit: isOn ? DEFAULT_FIT : null })}
-      />
-      {fit && (
-        <SettingField
-          setting={FIT_TABLE.toleranceMm}
-          value={fit.toleranceMm}
-          hint={words.fitHint}
-          onChange={(toleranceMm) => change("fit tolerance", { fit: { ...fit, toleranceMm } })}
-        />
-      )}
+    <div className="swing" data-measured={springs !== null || undefined}>
+      <p className="note">{note}</p>
+      <button
+        type="button"
+        className={springs === null ? "button button-small" : "link"}
+        onClick={() => store.setState({ openDialog: "ringing" })}
+      >
+        {springs === null ? words.measure : words.measureAgain}
+      </button>
     </div>
+  );
+};
+
+const Details = () => {
+  const openGroups = usePageState((state) => state.view.openGroups);
+  const { changeView } = useActions();
+  const isOpen = openGroups.includes(DETAILS_ID);
+  return (
+    <details
+      className="more"
+      open={isOpen}
+      onToggle={(event) => {
+        const isNow = event.currentTarget.open;
+        if (isNow === isOpen) return;
+        const others = openGroups.filter((id) => id !== DETAILS_ID);
+        changeView({ openGroups: isNow ? [...others, DETAILS_ID] : others });
+      }}
+    >
+      <summary>{words.details}</summary>
+      {isOpen && <MotionDetails />}
+    </details>
   );
 };

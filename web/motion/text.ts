@@ -1,29 +1,21 @@
-/** Words of the speeds. */
+/** Words of the quality. */
 export const motionText = {
   title: "Speed",
-  drawing: "Pen down",
-  travelling: "Pen up",
-  cornerHint:
-    "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
-  jerkHint: "How fast the acceleration may change. Less is softer and slower.",
-  mode: "Corners",
-  modes: {
-    junction: {
-      name: "Exact",
-      hint: "Slows down for every corner and turns on the point. The line is exactly the file’s.",
-    },
-    blend: {
-      name: "Rounded",
-      hint: "Sweeps through corners on a tiny curve: quicker, quieter, and the pen never jerks.",
-    },
-    scurve: {
-      name: "Gentle",
-      hint: "As rounded, and speeds up and slows down softly too. Kindest to brush pens and tall machines.",
-    },
+  quality: "Quality",
+  qualities: { fine: "Fine", normal: "Normal", fast: "Fast", custom: "Custom" },
+  hints: {
+    fine: "Closest to the drawing, and still quicker than without the measured swing.",
+    normal: "Quicker, and close to the drawing.",
+    fast: "Quickest. The line is about as exact as an unmeasured plotter’s.",
+    custom: "Numbers of your own, under Details. A step above replaces them.",
   },
-  ease: "Begin and end strokes slowly",
-  fit: "Draw dense curves in long sweeps",
-  sendAheadHint:
-    "Before firmware 3 the board still plays this after an emergency stop. Less stops sooner, but then the pen may pause where this computer is busy.",
-  fitHint: "Fewer, longer commands to the board, so that long curves run without stutter.",
+  plainHint: "Suits any plotter.",
+  figures: (speed: string, accel: string, corner: string) =>
+    `Pen down: up to ${speed} mm/s, ${accel} mm/s², corners rounded by ${corner}`,
+  unmeasured:
+    "Fine and Fast need to know how your plotter swings. Ten minutes with the ringing sheet make it quicker and more exact.",
+  measured: (x: string, y: string) => `This plotter swings at ${x} Hz along x and ${y} Hz along y.`,
+  measure: "Measure ringing…",
+  measureAgain: "Measure again…",
+  details: "Details",
 };

@@ -33,6 +33,7 @@ export const MachinePanel = () => {
       <p className="link-row">
         {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
         {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
+        {isMine && <DialogLink name="ringing">{words.ringing}</DialogLink>}
         {isMine && <DialogLink name="console">{words.console}</DialogLink>}
         {plotter && (
           <a className="link" href={backend.logHref(plotter.id)} download>

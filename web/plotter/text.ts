@@ -20,6 +20,7 @@ export const plotterText = {
   moves: "Move by hand",
   setUp: "Set up a plotter…",
   profiles: "Machines…",
+  ringing: "Measure ringing…",
   console: "Console",
   log: "Save the log of the connection",
   held: "Paused",

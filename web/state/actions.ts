@@ -394,17 +394,21 @@ export const createActions = (deps: ActionDeps) => {
       changePresets(`keep ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
-    /** Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. */
-    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<void> => {
+    /**
+     * Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. Null: it
+     * could not be added, and the user has been told.
+     */
+    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
       const plotterId = currentPlotter(store.getState())?.id;
       const job = await attempt("add", () =>
         backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
       );
-      if (!job) return;
+      if (!job) return null;
       store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
       if (activeJob(store.getState()) === null)
         await attempt("plot", () => backend.actOnJob(job.id, "start"));
       else notify("info", stateText.added(job.name));
+      return job;
     },
     removePreset: (name: string): void =>
       changePresets(`forget ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),

@@ -6,6 +6,7 @@ import { z } from "zod";
 import { findMachine, LENGTH_UNITS, type LengthUnit } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
+import { plannable } from "./motion-of-machine.js";
 
 export const PAGE_KEY = "plotwright.page.v1";
 
@@ -80,8 +81,9 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const result = plotSettingsSchema.safeParse(Object.fromEntries(parts));
   if (!result.success) return DEFAULT_PLOT_SETTINGS;
   // A machine whose profile does not parse any more is no machine.
-  const isKnown = findMachine(result.data) !== null;
-  return isKnown ? result.data : { ...result.data, machine: DEFAULT_PLOT_SETTINGS.machine };
+  const machine = findMachine(result.data);
+  const motion = plannable(result.data.motion, machine?.springs ?? null);
+  return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
 };
 
 /** How many values of a part are replaced one by one; a part with more faults than that is replaced as a whole. */

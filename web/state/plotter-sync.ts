@@ -4,6 +4,7 @@
  * Without the server the page plans with the values it has; when the server is back, the plotter's values apply.
  */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   machineProfileSchema,
@@ -14,6 +15,7 @@ import {
   type PlotterSettings,
 } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
+import { motionForSprings } from "./motion-of-machine.js";
 import {
   ACTIVE_STATES,
   currentPlotter,
@@ -158,13 +160,18 @@ export const openedSettings = (state: PageState, job: Job): PlotSettings => {
   return withPlotterPart(withMachine(job.settings, profileOf(state, plotter.machine)), own);
 };
 
-/** The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. */
+/**
+ * The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. A step of
+ * quality stays the same step, with this machine's numbers.
+ */
 export const withMachine = (settings: PlotSettings, profile: MachineProfile | null): PlotSettings => {
   if (profile === null) return settings;
   const isKnown = MACHINES.some(({ id }) => id === profile.id);
+  const springs = findMachine(settings)?.springs ?? null;
   return {
     ...settings,
     machine: profile.id,
+    motion: motionForSprings(settings.motion, springs, profile.springs ?? null),
     customMachine: isKnown ? null : machineProfileSchema.parse(profile),
   };
 };

@@ -1,5 +1,7 @@
 /** Named settings for a pen or a paper: they belong to the plotter, and are stored with it on the server. */
+import { findMachine } from "../../src/internal.js";
 import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
+import { plannable } from "./motion-of-machine.js";
 import type { TextStore } from "./persist.js";
 
 /** Where earlier versions kept them in the browser. */
@@ -7,7 +9,7 @@ export const PRESETS_KEY = "plotwright.presets.v1";
 
 export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
   ...settings,
-  motion,
+  motion: plannable(motion, findMachine(settings)?.springs ?? null),
   pen,
   ...pens,
   prepare: { ...settings.prepare, ...layers },

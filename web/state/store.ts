@@ -71,7 +71,7 @@ interface TakeOverQuestion {
 }
 
 /** Sheets over the page, one at a time. */
-export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio";
+export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio" | "ringing";
 
 /** What undo brings back. */
 export type UndoStep = Pick<PageState, "settings" | "presets">;

@@ -4,6 +4,8 @@ export interface ChoiceOption<T extends string> {
   readonly value: T;
   readonly label: string;
   readonly icon?: ReactNode;
+  /** It cannot be chosen now. */
+  readonly isOff?: boolean;
 }
 
 interface ChoiceProps<T extends string> {
@@ -33,6 +35,7 @@ export const Segments = <T extends string>({
               type="radio"
               name={name}
               checked={option.value === value}
+              disabled={option.isOff}
               onChange={() => onChange(option.value)}
             />
             <span>

@@ -1,0 +1,201 @@
+import { useId } from "react";
+import {
+  DRAW_TABLE,
+  EASE_TABLE,
+  FIT_TABLE,
+  STREAM_TABLE,
+  TRAVEL_TABLE,
+  DEFAULT_FIT,
+  MOTION_MODES,
+  SHAPERS,
+  type MotionLimits,
+  type MotionMode,
+  type Shaper,
+} from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { detailsText } from "./details-text.js";
+import { Select, Switch } from "../ui/choice.js";
+import { SettingField } from "../ui/setting-field.js";
+import { CornerPicture } from "./corner-picture.js";
+import { useSprings } from "./use-springs.js";
+import "./motion-details.css";
+
+const words = detailsText;
+type MotionSettings = PlotSettings["motion"];
+
+/** What slow-in starts with when it is switched on. */
+const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TABLE.speedMmPerS.default };
+
+const useMotionChange = () => {
+  const { changeSettings } = useActions();
+  return (what: string, change: Partial<MotionSettings>): void =>
+    changeSettings(`motion ${what}`, (settings) => ({
+      ...settings,
+      motion: { ...settings.motion, ...change },
+    }));
+};
+
+/** The numbers behind a step of quality, and all that a step leaves as it is. */
+export const MotionDetails = () => {
+  const motion = usePageState((state) => state.settings.motion);
+  return (
+    <>
+      <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
+      <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
+      <ShaperSelect shaper={motion.shaper ?? "none"} />
+      <ModeChoice mode={motion.mode} />
+      <Refinements motion={motion} />
+      <SendAhead />
+    </>
+  );
+};
+
+/** Only where the machine was measured: every other one is drawn without. */
+const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
+  const springs = useSprings();
+  const motion = usePageState((state) => state.settings.motion);
+  const change = useMotionChange();
+  if (springs === null) return null;
+  const choose = (chosen: Shaper): void => {
+    const mode = chosen !== "none" && motion.mode === "scurve" ? "blend" : motion.mode;
+    change("shaper", { shaper: chosen, mode });
+  };
+  return (
+    <Select
+      label={words.shaper}
+      value={shaper}
+      options={SHAPERS.map((value) => ({ value, label: words.shapers[value] }))}
+      onChange={choose}
+    />
+  );
+};
+
+const ModeChoice = ({ mode }: { mode: MotionMode }) => {
+  const name = useId();
+  const change = useMotionChange();
+  return (
+    <fieldset className="subgroup">
+      <legend>{words.mode}</legend>
+      <div className="mode-choice">
+        {MOTION_MODES.map((value) => (
+          <label key={value} className="mode-option">
+            <input
+              type="radio"
+              name={name}
+              checked={value === mode}
+              // Gentle is a filter of its own, and a motion has only one.
+              onChange={() =>
+                change("mode", value === "scurve" ? { mode: value, shaper: "none" } : { mode: value })
+              }
+            />
+            <span>
+              <CornerPicture mode={value} />
+              {words.modes[value].name}
+            </span>
+          </label>
+        ))}
+      </div>
+      <p className="note">{words.modes[mode].hint}</p>
+    </fieldset>
+  );
+};
+
+interface LimitFieldsProps {
+  readonly which: "draw" | "travel";
+  readonly title: string;
+  readonly limits: MotionLimits;
+  readonly mode: MotionMode;
+}
+
+const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
+  const changeMotion = useMotionChange();
+  const table = which === "draw" ? DRAW_TABLE : TRAVEL_TABLE;
+  const change = (part: Partial<MotionLimits>): void =>
+    changeMotion(`${which} ${Object.keys(part).join()}`, { [which]: { ...limits, ...part } });
+  return (
+    <fieldset className="subgroup">
+      <legend>{title}</legend>
+      <SettingField
+        setting={table.speedMmPerS}
+        value={limits.speedMmPerS}
+        onChange={(speedMmPerS) => change({ speedMmPerS })}
+      />
+      <SettingField
+        setting={table.accelMmPerS2}
+        value={limits.accelMmPerS2}
+        onChange={(accelMmPerS2) => change({ accelMmPerS2 })}
+      />
+      {which === "draw" && (
+        <SettingField
+          setting={table.cornerMm}
+          value={limits.cornerMm}
+          hint={words.cornerHint}
+          onChange={(cornerMm) => change({ cornerMm })}
+        />
+      )}
+      {mode === "scurve" && (
+        <SettingField
+          setting={table.jerkMmPerS3}
+          value={limits.jerkMmPerS3}
+          hint={words.jerkHint}
+          onChange={(jerkMmPerS3) => change({ jerkMmPerS3 })}
+        />
+      )}
+    </fieldset>
+  );
+};
+
+const SendAhead = () => {
+  const sendAheadMs = usePageState((state) => state.settings.sendAheadMs);
+  const { changeSettings } = useActions();
+  return (
+    <SettingField
+      setting={STREAM_TABLE.sendAheadMs}
+      value={sendAheadMs}
+      hint={words.sendAheadHint}
+      onChange={(value) => changeSettings("send ahead", (settings) => ({ ...settings, sendAheadMs: value }))}
+    />
+  );
+};
+
+const Refinements = ({ motion }: { motion: MotionSettings }) => {
+  const change = useMotionChange();
+  const { ease, fit } = motion;
+  return (
+    <div className="subgroup refinements">
+      <Switch
+        label={words.ease}
+        isOn={Boolean(ease)}
+        onChange={(isOn) => change("ease", { ease: isOn ? FIRST_EASE : null })}
+      />
+      {ease && (
+        <div className="field-pair">
+          <SettingField
+            setting={EASE_TABLE.lengthMm}
+            value={ease.lengthMm}
+            onChange={(lengthMm) => change("ease length", { ease: { ...ease, lengthMm } })}
+          />
+          <SettingField
+            setting={EASE_TABLE.speedMmPerS}
+            value={ease.speedMmPerS}
+            onChange={(speedMmPerS) => change("ease speed", { ease: { ...ease, speedMmPerS } })}
+          />
+        </div>
+      )}
+      <Switch
+        label={words.fit}
+        isOn={Boolean(fit)}
+        onChange={(isOn) => change("fit", { fit: isOn ? DEFAULT_FIT : null })}
+      />
+      {fit && (
+        <SettingField
+          setting={FIT_TABLE.toleranceMm}
+          value={fit.toleranceMm}
+          hint={words.fitHint}
+          onChange={(toleranceMm) => change("fit tolerance", { fit: { ...fit, toleranceMm } })}
+        />
+      )}
+    </div>
+  );
+};

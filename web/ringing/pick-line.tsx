@@ -1,0 +1,146 @@
+import { useEffect, useRef, useState } from "react";
+import { ringingChecks, type Springs } from "../../src/internal.js";
+import type { Job } from "../../src/schema/index.js";
+import { usePageState, usePageStore, useActions } from "../state/use-store.js";
+import type { PageStore } from "../state/store.js";
+import { ringingText } from "./ringing-text.js";
+import { formatNumber } from "../ui/format.js";
+import { checkJobs, sheetPlace, type SheetJob } from "./ringing-job.js";
+import { SheetPicture } from "./sheet-picture.js";
+import { useSprings } from "../motion/use-springs.js";
+import { useStoreSprings } from "./use-store-springs.js";
+
+const words = ringingText;
+
+/** The second sheet: which of six lines is the straightest? */
+export const PickLine = () => {
+  const springs = useSprings();
+  // A pick changes the machine's springs: the lines on the sheet stay those that were plotted.
+  const [plotted, setPlotted] = useState(springs);
+  const shown = plotted ?? springs;
+  if (shown === null) return <p className="note">{words.pickNeeds}</p>;
+  return <Lines springs={shown} onPlot={() => setPlotted(shown)} />;
+};
+
+const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
+  const settings = usePageState((state) => state.settings);
+  const known = useSprings();
+  const store = useStoreSprings();
+  const [isUnshapedPicked, setUnshapedPicked] = useState(false);
+  const { run, at, hasStopped } = useSheetPlot();
+  const checks = ringingChecks(springs);
+  const labels = checks.map((check) =>
+    check.springs === null
+      ? words.unshaped
+      : words.shapedFor(formatNumber(check.springs.xHz, 1), formatNumber(check.springs.yHz, 1)),
+  );
+  const place = sheetPlace(settings, checks.length);
+  const chosen = isUnshapedPicked ? 0 : checks.findIndex((check) => isStored(check.springs, known));
+  const pick = (index: number): void => {
+    const picked = checks[index].springs;
+    setUnshapedPicked(picked === null);
+    if (picked !== null) void store(picked);
+  };
+  const plot = (): void => {
+    onPlot();
+    void run(checkJobs(settings, springs, ({ factor }) => words.checkJobName(factor)));
+  };
+  return (
+    <>
+      <section className="ringing-plot">
+        <h3>{words.pickTitle}</h3>
+        <p className="note">{words.pickHint}</p>
+        <button
+          type="button"
+          className="button button-primary"
+          disabled={place === null || at !== null}
+          onClick={plot}
+        >
+          {at === null ? words.plotChecks : words.plottingCheck(at + 1, checks.length)}
+        </button>
+        {hasStopped && (
+          <p className="note note-error" role="alert">
+            {words.stopped}
+          </p>
+        )}
+      </section>
+      <div className="ringing-pick">
+        <SheetPicture
+          labels={labels}
+          nextMm={place?.nextMm ?? 10}
+          chosen={chosen < 0 ? null : chosen}
+          onChoose={pick}
+        />
+        <fieldset className="pick-list">
+          <legend>{words.picks}</legend>
+          {labels.map((label, i) => (
+            <label key={label} className="pick">
+              <input type="radio" name="picked-line" checked={i === chosen} onChange={() => pick(i)} />
+              {label}
+            </label>
+          ))}
+          {isUnshapedPicked && <p className="note">{words.unshapedHint}</p>}
+          {known && !isUnshapedPicked && (
+            <p className="note" role="status">
+              {words.saved(formatNumber(known.xHz, 1), formatNumber(known.yHz, 1))}
+            </p>
+          )}
+        </fieldset>
+      </div>
+    </>
+  );
+};
+
+const isStored = (springs: Springs | null, known: Springs | null): boolean =>
+  springs !== null &&
+  known !== null &&
+  Math.abs(springs.xHz - known.xHz) < 0.051 &&
+  Math.abs(springs.yHz - known.yHz) < 0.051;
+
+/** Plots the sheet's jobs one after the other; `at` is the index of the one under way. */
+const useSheetPlot = () => {
+  const store = usePageStore();
+  const { plotJob } = useActions();
+  const [at, setAt] = useState<number | null>(null);
+  const [hasStopped, setStopped] = useState(false);
+  const isOpen = useRef(true);
+  useEffect(() => {
+    isOpen.current = true;
+    return () => {
+      isOpen.current = false;
+    };
+  }, []);
+  const run = async (jobs: readonly SheetJob[]): Promise<void> => {
+    setStopped(false);
+    for (let i = 0; i < jobs.length && isOpen.current; i++) {
+      setAt(i);
+      const job = await plotJob(jobs[i]);
+      if (job === null || (await endOf(store, job.id)) !== "done") {
+        setStopped(true);
+        break;
+      }
+    }
+    setAt(null);
+  };
+  return { run, at, hasStopped };
+};
+
+const UNDER_WAY: readonly Job["state"][] = ["queued", "plotting", "paused"];
+
+/** How the job has ended; null: it is gone. */
+const endOf = (store: PageStore, id: string): Promise<Job["state"] | null> =>
+  new Promise((resolve) => {
+    let isSeen = false;
+    const look = (): boolean => {
+      const job = store.getState().jobs.find((one) => one.id === id);
+      isSeen ||= job !== undefined;
+      // Just added: the server's event may still be on its way.
+      if ((job === undefined && !isSeen) || (job && UNDER_WAY.includes(job.state))) return false;
+      resolve(job?.state ?? null);
+      return true;
+    };
+    if (look()) return;
+    const stop = store.subscribe(() => {
+      if (look()) stop();
+    });
+  });

@@ -1,0 +1,104 @@
+/** The jobs of the ringing sheets: their own motion and place, with the plotter's machine, pen and paper. */
+import {
+  findMachine,
+  NEXT_STAIRS_MM,
+  orientedPaper,
+  ringingChecks,
+  RINGING_MOTION,
+  RINGING_SPEEDS,
+  ringingSheet,
+  STAIRS_MM,
+  type RingingCheck,
+  type Springs,
+} from "../../src/internal.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  machineProfileSchema,
+  plotterPartOf,
+  type NewJob,
+  type PlotSettings,
+} from "../../src/schema/index.js";
+
+export type SheetJob = NewJob & { readonly drawing: string };
+
+/** The least distance between the lines of the second sheet that keeps their ripples apart, mm. */
+const LEAST_NEXT_MM = 4;
+
+/** Where the figures of a sheet are on the paper, mm: the first at the bottom left, each next one up and to the right. */
+export interface SheetPlace {
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly nextMm: number;
+  readonly sizeMm: number;
+}
+
+/** In the middle of what both paper and machine reach. Null: there is no room. */
+export const sheetPlace = (settings: PlotSettings, figures: number): SheetPlace | null => {
+  const paper = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
+  const machine = findMachine(settings) ?? paper;
+  const widthMm = Math.min(paper.widthMm, machine.widthMm);
+  const heightMm = Math.min(paper.heightMm, machine.heightMm);
+  const room = (Math.min(widthMm, heightMm) - STAIRS_MM) / (figures - 1);
+  if (room < LEAST_NEXT_MM) return null;
+  const nextMm = Math.min(NEXT_STAIRS_MM, Math.floor(room));
+  const sizeMm = STAIRS_MM + (figures - 1) * nextMm;
+  return { xMm: (widthMm - sizeMm) / 2, yMm: (heightMm - sizeMm) / 2, nextMm, sizeMm };
+};
+
+/** The first sheet. Its lines have fixed distances. */
+export const sheetJob = (settings: PlotSettings, name: string): SheetJob | null => {
+  const place = sheetPlace(settings, RINGING_SPEEDS.length);
+  if (place?.nextMm !== NEXT_STAIRS_MM) return null;
+  return {
+    name,
+    drawing: ringingSheet(),
+    settings: { ...placed(settings, place.xMm, place.yMm), motion: RINGING_MOTION },
+  };
+};
+
+/** The second sheet: one figure, unshaped and for each frequency. A job each, since each is shaped differently. */
+export const checkJobs = (
+  settings: PlotSettings,
+  springs: Springs,
+  nameOf: (check: RingingCheck) => string,
+): SheetJob[] => {
+  const checks = ringingChecks(springs);
+  const place = sheetPlace(settings, checks.length);
+  const machine = findMachine(settings);
+  if (place === null || machine === null) return [];
+  const { accelMmPerS2 } = RINGING_MOTION.draw;
+  const plain = DEFAULT_PLOT_SETTINGS.motion;
+  return checks.map((check, i) => ({
+    name: nameOf(check),
+    drawing: check.svg,
+    settings: {
+      ...placed(settings, place.xMm + i * place.nextMm, place.yMm + (checks.length - 1 - i) * place.nextMm),
+      motion: {
+        ...plain,
+        shaper: check.springs === null ? "none" : "zv",
+        draw: { ...plain.draw, accelMmPerS2 },
+      },
+      machine: machine.id,
+      customMachine: machineProfileSchema.parse({ ...machine, springs: check.springs }),
+    },
+  }));
+};
+
+const placed = (settings: PlotSettings, xMm: number, yMm: number): PlotSettings => ({
+  ...settings,
+  prepare: {
+    ...DEFAULT_PLOT_SETTINGS.prepare,
+    paper: settings.prepare.paper,
+    landscape: settings.prepare.landscape,
+    marginMm: 0,
+    fit: false,
+    clipToMargins: false,
+    order: "none",
+    place: { xMm, yMm, widthMm: null, heightMm: null },
+  },
+  pen: plotterPartOf(settings).pen,
+  pens: [],
+  layerPens: {},
+  layerStops: {},
+  penStops: "never",
+});

@@ -1,0 +1,30 @@
+import { useState } from "react";
+import { ringingText } from "./ringing-text.js";
+import { Segments } from "../ui/choice.js";
+import { Sheet } from "../ui/sheet.js";
+import { CountRipples } from "./count-ripples.js";
+import { PickLine } from "./pick-line.js";
+import "./ringing.css";
+
+const words = ringingText;
+type Part = keyof typeof words.partNames;
+
+/** Measures how the plotter swings, by two sheets: ripples are counted on one, the best line is picked on the other. */
+export const RingingDialog = () => {
+  const [part, setPart] = useState<Part>("count");
+  return (
+    <Sheet title={words.title}>
+      <div className="ringing">
+        <p>{words.intro}</p>
+        <Segments<Part>
+          label={words.parts}
+          isLabelHidden
+          value={part}
+          options={(["count", "pick"] as const).map((value) => ({ value, label: words.partNames[value] }))}
+          onChange={setPart}
+        />
+        {part === "count" ? <CountRipples /> : <PickLine />}
+      </div>
+    </Sheet>
+  );
+};

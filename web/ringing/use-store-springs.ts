@@ -1,0 +1,20 @@
+import { findMachine, type Springs } from "../../src/internal.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { useHand } from "../plotter/use-hand.js";
+import { measuredMachine } from "./measured-machine.js";
+import { ringingText } from "./ringing-text.js";
+
+/** Stores the springs with the plotter's machine on the server, and chooses that machine. */
+export const useStoreSprings = (): ((springs: Springs) => Promise<void>) => {
+  const machine = usePageState(({ settings }) => findMachine(settings));
+  const machines = usePageState((state) => state.machines);
+  const hand = useHand();
+  const { chooseMachine } = useActions();
+  return async (springs) => {
+    if (machine === null) return;
+    const saved = await hand.saveMachine(
+      measuredMachine(machine, springs, machines, ringingText.machineName),
+    );
+    if (saved) chooseMachine(saved);
+  };
+};
