@@ -1,6 +1,6 @@
 import { Option } from "commander";
 import { runBoard, type BoardCommandOptions } from "./board.js";
-import { positive, type Declare } from "./options.js";
+import { positive, springs, type Declare } from "./options.js";
 
 export const declareBoard: Declare = (command, { io }) => {
   command
@@ -8,6 +8,12 @@ export const declareBoard: Declare = (command, { io }) => {
     .option("--firmware <version>", "firmware to be", "2.8.1")
     .addOption(
       new Option("--speed <factor>", "board seconds in one of ours (default: 1)").argParser(positive),
+    )
+    .addOption(
+      new Option(
+        "--springs <x,y>",
+        "Hz at which the pen swings, and the damping (15,25,0.05); default: not at all",
+      ).argParser(springs),
     )
     .option("--machine <id>", "plotter model (default: axidraw-v3)")
     .option("--svg <file>", "where what was drawn goes (default: drawn.svg)")

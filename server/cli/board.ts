@@ -4,6 +4,7 @@
  */
 import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
+import type { Springs } from "../../src/internal.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { applyFault, faultHelp } from "./board-faults.js";
 import type { CliIo } from "./io.js";
@@ -16,6 +17,8 @@ export interface BoardCommandOptions {
   readonly speed?: number;
   /** Machine id. */
   readonly machine?: string;
+  /** How its pen swings; default: not at all. */
+  readonly springs?: Springs;
   /** File for the drawn lines; default: drawn.svg. */
   readonly svg?: string;
 }
@@ -24,6 +27,7 @@ export interface PtyBoardOptions {
   readonly firmware?: string;
   readonly speed?: number;
   readonly machine?: MachineProfile;
+  readonly springs?: Springs;
   readonly recordLine?: boolean;
 }
 
@@ -111,6 +115,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     machine,
     ...(options.firmware === undefined ? {} : { firmware: options.firmware }),
     ...(options.speed === undefined ? {} : { speed: options.speed }),
+    ...(options.springs === undefined ? {} : { springs: options.springs }),
   });
   const { board } = ptyBoard;
   link(ptyBoard.path, options.pty);

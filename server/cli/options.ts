@@ -1,5 +1,6 @@
 /** Options that several commands have, and how their values are read. */
 import { InvalidArgumentError, Option, type Command } from "commander";
+import { isAllowed, rangeInWords, SPRINGS_TABLE, type Springs } from "../../src/internal.js";
 import type { CliIo } from "./io.js";
 
 /** Passed to each command when it declares its options and action. */
@@ -45,6 +46,20 @@ export function positive(text: string): number {
   const value = Number(text);
   if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
   return value;
+}
+
+/** "15,25" or "15,25,0.05": frequencies of x and y in Hz, and the damping ratio. */
+export function springs(text: string): Springs {
+  const [xHz = NaN, yHz = NaN, damping = SPRINGS_TABLE.damping.default, ...rest] = text
+    .split(",")
+    .map((part) => (part.trim() === "" ? NaN : Number(part)));
+  const areFrequencies = [xHz, yHz].every((hz) => isAllowed(SPRINGS_TABLE.xHz, hz));
+  if (!areFrequencies || !isAllowed(SPRINGS_TABLE.damping, damping) || rest.length > 0) {
+    throw new InvalidArgumentError(
+      `It must be two frequencies, ${rangeInWords(SPRINGS_TABLE.xHz)}, and the damping if you like: 15,25,0.05.`,
+    );
+  }
+  return { xHz, yHz, damping };
 }
 
 export function percent(text: string): number {

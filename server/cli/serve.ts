@@ -2,6 +2,7 @@
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../src/index.js";
+import type { Springs } from "../../src/internal.js";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../composition/create-server.js";
 import { lanAddresses, pairingText } from "../security/network.js";
 import type { CliIo } from "./io.js";
@@ -19,6 +20,7 @@ export interface ServeCommandOptions {
   readonly allowHost?: readonly string[];
   readonly device?: string;
   readonly virtualSpeed?: number;
+  readonly virtualSprings?: Springs;
   readonly data?: string;
   readonly watch?: string;
   readonly sharedQueue?: string;
@@ -50,6 +52,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.allowHost === undefined ? {} : { allowedHosts: options.allowHost }),
     ...(options.device === undefined ? {} : { device: options.device }),
     ...(options.virtualSpeed === undefined ? {} : { virtualSpeed: options.virtualSpeed }),
+    ...(options.virtualSprings === undefined ? {} : { virtualSprings: options.virtualSprings }),
     ...(options.data === undefined ? {} : { dataDir: options.data }),
     ...(options.watch === undefined ? {} : { watchDir: options.watch }),
     ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),

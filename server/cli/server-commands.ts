@@ -1,6 +1,6 @@
 /** The server on this computer: serve, service, logs. */
 import { Command, Option } from "commander";
-import { addData, addDevice, port, positive, type Declare } from "./options.js";
+import { addData, addDevice, port, positive, springs, type Declare } from "./options.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
@@ -53,6 +53,12 @@ function addServe(command: Command): Command {
     .option("--cert <file>", "certificate (PEM): serve https")
     .option("--key <file>", "the certificate's key (PEM)")
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
+    .addOption(
+      new Option(
+        "--virtual-springs <x,y>",
+        "Hz at which the virtual board's pen swings, and the damping (15,25,0.05); default: not at all",
+      ).argParser(springs),
+    )
     .option("--watch <folder>", "queue the drawings that are put there")
     .addOption(
       new Option("--shared-queue <url>", "share jobs with other servers by a PostgreSQL database").env(

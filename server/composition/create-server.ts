@@ -124,7 +124,7 @@ async function openParts(
   machines.warnings.forEach(log);
   const withMachine = (settings: PlotSettings): PlotSettings => machines.withMachine(settings);
 
-  const { virtualSpeed, device: firstDevice } = options;
+  const { virtualSpeed, virtualSprings, device: firstDevice } = options;
   const registry = new PlotterRegistry({
     store,
     announce,
@@ -132,7 +132,8 @@ async function openParts(
     mustBeMachine: (machine) => void machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine })),
     firstId: FIRST_PLOTTER,
     firstDevice,
-    open: (row, isTaken) => openNamedPlotter(row, { virtualSpeed, isTaken, withMachine, log }),
+    open: (row, isTaken) =>
+      openNamedPlotter(row, { virtualSpeed, virtualSprings, isTaken, withMachine, log }),
   });
   closing.add("the plotters", () => registry.close());
   const plotters = registry.ports;

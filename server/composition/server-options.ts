@@ -1,3 +1,5 @@
+import type { Springs } from "../../src/internal.js";
+
 /** The options of a server. */
 export interface ServerOptions {
   /** Default 9080; 0 picks a free port. */
@@ -21,6 +23,8 @@ export interface ServerOptions {
   readonly device?: string;
   /** Speed of the virtual board: 1 is real time. */
   readonly virtualSpeed?: number;
+  /** How the pen of the virtual board swings: its drawn line rings. Default: not at all. */
+  readonly virtualSprings?: Springs;
   /** Folder for jobs and settings. */
   readonly dataDir?: string;
   /** Largest upload; default 200 MB. */

@@ -1,6 +1,6 @@
 /** The plotter that the server stores: a plotter driver with an id, a name and a machine. */
 import { PlotwrightError } from "../../src/index.js";
-import { findMachine, machineOf, driverOf } from "../../src/internal.js";
+import { findMachine, machineOf, driverOf, type Springs } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -25,6 +25,7 @@ export const FIRST_PLOTTER = "main";
 
 export interface NamedPlotterOptions {
   readonly virtualSpeed?: number | undefined;
+  readonly virtualSprings?: Springs | undefined;
   /** Whether another plotter uses this port. */
   readonly isTaken: (path: string) => boolean;
   /** Adds the profile when the settings name a custom machine. */
@@ -41,14 +42,15 @@ const knownMachine = (settings: PlotSettings): PlotSettings =>
  * error.
  */
 export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions): ManagedPlotter {
-  const { virtualSpeed, isTaken, withMachine, log } = options;
+  const { virtualSpeed, virtualSprings, isTaken, withMachine, log } = options;
   const { machine } = row;
   const settingsOf = (id: string | null): PlotSettings =>
     knownMachine(
       id === null ? DEFAULT_PLOT_SETTINGS : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: id }),
     );
   const settings = settingsOf(machine);
-  const plotter = new NamedPlotter(row, { device: row.device, virtualSpeed, isTaken, settings }, settingsOf);
+  const driverOptions = { device: row.device, virtualSpeed, virtualSprings, isTaken, settings };
+  const plotter = new NamedPlotter(row, driverOptions, settingsOf);
   let last: string | null = null;
   plotter.onChange(({ name, connection, message, device }) => {
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;

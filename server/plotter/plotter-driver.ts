@@ -12,6 +12,7 @@ import {
   powerLost,
   powerLow,
   type Machine,
+  type Springs,
   type VirtualMachine,
   machineOf,
 } from "../../src/internal.js";
@@ -41,6 +42,8 @@ export interface PlotterOptions {
    * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
    */
   readonly virtualSpeed?: number | undefined;
+  /** How the pen of the built-in virtual board swings. Default: not at all. */
+  readonly virtualSprings?: Springs | undefined;
   /** Firmware version that the built-in virtual board reports. Default 2.8.1. */
   readonly firmware?: string | undefined;
   /** Settings for manual moves before the first job. */
@@ -306,6 +309,7 @@ export class PlotterDriver {
       clock: this.#clock,
       speed: this.#options.virtualSpeed ?? 1,
       firmware: this.#options.firmware,
+      springs: this.#options.virtualSprings,
       machine,
     });
     return this.#virtual;

@@ -11,7 +11,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
-import type { MachineProfile } from "../machines/profile.js";
+import type { MachineProfile, Springs } from "../machines/profile.js";
 import type { Place } from "../plan/trajectory.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PlotProgress, RunProgress } from "./run-progress.js";
@@ -59,6 +59,8 @@ export interface VirtualMachineOptions {
   readonly machine: MachineProfile;
   /** The version it reports; default: the driver's choice. */
   readonly firmware?: string | undefined;
+  /** How its pen swings; default: not at all. */
+  readonly springs?: Springs | undefined;
 }
 
 export interface VirtualMachine {

@@ -1,7 +1,7 @@
 /** How far beside the drawing the pen of a swinging machine would be (spring-pen.ts), while it draws. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
-import { swingPen } from "./spring-pen.js";
+import { swingPen, type PenPoint } from "./spring-pen.js";
 import type { Trajectory } from "./trajectory.js";
 
 export interface PenError {
@@ -18,18 +18,26 @@ const NEAR_MM = 2;
 const CLASS_MM = 0.001;
 const CLASSES = 5_000;
 
-export function penError(strokes: StrokeSet, trajectory: Trajectory, springs: Springs): PenError {
+/** `see` is called for each place of the pen, about every ms; `mm` is its distance from the drawing, 0 with the pen up. */
+export function penError(
+  strokes: StrokeSet,
+  trajectory: Trajectory,
+  springs: Springs,
+  see: (pen: PenPoint, mm: number) => void = () => undefined,
+): PenError {
   const line = new NearLine(strokes);
   const secondsIn = new Float64Array(CLASSES);
   let maxMm = 0;
   let squares = 0;
   let seconds = 0;
   let lastS = 0;
-  swingPen(trajectory, springs, STEP_S, ({ tS, x, y, stroke, alongMm }) => {
+  swingPen(trajectory, springs, STEP_S, (pen) => {
+    const { tS, x, y, stroke, alongMm } = pen;
     const dt = tS - lastS;
     lastS = tS;
-    if (stroke < 0) return;
+    if (stroke < 0) return see(pen, 0);
     const mm = line.distance(stroke, alongMm, x, y);
+    see(pen, mm);
     maxMm = Math.max(maxMm, mm);
     squares += dt * mm * mm;
     seconds += dt;

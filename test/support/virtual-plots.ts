@@ -10,7 +10,7 @@ import {
   type PenSettings,
   type Trajectory,
 } from "../../src/index.js";
-import type { BoardState } from "../../src/internal.js";
+import type { BoardState, Springs } from "../../src/internal.js";
 
 /** A clock that stands still: a board of infinite speed does not need it. */
 const stillClock: Clock = { nowS: () => 0, after: () => () => undefined };
@@ -27,8 +27,10 @@ export class FastBoard {
     readonly firmware: string,
     readonly machine: MachineProfile,
     readonly pen: PenSettings,
+    springs?: Springs,
   ) {
-    this.board = new VirtualBoard({ clock: stillClock, firmware, machine, speed: Infinity });
+    const swing = springs === undefined ? {} : { springs };
+    this.board = new VirtualBoard({ clock: stillClock, firmware, machine, speed: Infinity, ...swing });
     this.board.onSend((bytes) => {
       const text = String.fromCharCode(...bytes);
       if (text.includes("!")) this.errors.push(text.trim());

@@ -17,7 +17,7 @@ function makePage() {
       ? Promise.resolve(Response.json({ samples: [], id: "upload" }))
       : Promise.reject(new Error("refused"));
   });
-  const planner = { request: () => undefined, export: () => undefined };
+  const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };

@@ -18,13 +18,15 @@ const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 class WorkerByHand implements WorkerLike {
   readonly asked: PlanRequest[] = [];
   readonly exports: string[] = [];
+  readonly strokesAsked: number[] = [];
   isEnded = false;
   onmessage: ((event: MessageEvent<WorkerReply>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
 
   postMessage(message: WorkerRequest): void {
     if (message.type === "plan") this.asked.push(message);
-    else this.exports.push(message.format);
+    else if (message.type === "export") this.exports.push(message.format);
+    else this.strokesAsked.push(message.id);
   }
   terminate(): void {
     this.isEnded = true;
@@ -118,6 +120,28 @@ describe("the planner", () => {
     worker().reply({ type: "started", id: asked().id });
     runTimers();
     expect(workers).toHaveLength(1);
+  });
+
+  it("asks for the strokes of the plan that came last, and not while another one is made", () => {
+    const { planner, worker, asked } = setUp();
+    const strokes = {
+      xy: new Float64Array(2),
+      offsets: new Uint32Array(2),
+      layer: new Uint16Array(1),
+      layers: [],
+    };
+    const taken: unknown[] = [];
+    planner.request(taskOf({ key: "a", text: "a" }));
+    planner.strokes((given) => taken.push(given));
+    expect(worker().strokesAsked).toEqual([]);
+    const { id } = asked();
+    worker().reply({ type: "planned", id, planned: { drawingKey: "a" } as Planned });
+    planner.strokes((given) => taken.push(given));
+    expect(worker().strokesAsked).toEqual([id]);
+    worker().reply({ type: "strokes", id: id - 1, strokes });
+    expect(taken).toEqual([]);
+    worker().reply({ type: "strokes", id, strokes });
+    expect(taken).toEqual([strokes]);
   });
 
   it("asks for the prepared drawing as text, and passes it on", () => {

@@ -52,7 +52,7 @@ class Plotters {
     const actions = createActions({
       store,
       backend: this.backend,
-      planner: { request: () => undefined, export: () => undefined },
+      planner: { request: () => undefined, export: () => undefined, strokes: () => undefined },
       nowMs: () => (nowMs += 10_000),
       after: (_delayMs, callback) => void setTimeout(callback, 0),
     });

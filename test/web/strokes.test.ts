@@ -58,7 +58,7 @@ const setUp = () => {
   const worker = new WorkerByHand();
   const put: ImageBitmap[] = [];
   const shown: [Frame, boolean][] = [];
-  const onPage: { scenes: (Scene | null)[]; frames: Frame[] } = { scenes: [], frames: [] };
+  const onPage: { scenes: (Picture | null)[]; frames: Frame[] } = { scenes: [], frames: [] };
   const instead: Strokes = {
     setScene: (given) => onPage.scenes.push(given),
     show: (asked) => onPage.frames.push(asked),

@@ -130,7 +130,7 @@ describe("what only the operator may do", () => {
         return Promise.resolve(null);
       },
     };
-    const planner = { request: () => undefined, export: () => undefined };
+    const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
     const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
     return { store, actions, backend };
   };

@@ -5,11 +5,13 @@ import { legendStops, rampColor } from "../scene/color-map.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Segments } from "../ui/choice.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
+import { lazyPart } from "../ui/lazy-part.js";
 import type { Planned } from "../worker/protocol.js";
 import { legendEntries } from "./looks.js";
 import { previewText } from "./text.js";
 
 const words = previewText;
+const SwingLegend = lazyPart(async () => (await import("./swing-legend.js")).SwingLegend);
 const LABELS = 5;
 const SHOWN_ENTRIES = 6;
 
@@ -37,6 +39,7 @@ export const Looks = () => {
 const Legend = ({ colorBy, planned }: { colorBy: ColorMode; planned: Planned }) => {
   if (colorBy === "speed") return <SpeedLegend topMmPerS={planned.scene.topDrawMmPerS} />;
   if (colorBy === "order") return <OrderLegend totalS={planned.scene.totalS} />;
+  if (colorBy === "swing") return <SwingLegend planned={planned} gradient={gradient} />;
   return <ListLegend colorBy={colorBy} planned={planned} />;
 };
 
@@ -70,7 +73,7 @@ const OrderLegend = ({ totalS }: { totalS: number }) => (
   </figure>
 );
 
-type ListedMode = Exclude<ColorMode, "speed" | "order">;
+type ListedMode = Exclude<ColorMode, "speed" | "order" | "swing">;
 
 /** Layers, pens or inks by name. */
 const ListLegend = ({ colorBy, planned }: { colorBy: ListedMode; planned: Planned }) => {

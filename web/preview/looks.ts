@@ -2,12 +2,13 @@
 import { meanScale, penOf, settingsIdOf, type StrokeLayer } from "../../src/internal.js";
 import { layerColor } from "../scene/color-map.js";
 import type { ColorMode } from "../scene/color-mode.js";
-import { INK_COLOR } from "../scene/renderer.js";
+import { ASKED_COLOR, INK_COLOR } from "../scene/renderer.js";
 import type { PageState } from "../state/store.js";
 import type { Planned } from "../worker/protocol.js";
 
 /** Where neither the file nor a pen says how wide a line is. */
 const DEFAULT_LINE_MM = 0.35;
+const SWING_LINE_MM = 0.1;
 /** Widths are shown in steps of this, which is what the graphics card can tell apart. */
 const STEP_MM = 0.05;
 
@@ -29,6 +30,8 @@ export const layerLooks = (colorBy: ColorMode, { planned, settings }: Looked): L
   return planned.drawnLayers.map((layer, index) => {
     const pen = penOf(settings, layer);
     const penMm = pen?.widthMm ?? DEFAULT_LINE_MM;
+    // Thin, so that what was asked can be seen beside it.
+    if (colorBy === "swing") return { color: ASKED_COLOR, widthMm: SWING_LINE_MM };
     if (colorBy === "ink") {
       return { color: layer.color ?? INK_COLOR, widthMm: stepped(fileWidthMm(planned, layer) ?? penMm) };
     }

@@ -19,6 +19,7 @@ import { PreviewTools } from "./preview-tools.js";
 import { Stage, type FrameLook } from "./stage.js";
 import { StrokeCard } from "./stroke-card.js";
 import { selectionPainter } from "./stroke.js";
+import type { Picture } from "../scene/renderer.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 const words = previewText;
@@ -104,9 +105,9 @@ const useStage = (
 
 const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
-    if (state.planned !== before?.planned) {
-      stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
-    }
+    const swing = shownSwing(state);
+    if (swing) stage.setScene(swing, null);
+    else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
     if (state.settings !== before?.settings || state.view !== before.view) stage.setDesk(deskOfState(state));
     if (
       state.view !== before?.view ||
@@ -116,6 +117,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
       state.live !== before?.live ||
       state.jobs !== before.jobs ||
       state.momentS !== before?.momentS ||
+      state.swing !== before?.swing ||
       state.drawing !== before?.drawing
     ) {
       stage.setLook(lookOf(state));
@@ -154,12 +156,17 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: nu
 
 const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view.lengthUnit);
 
+/** What the simulated pen draws, once that is known for the plan on the paper. */
+const shownSwing = ({ view, swing, planned }: PageState): Picture | null =>
+  view.colorBy === "swing" && swing !== null && swing.of === planned ? swing.picture : null;
+
 const lookOf = (state: PageState): FrameLook => {
   const { planned, settings } = state;
   const { colorBy, showTravel } = state.view;
   const looks = planned ? layerLooks(colorBy, { planned, settings }) : [];
   return {
-    colorBy,
+    // Until the pen is simulated, what was asked is drawn in one colour.
+    colorBy: colorBy === "swing" && shownSwing(state) === null ? "layer" : colorBy,
     showTravel,
     lineMm: Math.max(0, ...looks.map(({ widthMm }) => widthMm)),
     layerColors: looks.map(({ color }) => color),

@@ -8,7 +8,6 @@ import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } fro
 import { markMoment } from "../worker/moments.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
 import type { Frame, Picture } from "../scene/renderer.js";
-import type { Scene } from "../scene/scene.js";
 import { openStrokes, type Strokes } from "./strokes.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
@@ -32,7 +31,7 @@ export class Stage {
   readonly #canvases: StageCanvases;
   readonly #observer: ResizeObserver;
   readonly #strokes: Strokes;
-  #scene: Scene | null = null;
+  #scene: Picture | null = null;
   #look: FrameLook;
   #desk: Desk;
   #marker: Marker | null = null;
@@ -49,7 +48,7 @@ export class Stage {
   /** Not to be seen yet. */
   #isSceneNew = true;
   /** What each frame that was asked for shows. */
-  readonly #scenes = new WeakMap<Frame, Scene | null>();
+  readonly #scenes = new WeakMap<Frame, Picture | null>();
   /** The 2D canvases are drawn again only when something on them has changed. */
   #areSheetsStale = true;
   #request = 0;
@@ -91,7 +90,7 @@ export class Stage {
   }
 
   /** `copy` is passed to the code that draws, which may transfer it. */
-  setScene(scene: Scene | null, copy: Picture | null): void {
+  setScene(scene: Picture | null, copy: Picture | null): void {
     if (scene === this.#scene) return;
     this.#scene = scene;
     this.#isSceneNew = true;

@@ -8,11 +8,10 @@ import type { DrawReply, DrawRequest } from "../worker/draw-protocol.js";
 import type { Painter } from "../scene/painter.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { PIECE_BYTES, type Pieces } from "../scene/pieces.js";
-import type { Scene } from "../scene/scene.js";
 
 export interface Strokes {
   /** `copy` is given away, if it has not been yet. Drawn with the next frame. */
-  setScene(scene: Scene | null, copy: Picture | null): void;
+  setScene(scene: Picture | null, copy: Picture | null): void;
   /** Only the newest is drawn. */
   show(frame: Frame): void;
   close(): void;
@@ -46,7 +45,7 @@ export class StrokesAway implements Strokes {
   /** Asked for, and neither shown nor passed over yet. */
   readonly #frames = new Map<number, Frame>();
   #newestId = 0;
-  #scene: Scene | null = null;
+  #scene: Picture | null = null;
   #hasShown = false;
   /** Draws where the worker turned out not to. */
   #instead: Strokes | null = null;
@@ -73,14 +72,15 @@ export class StrokesAway implements Strokes {
     };
   }
 
-  setScene(scene: Scene | null, copy: Picture | null): void {
+  setScene(scene: Picture | null, copy: Picture | null): void {
     this.#scene = scene;
     if (this.#instead) return this.#instead.setScene(scene, copy);
     if (!scene) return this.#worker.postMessage({ type: "scene", scene: null }, []);
     // Given away before, to a stage that is no more: then the page's own is copied.
     const isOurs = copy !== null && isThere(copy.draw) && isThere(copy.travel);
     const { draw, travel } = isOurs ? copy : scene;
-    const message: DrawRequest = { type: "scene", scene: { draw, travel, totalS: scene.totalS } };
+    const { totalS, asked } = scene;
+    const message: DrawRequest = { type: "scene", scene: { draw, travel, totalS, asked } };
     this.#worker.postMessage(message, isOurs ? [draw.bytes, travel.bytes] : []);
   }
 
@@ -109,7 +109,7 @@ const isThere = ({ count, bytes }: Pieces): boolean => bytes.byteLength === coun
 /** Fetches what draws when it is needed, which is hardly anywhere. */
 class StrokesOnPage implements Strokes {
   #painter: Painter | null = null;
-  #scene: Scene | null = null;
+  #scene: Picture | null = null;
   #newest: Frame | null = null;
   #isClosed = false;
 
@@ -122,7 +122,7 @@ class StrokesOnPage implements Strokes {
     });
   }
 
-  setScene(scene: Scene | null): void {
+  setScene(scene: Picture | null): void {
     this.#scene = scene;
     this.#painter?.setScene(scene);
   }

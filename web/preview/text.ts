@@ -17,7 +17,7 @@ export const previewText = {
   travel: "Pen-up moves",
   place: "Place the drawing by hand",
   colorBy: "Colour by",
-  looks: { speed: "Speed", ink: "Ink", layer: "Layer", order: "Order", pen: "Pen" },
+  looks: { speed: "Speed", ink: "Ink", layer: "Layer", order: "Order", pen: "Pen", swing: "Pen (simulated)" },
   lookTitles: {
     ink: "Colours and widths of the file",
     layer: "Layers, in the order they are drawn",

@@ -13,6 +13,7 @@ import { RAMP_SIZE, rampBytes } from "./color-map.js";
 import { webGlOf } from "./graphics-card.js";
 import { linkProgram, makeTexture, UNIFORMS, type Uniforms } from "./gl-program.js";
 import {
+  ASKED_COLOR,
   bytesFromHex,
   GHOST_COLOR,
   lineWidthPx,
@@ -38,7 +39,7 @@ import {
   type Task,
 } from "./tasks.js";
 
-const COLOR_CODE = { speed: 0, order: 1, layer: 2, pen: 2, ink: 2 } as const;
+const COLOR_CODE = { speed: 0, swing: 0, order: 1, layer: 2, pen: 2, ink: 2 } as const;
 /** The palette's alpha is a pen's width, in 255ths of this. */
 const WIDEST_MM = 12.75;
 const PLAIN = 3;
@@ -105,8 +106,8 @@ class GlRenderer implements SceneRenderer {
   }
 
   setScene(scene: Picture | null): void {
-    for (const { draw, travel } of Object.values(this.#sheets ?? {})) {
-      for (const { buffer } of [draw, travel]) this.#gl.deleteBuffer(buffer);
+    for (const { draw, travel, asked } of Object.values(this.#sheets ?? {})) {
+      for (const loaded of [draw, travel, asked]) if (loaded) this.#gl.deleteBuffer(loaded.buffer);
     }
     this.#scene = scene;
     this.#tasks = [];
@@ -235,11 +236,12 @@ class GlRenderer implements SceneRenderer {
   #setStyle(frame: Frame, style: Style): void {
     const gl = this.#gl;
     this.#style = style;
-    const widthPx =
-      style === "travel" ? TRAVEL_PX : lineWidthPx(frame, frame.layerWidthsMm ? 0 : frame.lineMm);
+    const isThin = style === "travel" || style === "asked";
+    const widthPx = isThin ? TRAVEL_PX : lineWidthPx(frame, frame.layerWidthsMm ? 0 : frame.lineMm);
     gl.uniform1f(this.#uniforms.radius, (widthPx * frame.ratio) / 2);
-    gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm && style !== "travel" ? WIDEST_MM : 0);
+    gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm && !isThin ? WIDEST_MM : 0);
     if (style === "ghost") this.#setPlain(GHOST_COLOR, 1);
+    else if (style === "asked") this.#setPlain(ASKED_COLOR, 1);
     else if (style === "travel") this.#setPlain(TRAVEL_COLOR, TRAVEL_ALPHA);
     else gl.uniform1i(this.#uniforms.colorBy, COLOR_CODE[frame.colorBy]);
   }

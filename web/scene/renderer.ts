@@ -1,5 +1,6 @@
 /** What draws the strokes, on whichever thread: WebGL2 where there is a graphics card, our own code elsewhere. */
 import type { ColorMode } from "./color-mode.js";
+import type { Pieces } from "./pieces.js";
 import type { Scene } from "./scene.js";
 import type { View } from "./view.js";
 
@@ -27,7 +28,10 @@ export interface Frame {
 }
 
 /** What of a scene is drawn. */
-export type Picture = Pick<Scene, "draw" | "travel" | "totalS">;
+export interface Picture extends Pick<Scene, "draw" | "travel" | "totalS"> {
+  /** What a simulated pen should have drawn: a thin line under what it draws. */
+  readonly asked?: Pieces | undefined;
+}
 
 /** "whole": every piece; "coarse": few enough of them to be quick, much like the whole from afar. */
 export type Detail = "coarse" | "whole";
@@ -59,6 +63,7 @@ export const MIN_LINE_PX = 1.15;
 /** Narrowest line of a dense drawing, CSS px: half of what can be seen of it is still paper. */
 const HAIR_LINE_PX = 0.5;
 export const GHOST_COLOR = "#dcdad4";
+export const ASKED_COLOR = "#a8a498";
 export const TRAVEL_COLOR = "#5b8fa8";
 export const TRAVEL_ALPHA = 0.6;
 export const TRAVEL_PX = 0.9;

@@ -10,6 +10,7 @@
  */
 import { RAMP_SIZE, rampBytes } from "./color-map.js";
 import {
+  ASKED_COLOR,
   bytesFromHex,
   GHOST_COLOR,
   INK_COLOR,
@@ -154,12 +155,16 @@ const lookOf = (frame: Frame, style: Style): Look => {
     const colors = [bytesFromHex(TRAVEL_COLOR)];
     return { by: null, colors, alpha: TRAVEL_ALPHA, reaches: [reachOf(TRAVEL_PX)] };
   }
+  if (style === "asked") {
+    return { by: null, colors: [bytesFromHex(ASKED_COLOR)], alpha: 1, reaches: [reachOf(TRAVEL_PX)] };
+  }
   const widthsMm = frame.layerWidthsMm?.length ? frame.layerWidthsMm : [frame.lineMm];
   const reaches = widthsMm.map((mm) => reachOf(lineWidthPx(frame, mm)));
   if (style === "ghost") return { by: null, colors: [bytesFromHex(GHOST_COLOR)], alpha: 1, reaches };
   const layers = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];
   switch (frame.colorBy) {
     case "speed":
+    case "swing":
       return { by: "speed", colors: [], alpha: 1, reaches };
     case "order":
       return { by: "time", colors: [], alpha: 1, reaches };

@@ -10,14 +10,15 @@ export interface Boxed {
   readonly boxes: PieceBoxes;
 }
 
-/** What is drawn with the pen down, and moves with the pen up. */
+/** What is drawn with the pen down, moves with the pen up, and what should have been drawn where that is shown. */
 export interface Sheet<B extends Boxed> {
   readonly draw: B;
   readonly travel: B;
+  readonly asked: B | null;
 }
 
 /** "ghost": not drawn yet at the moment that is looked at. */
-export type Style = "ghost" | "drawn" | "travel";
+export type Style = "asked" | "ghost" | "drawn" | "travel";
 
 /** Pieces still to be drawn of a picture. */
 export interface Task<B extends Boxed> {
@@ -32,18 +33,22 @@ const EDGE_PX = 2;
 
 /** A scene in both details; `load` may add what a renderer keeps of each list of pieces. */
 export const sheetsOf = <B extends Boxed>(
-  { draw, travel }: Picture,
+  { draw, travel, asked }: Picture,
   load: (boxed: Boxed) => B,
 ): Record<Detail, Sheet<B>> => {
   const loaded = (pieces: Pieces): B => load({ pieces, boxes: boxPieces(pieces) });
   return {
-    coarse: { draw: loaded(coarsePieces(draw)), travel: loaded(coarsePieces(travel)) },
-    whole: { draw: loaded(draw), travel: loaded(travel) },
+    coarse: {
+      draw: loaded(coarsePieces(draw)),
+      travel: loaded(coarsePieces(travel)),
+      asked: asked ? loaded(coarsePieces(asked)) : null,
+    },
+    whole: { draw: loaded(draw), travel: loaded(travel), asked: asked ? loaded(asked) : null },
   };
 };
 
 /** What is in sight: what is not drawn yet, what is, the moves of the pen that is up. */
-export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel }: Sheet<B>): Task<B>[] => {
+export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: Sheet<B>): Task<B>[] => {
   const until = ({ pieces }: Boxed): number =>
     frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
   const widestMm = Math.max(frame.lineMm, ...(frame.layerWidthsMm ?? []));
@@ -52,6 +57,7 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel }: Sheet<B
   const inSight = (of: B, range: PieceRange, style: Style): Task<B>[] =>
     rangesInSight(of.boxes, range, frame, reachPx).map(([from, to]) => ({ of, style, from, to }));
   return [
+    ...(asked ? inSight(asked, [0, asked.pieces.count], "asked") : []),
     ...inSight(draw, [done, draw.pieces.count], "ghost"),
     ...inSight(draw, [0, done], "drawn"),
     ...(frame.showTravel ? inSight(travel, [0, until(travel)], "travel") : []),

@@ -1,5 +1,5 @@
 /** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
-import type { MachineProfile } from "../../src/index.js";
+import type { MachineProfile, StrokeSet } from "../../src/index.js";
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
 import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import type {
@@ -50,7 +50,7 @@ const headOf = (content: DrawingText): string => {
 interface ActionDeps {
   readonly store: PageStore;
   readonly backend: Backend;
-  readonly planner: Pick<Planner, "request" | "export">;
+  readonly planner: Pick<Planner, "request" | "export" | "strokes">;
   nowMs(): number;
   after(delayMs: number, callback: () => void): void;
 }
@@ -412,6 +412,8 @@ export const createActions = (deps: ActionDeps) => {
     },
     removePreset: (name: string): void =>
       changePresets(`forget ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
+    /** The strokes of the plan on the paper, to simulate the pen on them; not while another plan is made. */
+    askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
       const samples = await attempt("samples", () => backend.samples());

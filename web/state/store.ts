@@ -1,6 +1,6 @@
 /** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
 import { createStore } from "zustand/vanilla";
-import { findMachine, firmwareFor } from "../../src/internal.js";
+import { findMachine, firmwareFor, type Springs } from "../../src/internal.js";
 import type {
   Job,
   ListedMachine,
@@ -15,6 +15,8 @@ import type {
 } from "../../src/schema/index.js";
 import type { Hover } from "../scene/hover.js";
 import type { SnapLines } from "../scene/placing.js";
+import type { Picture } from "../scene/renderer.js";
+import type { SwingPicture } from "../scene/swing-scene.js";
 import type { SampleInfo } from "../backend/backend.js";
 import type { DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
@@ -52,6 +54,21 @@ export interface Notice {
   readonly id: number;
   readonly kind: "info" | "error";
   readonly text: string;
+}
+
+/** The simulated pen on a plan. */
+export interface Swing {
+  readonly of: Planned;
+  /** How it swings. */
+  readonly springs: Springs;
+  /** The machine was not measured. */
+  readonly isAssumed: boolean;
+  /** How much of the plot is simulated, 0 … 1. */
+  readonly share: number;
+  /** Null until all of it is. */
+  readonly picture: Picture | null;
+  readonly result: Pick<SwingPicture, "error" | "topMm"> | null;
+  readonly fault: string | null;
 }
 
 /** "prepare": what is to be plotted is laid out; "watch": the plot under way. */
@@ -105,6 +122,8 @@ export interface PageState {
   readonly hover: Hover | null;
   /** The stroke that was clicked, of this plan: another plan may number the strokes differently. */
   readonly selected: Selected | null;
+  /** While the simulated pen is looked at. */
+  readonly swing: Swing | null;
   /** Places on the file's page that a note of the report is about, while it is shown; mm x0 y0 x1 y1. */
   readonly noteBoxes: readonly (readonly [number, number, number, number])[];
   /** The lines on which a dragged drawing has come to lie. */
@@ -166,6 +185,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     playRate: 10,
     hover: null,
     selected: null,
+    swing: null,
     noteBoxes: [],
     snapLines: null,
     link: "connecting",

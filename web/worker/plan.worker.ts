@@ -11,6 +11,7 @@ import {
   trajectoryStats,
   type Drawing,
   type Prepared,
+  type StrokeSet,
   type Trajectory,
 } from "../../src/index.js";
 import {
@@ -37,6 +38,7 @@ import type {
   PlannedReply,
   PlanFault,
   PlanRequest,
+  StrokesRequest,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
@@ -60,8 +62,12 @@ let prepared: {
   settings: PlanSettings;
 } | null = null;
 
+/** The plan that was answered last. */
+let answered: { id: number; strokes: StrokeSet } | null = null;
+
 scope.onmessage = (event) => {
   if (event.data.type === "export") return void exportAs(event.data);
+  if (event.data.type === "strokes") return sendStrokes(event.data);
   newest = event.data;
   if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
   if (!isRunning) void run();
@@ -125,6 +131,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       picture: pictureOf(scene),
       tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
+    answered = { id, strokes: ready.strokes };
     return { type: "planned", id, planned };
   } catch (error) {
     return { type: "fault", id, fault: faultOf(error, stage) };
@@ -173,6 +180,18 @@ const pictureOf = ({ draw, travel, totalS }: Scene): Picture => ({
   totalS,
 });
 
+/** For a plan that is not the last one there is no answer: a newer one is on its way. */
+function sendStrokes({ id }: StrokesRequest): void {
+  if (answered?.id !== id) return;
+  const { xy, offsets, layer, layers } = answered.strokes;
+  const strokes = { xy: xy.slice(), offsets: offsets.slice(), layer: layer.slice(), layers };
+  scope.postMessage({ type: "strokes", id, strokes }, [
+    strokes.xy.buffer,
+    strokes.offsets.buffer,
+    strokes.layer.buffer,
+  ]);
+}
+
 async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
   if (!prepared) return;
   const { result, settings } = prepared;
@@ -207,7 +226,9 @@ function transferables({ planned: { trajectory, scene, picture } }: PlannedReply
     scene.grid.starts.buffer,
     scene.grid.items.buffer,
   ]);
-  for (const column of columnsOf(trajectory)) buffers.add(column.buffer);
+  for (const part of [trajectory, trajectory.planned?.trajectory]) {
+    for (const column of part ? columnsOf(part) : []) buffers.add(column.buffer);
+  }
   return [...buffers] as ArrayBuffer[];
 }
 

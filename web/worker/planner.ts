@@ -6,6 +6,7 @@
  * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
  * ended too: a damaged file may keep it busy without end.
  */
+import type { StrokeSet } from "../../src/index.js";
 import type { PaperSize } from "../../src/internal.js";
 import type { DrawingText } from "./drawing-text.js";
 import type {
@@ -65,6 +66,7 @@ export class Planner {
   #newestId = 0;
   #latest: PlannerTask | null = null;
   #isBusy = false;
+  #takeStrokes: ((strokes: StrokeSet) => void) | null = null;
   #stopWaiting: (() => void) | null = null;
   /** While the worker reads the file. */
   #stopReading: (() => void) | null = null;
@@ -86,6 +88,12 @@ export class Planner {
   /** Asks for the prepared drawing as text; `onExported` brings it. */
   export(format: ExportFormat, firmware: string): void {
     this.#worker?.postMessage({ type: "export", format, firmware });
+  }
+
+  /** Asks for a copy of the strokes of the plan that came last; none comes while a newer plan is made. */
+  strokes(take: (strokes: StrokeSet) => void): void {
+    this.#takeStrokes = take;
+    if (!this.#isBusy) this.#worker?.postMessage({ type: "strokes", id: this.#newestId });
   }
 
   /** Ends the worker. */
@@ -127,6 +135,7 @@ export class Planner {
     if (reply.type === "exported") return this.#listener.onExported(reply.format, reply.text);
     if (reply.type === "export-failed") return this.#listener.onExportFailed(reply.message);
     if (reply.id !== this.#newestId) return;
+    if (reply.type === "strokes") return this.#takeStrokes?.(reply.strokes);
     this.#stopWaiting?.();
     this.#stopWaiting = null;
     this.#stopReading?.();

@@ -1,5 +1,5 @@
 /** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
-import type { Trajectory } from "../../src/index.js";
+import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type {
   Box,
   DrawingWarning,
@@ -42,7 +42,14 @@ export interface ExportRequest {
 export const EXPORT_FORMATS = ["svg", "json", "ebb"] as const;
 export type ExportFormat = (typeof EXPORT_FORMATS)[number];
 
-export type WorkerRequest = PlanRequest | ExportRequest;
+/** A copy of the strokes of a plan that was answered, to simulate the pen on them. */
+export interface StrokesRequest {
+  readonly type: "strokes";
+  /** Of the plan. */
+  readonly id: number;
+}
+
+export type WorkerRequest = PlanRequest | ExportRequest | StrokesRequest;
 
 /** Everything the page shows of one drawing under one set of settings. */
 export interface Planned {
@@ -115,4 +122,5 @@ export type WorkerReply =
   | PlannedReply
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }
+  | { readonly type: "strokes"; readonly id: number; readonly strokes: StrokeSet }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };

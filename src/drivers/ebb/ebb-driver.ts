@@ -9,6 +9,11 @@ export const ebbDriver: Driver = {
   usbIds: [{ vendorId: "04d8", productId: "fd92" }],
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
-  virtualMachine: ({ firmware, ...options }) =>
-    new VirtualBoard({ ...options, servo: {}, ...(firmware === undefined ? {} : { firmware }) }),
+  virtualMachine: ({ firmware, springs, ...options }) =>
+    new VirtualBoard({
+      ...options,
+      servo: {},
+      ...(firmware === undefined ? {} : { firmware }),
+      ...(springs === undefined ? {} : { springs }),
+    }),
 };

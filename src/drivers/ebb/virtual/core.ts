@@ -6,12 +6,13 @@
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile } from "../../../machines/profile.js";
+import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
 import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
-import { DrawnLine, type DrawnPolyline } from "./drawn-line.js";
+import { DrawnLine, type DrawnPolyline, type LineRecord } from "./drawn-line.js";
 import { RunningMove, type Order } from "../model/orders.js";
 import { FRAME_TICKS, Servo } from "./servo.js";
+import { SwingingLine } from "./swinging-line.js";
 
 /** A gap after a slower move does not count as an underrun. */
 const MOVING_MM_PER_S = 1;
@@ -89,7 +90,7 @@ export class BoardCore {
   private contactTick = Infinity;
   private running: Running | null = null;
   private readonly servo: Servo;
-  private line: DrawnLine | null;
+  private line: LineRecord | null;
   /** When the motion froze (a simulated fault); null while it runs. */
   private frozenTick: number | null = null;
   /** False: moves take their time but make no steps (a simulated fault). */
@@ -119,11 +120,13 @@ export class BoardCore {
     recordLine: boolean,
     /** Null: the tip touches and leaves the paper with the command. */
     private readonly servoOptions: VirtualServo | null,
+    /** Null: the pen is exactly where the motors are. */
+    springs: Springs | null = null,
   ) {
     const { speed, framePhaseMs } = servoOptions ?? {};
     const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
     this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
-    this.line = recordLine ? new DrawnLine(machine, false) : null;
+    this.line = recordLine ? lineRecord(machine, springs) : null;
   }
 
   get isBusy(): boolean {
@@ -176,7 +179,7 @@ export class BoardCore {
     if (turnsMotors === this.turnsMotors) return;
     this.splitRunning();
     this.turnsMotors = turnsMotors;
-    this.line?.begin(!this.isLifted, ...this.stepsNow());
+    this.line?.begin(!this.isLifted, ...this.stepsNow(), this.nowTick);
   }
 
   /** The current tick for the running order; stands still while frozen. */
@@ -261,7 +264,7 @@ export class BoardCore {
       this.steps1 = this.steps2 = 0;
       if (clearAccumulators) this.acc1 = this.acc2 = 0;
     });
-    this.line?.begin(!this.isLifted, 0, 0);
+    this.line?.begin(!this.isLifted, 0, 0, this.nowTick);
   }
 
   motorsMoving(): [boolean, boolean] {
@@ -299,7 +302,7 @@ export class BoardCore {
     this.isLifted = !this.isLifted;
     this.totals.penMoveCount++;
     const [steps1, steps2] = this.stepsNow();
-    this.line?.begin(!this.isLifted, steps1, steps2);
+    this.line?.begin(!this.isLifted, steps1, steps2, this.nowTick);
   }
 
   enableMotors(mode1: number, mode2: number | null): void {
@@ -320,7 +323,7 @@ export class BoardCore {
     fresh.nowTick = this.nowTick;
     fresh.line = this.line;
     Object.assign(fresh.totals, this.totals);
-    fresh.line?.begin(false, 0, 0);
+    fresh.line?.begin(false, 0, 0, fresh.nowTick);
     fresh.turnsMotors = this.turnsMotors;
     return fresh;
   }
@@ -329,7 +332,7 @@ export class BoardCore {
   drawn(): DrawnPolyline[] {
     // The line is sampled when orders end: settle the finished part, then continue from there.
     this.splitRunning();
-    return this.line?.polylines() ?? [];
+    return this.line?.polylines(this.nowTick) ?? [];
   }
 
   statistics(): BoardStatistics {
@@ -424,7 +427,7 @@ export class BoardCore {
       return;
     }
     const done = Math.floor(ticks);
-    if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2);
+    if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2, running.startTick);
     const place1 = move.motion1.placeAt(done, { net: 0, acc: 0 });
     const place2 = move.motion2.placeAt(done, { net: 0, acc: 0 });
     this.steps1 += place1.net;
@@ -467,6 +470,9 @@ export class BoardCore {
     ];
   }
 }
+
+const lineRecord = (machine: MachineProfile, springs: Springs | null): LineRecord =>
+  springs === null ? new DrawnLine(machine, false) : new SwingingLine(machine, springs);
 
 const RATE_OF_ONE_STEP_A_S = 1 / stepsPerSFromRate(1);
 

@@ -17,7 +17,16 @@ export interface DrawnPolyline {
   readonly xy: Float64Array;
 }
 
-export class DrawnLine {
+/** What records the line. Times are board ticks. */
+export interface LineRecord {
+  /** Starts a new polyline: the pen was lifted or lowered, or the counters were reset. */
+  begin(penDown: boolean, steps1: number, steps2: number, tick: number): void;
+  /** Adds the line of a move's first `ticks` ticks, starting at these step counts. */
+  addMove(move: RunningMove, ticks: number, steps1: number, steps2: number, startTick: number): void;
+  polylines(tick: number): DrawnPolyline[];
+}
+
+export class DrawnLine implements LineRecord {
   private points = new Int32Array(1024);
   private pointCount = 0;
   /** By polyline: its first point, and whether the pen was down. */
@@ -34,7 +43,6 @@ export class DrawnLine {
     this.add(0, 0);
   }
 
-  /** Starts a new polyline: the pen was lifted or lowered, or the counters were reset. */
   begin(penDown: boolean, steps1: number, steps2: number): void {
     const isEmpty = this.pointCount - this.firsts[this.firsts.length - 1] < 2;
     if (isEmpty && !this.downs[this.downs.length - 1]) {
@@ -47,7 +55,6 @@ export class DrawnLine {
     this.add(steps1, steps2);
   }
 
-  /** Adds the line of a move's first `ticks` ticks, starting at these step counts. */
   addMove(move: RunningMove, ticks: number, steps1: number, steps2: number): void {
     const end = Math.min(ticks, Math.max(move.motion1.ticks, move.motion2.ticks));
     const stride = sampleTicks(move, end);

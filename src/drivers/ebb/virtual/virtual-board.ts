@@ -11,7 +11,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import { firmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile } from "../../../machines/profile.js";
+import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
@@ -47,6 +47,11 @@ export interface VirtualBoardOptions {
   readonly inputBytes?: number;
   /** The pen's servo takes its time to reach the paper. Default: the tip touches and leaves it with the command. */
   readonly servo?: VirtualServo;
+  /**
+   * The pen swings on the gantry, so the drawn line rings. Positions and steps stay those of the motors. Default: the
+   * pen is exactly where the motors are.
+   */
+  readonly springs?: Springs;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
 }
@@ -114,7 +119,8 @@ export class VirtualBoard {
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
     const features = firmwareFeatures(this.firmware);
-    this.core = new BoardCore(features, this.machine, options.recordLine ?? true, options.servo ?? null);
+    const { recordLine = true, servo = null, springs = null } = options;
+    this.core = new BoardCore(features, this.machine, recordLine, servo, springs);
     this.interpreter = this.makeInterpreter();
   }
 

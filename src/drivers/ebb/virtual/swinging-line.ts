@@ -1,0 +1,121 @@
+/**
+ * The line that the virtual board's pen has drawn on a machine that swings: the motors' path as carriage, and the pen
+ * on a spring for each axis of the drawing (src/plan/spring-pen.ts). It swings on while the motors stand still.
+ */
+import { PointBuffer } from "../../../geometry/growable.js";
+import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile, Springs } from "../../../machines/profile.js";
+import { SpringAxis } from "../../../plan/spring-pen.js";
+import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
+import type { AxisPlace } from "../model/accumulator.js";
+import type { RunningMove } from "../model/orders.js";
+import type { DrawnPolyline, LineRecord } from "./drawn-line.js";
+
+const SAMPLE_TICKS = TICKS_PER_MS;
+/** Below this the pen is at rest. */
+const REST_MM = 0.001;
+const REST_MM_PER_S = 0.1;
+
+export class SwingingLine implements LineRecord {
+  private readonly axisX: SpringAxis;
+  private readonly axisY: SpringAxis;
+  /** The carriage, mm from home. */
+  private x = 0;
+  private y = 0;
+  /** Its velocity at the end of the last move, mm/s. */
+  private vx = 0;
+  private vy = 0;
+  /** The pen is simulated up to here. */
+  private tick = 0;
+  private readonly points = new PointBuffer();
+  /** By polyline: its first point, and whether the pen was down. */
+  private readonly firsts: number[] = [0];
+  private readonly downs: boolean[] = [false];
+  private readonly place1: AxisPlace = { net: 0, acc: 0 };
+  private readonly place2: AxisPlace = { net: 0, acc: 0 };
+
+  constructor(
+    private readonly machine: MachineProfile,
+    { xHz, yHz, damping }: Springs,
+  ) {
+    this.axisX = new SpringAxis(xHz, damping);
+    this.axisY = new SpringAxis(yHz, damping);
+    this.add();
+  }
+
+  begin(penDown: boolean, steps1: number, steps2: number, tick: number): void {
+    this.rest(tick);
+    this.x = xFromMotors(this.machine, steps1, steps2);
+    this.y = yFromMotors(this.machine, steps1, steps2);
+    this.firsts.push(this.points.pointCount);
+    this.downs.push(penDown);
+    this.add();
+  }
+
+  addMove(move: RunningMove, ticks: number, steps1: number, steps2: number, startTick: number): void {
+    this.rest(startTick);
+    const end = Math.min(ticks, Math.max(move.motion1.ticks, move.motion2.ticks));
+    let [vx, vy] = this.velocity(move, 1);
+    this.axisX.rate += this.vx - vx;
+    this.axisY.rate += this.vy - vy;
+    for (let from = 0; from < end; from += SAMPLE_TICKS) {
+      const to = Math.min(end, from + SAMPLE_TICKS);
+      const dt = sFromTicks(to - from);
+      const [nextVx, nextVy] = this.velocity(move, to);
+      this.axisX.advance(dt, (nextVx - vx) / dt);
+      this.axisY.advance(dt, (nextVy - vy) / dt);
+      [vx, vy] = [nextVx, nextVy];
+      move.motion1.placeAt(to, this.place1);
+      move.motion2.placeAt(to, this.place2);
+      this.x = xFromMotors(this.machine, steps1 + this.place1.net, steps2 + this.place2.net);
+      this.y = yFromMotors(this.machine, steps1 + this.place1.net, steps2 + this.place2.net);
+      this.add();
+    }
+    [this.vx, this.vy] = [vx, vy];
+    this.tick = startTick + end;
+  }
+
+  polylines(tick: number): DrawnPolyline[] {
+    this.rest(tick);
+    return this.firsts.flatMap((from, i) => {
+      const to = this.firsts[i + 1] ?? this.points.pointCount;
+      const penDown = this.downs[i];
+      if (to - from < 2 && !penDown) return [];
+      return [{ penDown, xy: this.points.data.slice(2 * from, 2 * to) }];
+    });
+  }
+
+  /** The motors stand still until `tick`; the pen swings out. */
+  private rest(tick: number): void {
+    if (tick <= this.tick) return;
+    this.axisX.rate += this.vx;
+    this.axisY.rate += this.vy;
+    this.vx = this.vy = 0;
+    while (this.tick < tick && this.isSwinging) {
+      const to = Math.min(tick, this.tick + SAMPLE_TICKS);
+      const dt = sFromTicks(to - this.tick);
+      this.axisX.advance(dt, 0);
+      this.axisY.advance(dt, 0);
+      this.tick = to;
+      this.add();
+    }
+    this.tick = tick;
+  }
+
+  private get isSwinging(): boolean {
+    return [this.axisX, this.axisY].some(
+      ({ d, rate }) => Math.abs(d) > REST_MM || Math.abs(rate) > REST_MM_PER_S,
+    );
+  }
+
+  /** mm/s during a tick of the move, 1 being its first. */
+  private velocity({ motion1, motion2 }: RunningMove, tick: number): [number, number] {
+    const steps1 = tick > motion1.ticks ? 0 : stepsPerSFromRate(motion1.rateDuring(tick));
+    const steps2 = tick > motion2.ticks ? 0 : stepsPerSFromRate(motion2.rateDuring(tick));
+    return [xFromMotors(this.machine, steps1, steps2), yFromMotors(this.machine, steps1, steps2)];
+  }
+
+  private add(): void {
+    this.points.push(this.x + this.axisX.d, this.y + this.axisY.d);
+  }
+}

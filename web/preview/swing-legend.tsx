@@ -1,0 +1,81 @@
+import { useEffect } from "react";
+import { ASKED_COLOR } from "../scene/renderer.js";
+import type { Swing } from "../state/store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { formatNumber } from "../ui/format.js";
+import type { Planned } from "../worker/protocol.js";
+import { simulatePen } from "./simulate-pen.js";
+import { swingText } from "./swing-text.js";
+import "./swing-legend.css";
+
+const words = swingText;
+const LABELS = 5;
+
+/** While it is shown, the pen is simulated: what the colours mean, the largest error, and whose springs. */
+export const SwingLegend = ({ planned, gradient }: { planned: Planned; gradient: string }) => {
+  const store = usePageStore();
+  const actions = useActions();
+  const isPlanning = usePageState((state) => state.isPlanning);
+  useEffect(
+    () => (isPlanning ? undefined : simulatePen(store, actions, planned)),
+    [store, actions, planned, isPlanning],
+  );
+  const swing = usePageState((state) => state.swing);
+  return (
+    <figure className="legend swing-legend" aria-label={words.legend}>
+      {swing?.result ? <Scale result={swing.result} gradient={gradient} /> : <Progress swing={swing} />}
+      {swing && <Springs swing={swing} />}
+    </figure>
+  );
+};
+
+const Scale = ({ result, gradient }: { result: NonNullable<Swing["result"]>; gradient: string }) => {
+  const { error, topMm } = result;
+  const digits = topMm < 0.1 ? 3 : 2;
+  return (
+    <>
+      <figcaption>
+        <span>{words.title}</span>
+        <span>{words.unit}</span>
+      </figcaption>
+      <div className="legend-bar" style={{ background: gradient }} />
+      <div className="legend-labels" aria-hidden="true">
+        {Array.from({ length: LABELS }, (_, i) => (
+          <span key={i}>{formatNumber((topMm * i) / (LABELS - 1), digits)}</span>
+        ))}
+      </div>
+      <p className="swing-most" role="status" data-max-mm={error.maxMm} data-top-mm={topMm}>
+        {words.atMost(formatNumber(error.maxMm, 2), formatNumber(error.p99Mm, 2))}
+      </p>
+      <p className="swing-asked">
+        <span className="swatch" style={{ backgroundColor: ASKED_COLOR }} />
+        {words.asked}
+      </p>
+    </>
+  );
+};
+
+const Progress = ({ swing }: { swing: Swing | null }) => {
+  if (swing?.fault) return <p className="note-error">{swing.fault}</p>;
+  const percent = Math.round(100 * (swing?.share ?? 0));
+  return (
+    <>
+      <figcaption>{words.working(String(percent))}</figcaption>
+      <progress aria-label={words.title} max={100} value={percent} />
+    </>
+  );
+};
+
+const Springs = ({ swing: { springs, isAssumed } }: { swing: Swing }) => {
+  const store = usePageStore();
+  const [x, y] = [springs.xHz, springs.yHz].map((hz) => formatNumber(hz, 1));
+  if (!isAssumed) return <p className="swing-springs">{words.measured(x, y)}</p>;
+  return (
+    <p className="swing-springs">
+      {words.assumed(x, y)}{" "}
+      <button type="button" className="link" onClick={() => store.setState({ openDialog: "ringing" })}>
+        {words.measure}
+      </button>
+    </p>
+  );
+};

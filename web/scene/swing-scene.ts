@@ -1,0 +1,200 @@
+/**
+ * What a swinging pen would draw, as pieces coloured by how far they are beside the line: the second speed of a piece
+ * is its error. Samples come about every ms; those that lie within CHORD_MM of a straight piece are left out, so that a
+ * long drawing takes little memory. One pass, linear in samples.
+ */
+import type { StrokeSet, Trajectory } from "../../src/index.js";
+import { penError, type PenError, type PenPoint, type Springs } from "../../src/internal.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
+import { shiftsOf } from "./scene.js";
+
+const CHORD_MM = 0.003;
+/** A piece has one colour at each end: the error between changes by no more than this. */
+const ERROR_STEP_MM = 0.01;
+/** Two errors are kept apart until the largest is known, which the colours are shares of. */
+const FIRST_PIECES = 4_096;
+/** The scale is never finer: errors below a pen's tip cannot be seen. */
+const LEAST_TOP_MM = 0.05;
+
+export interface SwingPicture {
+  readonly pieces: Pieces;
+  readonly error: PenError;
+  /** The error at the end of the colour scale. */
+  readonly topMm: number;
+}
+
+/** `progress` is called with the share of the plot that is done, after each sample. */
+export const swingPicture = (
+  strokes: StrokeSet,
+  trajectory: Trajectory,
+  springs: Springs,
+  progress: (share: number) => void = () => undefined,
+): SwingPicture => {
+  const writer = new SwingWriter(strokes);
+  const dots = dotsOf(trajectory);
+  const error = penError(strokes, trajectory, springs, (pen, mm) => {
+    while (dots.length > 0 && dots[dots.length - 1].tS <= pen.tS) writer.addDot(dots.pop() as Dot);
+    writer.add(pen, mm);
+    progress(pen.tS / trajectory.totalS);
+  });
+  for (const dot of dots.reverse()) writer.addDot(dot);
+  writer.endPiece();
+  const topMm = scaleTop(error.maxMm);
+  return { pieces: writer.pieces(topMm), error, topMm };
+};
+
+/** The next of 1, 2, 5, 10 … hundredths. */
+export const scaleTop = (mm: number): number => {
+  if (!(mm > LEAST_TOP_MM)) return LEAST_TOP_MM;
+  const unit = 10 ** Math.floor(Math.log10(mm));
+  const digit = [1, 2, 5, 10].find((one) => mm <= one * unit * (1 + 1e-9)) ?? 10;
+  return Number((digit * unit).toPrecision(3));
+};
+
+interface Dot {
+  readonly tS: number;
+  readonly stroke: number;
+}
+
+/** Strokes without motion, the last one first: the pen comes down on the spot. */
+const dotsOf = ({ runs }: Trajectory): Dot[] => {
+  const dots: Dot[] = [];
+  for (let run = runs.count - 1; run >= 0; run--) {
+    const isStill = runs.firstBlock[run] === runs.firstBlock[run + 1];
+    if (runs.stroke[run] >= 0 && isStill) dots.push({ tS: runs.startS[run], stroke: runs.stroke[run] });
+  }
+  return dots;
+};
+
+class SwingWriter {
+  readonly #strokes: StrokeSet;
+  readonly #shifts: ReturnType<typeof shiftsOf>;
+  #bytes = new ArrayBuffer(FIRST_PIECES * PIECE_BYTES);
+  #floats = new Float32Array(this.#bytes);
+  #shorts = new Uint16Array(this.#bytes);
+  #errors = new Float32Array(2 * FIRST_PIECES);
+  #count = 0;
+  /** The piece that grows: where and when it begins, and where its directions may lie. */
+  #isOpen = false;
+  #stroke = -1;
+  #x0 = 0;
+  #y0 = 0;
+  #t0 = 0;
+  #mm0 = 0;
+  #mainAngle = 0;
+  #lowAngle = -Infinity;
+  #highAngle = Infinity;
+  #furthest = 0;
+  /** The sample before. */
+  #x = 0;
+  #y = 0;
+  #t = 0;
+  #mm = 0;
+
+  constructor(strokes: StrokeSet) {
+    this.#strokes = strokes;
+    this.#shifts = shiftsOf(strokes.layers);
+  }
+
+  /** `mm`: how far it is beside the line. */
+  add({ tS, x, y, stroke }: PenPoint, mm: number): void {
+    if (stroke !== this.#stroke) {
+      this.endPiece();
+      this.#stroke = stroke;
+      // A stroke begins where the pen was when it came down.
+      if (stroke >= 0) {
+        this.#mm = mm;
+        this.#begin();
+      }
+    }
+    if (stroke >= 0 && !this.#fits(x, y, mm)) {
+      this.endPiece();
+      this.#begin();
+      this.#fits(x, y, mm);
+    }
+    this.#x = x;
+    this.#y = y;
+    this.#t = tS;
+    this.#mm = mm;
+  }
+
+  addDot({ tS, stroke }: Dot): void {
+    this.endPiece();
+    this.#stroke = -1;
+    const { xy, offsets } = this.#strokes;
+    const first = 2 * offsets[stroke];
+    this.#write(stroke, [xy[first], xy[first + 1], xy[first], xy[first + 1], tS, tS], 0, 0);
+  }
+
+  endPiece(): void {
+    if (!this.#isOpen) return;
+    this.#isOpen = false;
+    const ends = [this.#x0, this.#y0, this.#x, this.#y, this.#t0, this.#t];
+    this.#write(this.#stroke, ends, this.#mm0, this.#mm);
+  }
+
+  pieces(topMm: number): Pieces {
+    for (let i = 0; i < this.#count; i++) {
+      for (const end of [0, 1]) {
+        const share = Math.min(1, this.#errors[2 * i + end] / topMm);
+        this.#shorts[i * PIECE_SHORTS + SPEED_SHORT + end] = 65_535 * share;
+      }
+    }
+    return { count: this.#count, bytes: this.#bytes.slice(0, this.#count * PIECE_BYTES) };
+  }
+
+  #begin(): void {
+    this.#isOpen = true;
+    this.#x0 = this.#x;
+    this.#y0 = this.#y;
+    this.#t0 = this.#t;
+    this.#mm0 = this.#mm;
+    this.#lowAngle = -Infinity;
+    this.#highAngle = Infinity;
+    this.#furthest = 0;
+  }
+
+  /** Whether a straight piece to here stays close to all samples since its beginning. */
+  #fits(x: number, y: number, mm: number): boolean {
+    if (Math.abs(mm - this.#mm0) > ERROR_STEP_MM && this.#furthest > 0) return false;
+    const dx = x - this.#x0;
+    const dy = y - this.#y0;
+    const distance = Math.sqrt(dx * dx + dy * dy);
+    if (distance < this.#furthest - CHORD_MM) return false;
+    this.#furthest = Math.max(this.#furthest, distance);
+    if (distance <= CHORD_MM) return true;
+    const width = Math.asin(CHORD_MM / distance);
+    if (this.#lowAngle === -Infinity) this.#mainAngle = Math.atan2(dy, dx);
+    const angle = turned(Math.atan2(dy, dx) - this.#mainAngle);
+    if (angle < this.#lowAngle || angle > this.#highAngle) return false;
+    this.#lowAngle = Math.max(this.#lowAngle, angle - width);
+    this.#highAngle = Math.min(this.#highAngle, angle + width);
+    return true;
+  }
+
+  #write(stroke: number, ends: readonly number[], mm0: number, mm1: number): void {
+    if (2 * this.#count === this.#errors.length) this.#grow();
+    const layer = this.#strokes.layer[stroke];
+    const { x, y } = this.#shifts?.[layer] ?? { x: 0, y: 0 };
+    const [x0, y0, x1, y1, t0, t1] = ends;
+    const at = this.#count++;
+    this.#floats.set([x0 - x, y0 - y, x1 - x, y1 - y, t0, t1], at * PIECE_FLOATS);
+    this.#shorts[at * PIECE_SHORTS + LAYER_SHORT] = layer;
+    this.#errors[2 * at] = mm0;
+    this.#errors[2 * at + 1] = mm1;
+  }
+
+  #grow(): void {
+    const bytes = new ArrayBuffer(2 * this.#bytes.byteLength);
+    new Uint8Array(bytes).set(new Uint8Array(this.#bytes));
+    this.#bytes = bytes;
+    this.#floats = new Float32Array(bytes);
+    this.#shorts = new Uint16Array(bytes);
+    const errors = new Float32Array(2 * this.#errors.length);
+    errors.set(this.#errors);
+    this.#errors = errors;
+  }
+}
+
+/** An angle between −π and π. */
+const turned = (angle: number): number => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));

@@ -1,0 +1,14 @@
+/** What the page and the worker that simulates the pen say to each other. A worker does one request, then it is ended. */
+import type { StrokeSet, Trajectory } from "../../src/index.js";
+import type { Springs } from "../../src/internal.js";
+import type { SwingPicture } from "../scene/swing-scene.js";
+
+export interface SwingRequest {
+  readonly strokes: StrokeSet;
+  readonly trajectory: Trajectory;
+  readonly springs: Springs;
+}
+
+export type SwingReply =
+  | { readonly type: "share"; readonly share: number }
+  | { readonly type: "done"; readonly picture: SwingPicture };

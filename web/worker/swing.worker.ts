@@ -1,0 +1,22 @@
+/** Simulates the pen of a swinging machine, away from the page and from the planning, which go on meanwhile. */
+import { swingPicture } from "../scene/swing-scene.js";
+import type { SwingReply, SwingRequest } from "./swing-protocol.js";
+
+interface WorkerScope {
+  onmessage: ((event: MessageEvent<SwingRequest>) => void) | null;
+  postMessage(reply: SwingReply, transfer: Transferable[]): void;
+}
+const scope = self as unknown as WorkerScope;
+
+/** Share of the plot between two reports. */
+const REPORT_SHARE = 0.02;
+
+scope.onmessage = ({ data: { strokes, trajectory, springs } }) => {
+  let reported = 0;
+  const picture = swingPicture(strokes, trajectory, springs, (share) => {
+    if (share < reported + REPORT_SHARE) return;
+    reported = share;
+    scope.postMessage({ type: "share", share }, []);
+  });
+  scope.postMessage({ type: "done", picture }, [picture.pieces.bytes]);
+};
