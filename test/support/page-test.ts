@@ -92,7 +92,7 @@ export class PageTest {
   }
 
   /** Looks at the drawing that way. */
-  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen"): Promise<void> {
+  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();
   }

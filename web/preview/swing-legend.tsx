@@ -31,7 +31,7 @@ export const SwingLegend = ({ planned, gradient }: { planned: Planned; gradient:
 
 const Scale = ({ result, gradient }: { result: NonNullable<Swing["result"]>; gradient: string }) => {
   const { error, topMm } = result;
-  const digits = topMm < 0.1 ? 3 : 2;
+  const digits = topMm < 0.2 ? 3 : 2;
   return (
     <>
       <figcaption>
@@ -40,9 +40,10 @@ const Scale = ({ result, gradient }: { result: NonNullable<Swing["result"]>; gra
       </figcaption>
       <div className="legend-bar" style={{ background: gradient }} />
       <div className="legend-labels" aria-hidden="true">
-        {Array.from({ length: LABELS }, (_, i) => (
-          <span key={i}>{formatNumber((topMm * i) / (LABELS - 1), digits)}</span>
-        ))}
+        {Array.from({ length: LABELS }, (_, i) => {
+          const mm = formatNumber((topMm * i) / (LABELS - 1), digits);
+          return <span key={i}>{i === LABELS - 1 && error.maxMm > topMm ? words.orMore(mm) : mm}</span>;
+        })}
       </div>
       <p className="swing-most" role="status" data-max-mm={error.maxMm} data-top-mm={topMm}>
         {words.atMost(formatNumber(error.maxMm, 2), formatNumber(error.p99Mm, 2))}

@@ -22,7 +22,7 @@ import { useSprings } from "../motion/use-springs.js";
 
 const words = ringingText;
 const SHEET_MM = STAIRS_MM + (RINGING_SPEEDS.length - 1) * NEXT_STAIRS_MM;
-const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed)));
+const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed, 0)));
 
 /** The first sheet: plot it, count, store. */
 export const CountRipples = () => {

@@ -26,7 +26,12 @@ export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
   const text = (along: number, across: number): { x: number; y: number } =>
     axis === "y" ? { x: along, y: across } : { x: across, y: along };
   return (
-    <svg className="ripple-picture" viewBox="0 0 124 124" aria-hidden="true" data-axis={axis}>
+    <svg
+      className="ripple-picture"
+      viewBox={axis === "y" ? "0 0 124 84" : "0 0 124 124"}
+      aria-hidden="true"
+      data-axis={axis}
+    >
       <defs>
         <marker id={id} viewBox="0 0 6 6" refX="5" refY="3" markerWidth="5" markerHeight="5" orient="auto">
           <path d="M0 0L6 3L0 6z" className="ripple-arrow" />

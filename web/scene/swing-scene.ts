@@ -11,7 +11,7 @@ import { shiftsOf } from "./scene.js";
 const CHORD_MM = 0.003;
 /** A piece has one colour at each end: the error between changes by no more than this. */
 const ERROR_STEP_MM = 0.01;
-/** Two errors are kept apart until the largest is known, which the colours are shares of. */
+/** Room for so many at first. */
 const FIRST_PIECES = 4_096;
 /** The scale is never finer: errors below a pen's tip cannot be seen. */
 const LEAST_TOP_MM = 0.05;
@@ -19,7 +19,7 @@ const LEAST_TOP_MM = 0.05;
 export interface SwingPicture {
   readonly pieces: Pieces;
   readonly error: PenError;
-  /** The error at the end of the colour scale. */
+  /** The error at the end of the colour scale: 99 % of the time it is smaller, so that one bad corner does not dull all. */
   readonly topMm: number;
 }
 
@@ -39,15 +39,15 @@ export const swingPicture = (
   });
   for (const dot of dots.reverse()) writer.addDot(dot);
   writer.endPiece();
-  const topMm = scaleTop(error.maxMm);
+  const topMm = scaleTop(error.p99Mm);
   return { pieces: writer.pieces(topMm), error, topMm };
 };
 
-/** The next of 1, 2, 5, 10 … hundredths. */
+/** The next of 1, 1.5, 2, 3, 5, 7, 10 … hundredths. */
 export const scaleTop = (mm: number): number => {
   if (!(mm > LEAST_TOP_MM)) return LEAST_TOP_MM;
   const unit = 10 ** Math.floor(Math.log10(mm));
-  const digit = [1, 2, 5, 10].find((one) => mm <= one * unit * (1 + 1e-9)) ?? 10;
+  const digit = [1, 1.5, 2, 3, 5, 7, 10].find((one) => mm <= one * unit * (1 + 1e-9)) ?? 10;
   return Number((digit * unit).toPrecision(3));
 };
 

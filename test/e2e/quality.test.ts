@@ -1,0 +1,91 @@
+/** Quality: one choice of three sets speed, acceleration and corners together, and the numbers stay reachable. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { machineById } from "../../src/index.js";
+import { motionOfQuality, type Quality } from "../../src/internal.js";
+import { seriousFindings } from "../support/axe.js";
+import { PageTest } from "../support/page-test.js";
+
+const PATIENCE_MS = 120_000;
+const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
+const MEASURED = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs: SPRINGS };
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("quality");
+  for (const title of ["Drawing", "Paper", "Layers"]) await test.group(title, false);
+  await test.group("Speed");
+}, PATIENCE_MS);
+
+afterAll(async () => test.close());
+
+const section = () => test.page.locator("#group-motion");
+const step = (name: string) => section().getByRole("radio", { name, exact: true });
+const motionOfJob = async () => (await test.queue()).settings.motion;
+const limitsOf = ({ shaper, draw, travel }: Awaited<ReturnType<typeof motionOfJob>>) => ({
+  shaper: shaper ?? "none",
+  draw,
+  travel,
+});
+
+describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
+  it("has today's limits as Normal for a plotter that was not measured, and leads to the ringing sheet", async () => {
+    expect(await step("Normal").isChecked()).toBe(true);
+    expect(await step("Fine").isDisabled()).toBe(true);
+    expect(await step("Fast").isDisabled()).toBe(true);
+    await section()
+      .getByText(/Ten minutes with the ringing sheet/)
+      .waitFor();
+    expect(limitsOf(await motionOfJob())).toEqual(motionOfQuality("normal", null));
+    await section().getByRole("button", { name: "Measure ringing…" }).click();
+    const dialog = test.page.getByRole("dialog", { name: "Measure ringing" });
+    await dialog.waitFor();
+    await dialog.getByRole("button", { name: "Close" }).click();
+  });
+
+  it("sets what a step stands for, from the plotter's springs", async () => {
+    const { page } = test;
+    await page.request.put(`${test.server.url}/api/v1/machines/${MEASURED.id}`, { data: MEASURED });
+    await page.getByRole("button", { name: "Machines…" }).click();
+    await page
+      .getByRole("dialog")
+      .getByRole("button", { name: /^Measured plotter/ })
+      .click();
+    await page.getByRole("dialog").getByRole("button", { name: "Close" }).click();
+    // Normal stays Normal: that of this machine.
+    await section().getByText("15 Hz along x and 25 Hz along y", { exact: false }).waitFor();
+    expect(await step("Normal").isChecked()).toBe(true);
+    const times: string[] = [];
+    for (const quality of ["fine", "normal", "fast"] as const satisfies readonly Quality[]) {
+      await step(quality[0].toUpperCase() + quality.slice(1)).check();
+      await test.planned();
+      times.push(await page.getByRole("region", { name: "Plot", exact: true }).innerText());
+      expect(limitsOf(await motionOfJob())).toEqual(motionOfQuality(quality, SPRINGS));
+    }
+    expect(new Set(times).size).toBe(3);
+  });
+
+  it("is Custom once a number was changed, until a step is chosen again", async () => {
+    await section().getByText("Details", { exact: true }).click();
+    const speed = section().getByRole("group", { name: "Pen down" }).getByLabel("Speed", { exact: true });
+    await speed.fill("33");
+    expect(await step("Custom").isChecked()).toBe(true);
+    expect((await motionOfJob()).draw.speedMmPerS).toBe(33);
+    expect((await motionOfJob()).shaper).toBe("zv");
+    for (const colorScheme of ["light", "dark"] as const) {
+      await test.page.emulateMedia({ colorScheme });
+      expect(await seriousFindings(test.page)).toEqual([]);
+    }
+    await step("Fine").check();
+    expect(await step("Custom").count()).toBe(0);
+    expect(limitsOf(await motionOfJob())).toEqual(motionOfQuality("fine", SPRINGS));
+  });
+
+  it("shapes a motion or softens it, not both", async () => {
+    await section().getByText("Gentle").click();
+    expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });
+    await section().getByLabel("Against swinging").selectOption("zv");
+    expect(await motionOfJob()).toMatchObject({ mode: "blend", shaper: "zv" });
+    expect(test.complaints).toEqual([]);
+  });
+});

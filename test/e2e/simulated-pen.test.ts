@@ -1,0 +1,87 @@
+/** The view of the simulated pen: what it would draw on the machine's springs, beside what was asked. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { planJob } from "../../src/index.js";
+import { machineOf, penError } from "../../src/internal.js";
+import { ASKED_COLOR } from "../../web/scene/renderer.js";
+import { ruledSheet } from "../support/drawings.js";
+import { seriousFindings } from "../support/axe.js";
+import { colorCounts, waitForPicture } from "../support/page-actions.js";
+import { PageTest } from "../support/page-test.js";
+
+const PATIENCE_MS = 120_000;
+const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
+const ASSUMED = { xHz: 15, yHz: 25, damping: 0.05 };
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.firstVisit("simulated-pen");
+  await test.drop("steps", STEPS);
+}, PATIENCE_MS);
+
+afterAll(async () => test.close());
+
+const legend = () => test.page.getByRole("figure", { name: "Legend of the simulated pen" });
+const result = () => legend().locator("[data-max-mm]");
+const maxMm = async (): Promise<number> => Number(await result().getAttribute("data-max-mm"));
+const colors = async (): Promise<Map<number, number>> => {
+  await waitForPicture(test.page);
+  return colorCounts(test.page.locator(".stage"));
+};
+const ASKED = Number.parseInt(ASKED_COLOR.slice(1), 16);
+
+describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
+  it("has the same maximum as the command line, on assumed springs where none were measured", async () => {
+    await test.look("Pen (simulated)");
+    await result().waitFor();
+    await legend().getByText("Assumed swing: 15 Hz along x, 25 Hz along y.", { exact: false }).waitFor();
+    await legend().getByRole("button", { name: "Measure yours…" }).waitFor();
+    const job = await test.queue();
+    const strokes = await test.strokesOf(job);
+    const { trajectory } = planJob({ strokes }, job.settings, machineOf(job.settings), { firmware: "2.8.1" });
+    const error = penError(strokes, trajectory, ASSUMED);
+    expect(await maxMm()).toBeCloseTo(error.maxMm, 3);
+    expect(await legend().innerText()).toContain(`At most ${error.maxMm.toFixed(2)} mm`);
+    for (const colorScheme of ["light", "dark"] as const) {
+      await test.page.emulateMedia({ colorScheme });
+      expect(await seriousFindings(test.page)).toEqual([]);
+    }
+    await test.page.emulateMedia({ colorScheme: "light" });
+  });
+
+  it("draws the pen in colours of its error, with what was asked beside it", async () => {
+    const { page } = test;
+    const stage = (await page.locator(".stage").boundingBox())!;
+    await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height / 2);
+    const far = await colors();
+    for (let i = 0; i < 8; i++) await page.getByRole("button", { name: "Zoom in" }).click();
+    const near = await colors();
+    // Warm colours are large errors: the ramp goes from indigo over magenta to orange.
+    const warm = (counts: Map<number, number>): number =>
+      [...counts].reduce((sum, [rgb, n]) => sum + (rgb >> 16 > 200 && (rgb & 255) < 120 ? n : 0), 0);
+    expect(warm(far)).toBeGreaterThan(5);
+    expect(near.get(ASKED) ?? 0).toBeGreaterThan(0);
+    await page.getByRole("button", { name: "Whole paper" }).click();
+  });
+
+  it("follows the settings, and is put away with the view", async () => {
+    const before = await maxMm();
+    await test.group("Speed");
+    await test.page.locator("#group-motion").getByText("Details", { exact: true }).click();
+    const down = test.page.locator("#group-motion").getByRole("group", { name: "Pen down" });
+    await down.getByLabel("Acceleration", { exact: true }).fill("2500");
+    await expect.poll(maxMm).toBeGreaterThan(1.3 * before);
+    await test.look("Speed");
+    await test.page.getByRole("img", { name: "Speed legend" }).waitFor();
+    expect(await legend().count()).toBe(0);
+    expect((await colors()).get(ASKED) ?? 0).toBe(0);
+  });
+
+  it("does not stand in the way of another drawing", async () => {
+    await test.look("Pen (simulated)");
+    await test.drop("lines", ruledSheet());
+    await test.drop("steps", STEPS);
+    await result().waitFor();
+    expect(test.complaints).toEqual([]);
+  });
+});
