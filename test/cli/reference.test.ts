@@ -102,6 +102,8 @@ const VALUES: Readonly<Record<string, string>> = {
   "--spring-x": "15",
   "--spring-y": "25",
   "--damping": "0.1",
+  "--virtual-springs": "15,25",
+  "--springs": "15,25,0.1",
   "--pen-up": "70",
   "--send-ahead-ms": "200",
 };

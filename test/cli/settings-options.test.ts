@@ -4,6 +4,9 @@ import { join } from "node:path";
 import { Command } from "commander";
 import { describe, expect, it } from "vitest";
 import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
+import { MachineFiles } from "../../server/storage/machine-files.js";
+import { machineById } from "../../src/index.js";
+import { motionOfQuality } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 
 function settingsOf(...args: string[]): PlotSettings {
@@ -17,6 +20,38 @@ function settingsOf(...args: string[]): PlotSettings {
 describe("the settings' options", () => {
   it("change no default if none is given", () => {
     expect(settingsOf()).toEqual(DEFAULT_PLOT_SETTINGS);
+  });
+
+  it("set speed, acceleration and corners by quality, from the frequencies that are given or stored", () => {
+    const springs = { xHz: 15, yHz: 25, damping: 0.1 };
+    const given = ["--spring-x", "15", "--spring-y", "25", "--damping", "0.1"];
+    for (const quality of ["fine", "normal", "fast"] as const) {
+      const { motion, customMachine } = settingsOf("--quality", quality, ...given);
+      expect(motion).toMatchObject(motionOfQuality(quality, springs));
+      expect(customMachine).toMatchObject({ id: "axidraw-v3", springs });
+    }
+    expect(settingsOf("--quality", "normal").motion).toMatchObject(motionOfQuality("normal", null));
+    expect(() => settingsOf("--quality", "fast")).toThrow(/needs to know how the machine swings/);
+    // A machine that was measured on the page is known by its id.
+    const folder = mkdtempSync(join(tmpdir(), "plotwright-"));
+    try {
+      new MachineFiles(folder).save({ ...machineById("axidraw-v3"), id: "mine", springs });
+      const stored = settingsFromOptions({ data: folder, machine: "mine", quality: "fast" });
+      expect(stored.motion).toMatchObject(motionOfQuality("fast", springs));
+      expect(stored.customMachine).toMatchObject({ id: "mine", springs });
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+
+  it("let single numbers and another shaper overrule a quality", () => {
+    const given = ["--quality", "fast", "--spring-x", "15", "--spring-y", "25"];
+    const { motion } = settingsOf(...given, "--accel", "900", "--shaper", "ei");
+    expect(motion).toMatchObject({ shaper: "ei", draw: { speedMmPerS: 85, accelMmPerS2: 900 } });
+    expect(() => settingsOf("--spring-x", "15")).toThrow(/--spring-y/);
+    expect(() => settingsOf("--spring-x", "15", "--spring-y", "500")).toThrow(
+      /--spring-y: it must be 2 to 200 Hz/,
+    );
   });
 
   it("put each value in its place", () => {
