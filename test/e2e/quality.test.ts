@@ -6,13 +6,15 @@ import { seriousFindings } from "../support/axe.js";
 import { PageTest } from "../support/page-test.js";
 
 const PATIENCE_MS = 120_000;
+const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
 const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
 const MEASURED = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs: SPRINGS };
 
 let test: PageTest;
 
 beforeAll(async () => {
-  test = await PageTest.open("quality");
+  test = await PageTest.firstVisit("quality");
+  await test.drop("steps", STEPS);
   for (const title of ["Drawing", "Paper", "Layers"]) await test.group(title, false);
   await test.group("Speed");
 }, PATIENCE_MS);
@@ -40,18 +42,20 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     await section().getByRole("button", { name: "Measure ringing…" }).click();
     const dialog = test.page.getByRole("dialog", { name: "Measure ringing" });
     await dialog.waitFor();
-    await dialog.getByRole("button", { name: "Close" }).click();
+    await test.page.keyboard.press("Escape");
   });
 
   it("sets what a step stands for, from the plotter's springs", async () => {
     const { page } = test;
     await page.request.put(`${test.server.url}/api/v1/machines/${MEASURED.id}`, { data: MEASURED });
+    await page.reload();
+    await test.planned();
     await page.getByRole("button", { name: "Machines…" }).click();
     await page
       .getByRole("dialog")
       .getByRole("button", { name: /^Measured plotter/ })
       .click();
-    await page.getByRole("dialog").getByRole("button", { name: "Close" }).click();
+    await page.keyboard.press("Escape");
     // Normal stays Normal: that of this machine.
     await section().getByText("15 Hz along x and 25 Hz along y", { exact: false }).waitFor();
     expect(await step("Normal").isChecked()).toBe(true);
@@ -82,7 +86,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
   });
 
   it("shapes a motion or softens it, not both", async () => {
-    await section().getByText("Gentle").click();
+    await section().getByRole("radio", { name: "Gentle" }).check();
     expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });
     await section().getByLabel("Against swinging").selectOption("zv");
     expect(await motionOfJob()).toMatchObject({ mode: "blend", shaper: "zv" });

@@ -26,7 +26,8 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
   const settings = usePageState((state) => state.settings);
   const known = useSprings();
   const store = useStoreSprings();
-  const [isUnshapedPicked, setUnshapedPicked] = useState(false);
+  /** Clicked, whether or not it has been stored yet. */
+  const [picked, setPicked] = useState<number | null>(null);
   const { run, at, hasStopped } = useSheetPlot();
   const checks = ringingChecks(springs);
   const labels = checks.map((check) =>
@@ -35,11 +36,12 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
       : words.shapedFor(formatNumber(check.springs.xHz, 1), formatNumber(check.springs.yHz, 1)),
   );
   const place = sheetPlace(settings, checks.length);
-  const chosen = isUnshapedPicked ? 0 : checks.findIndex((check) => isStored(check.springs, known));
-  const pick = (index: number): void => {
-    const picked = checks[index].springs;
-    setUnshapedPicked(picked === null);
-    if (picked !== null) void store(picked);
+  const chosen = picked ?? checks.findIndex((check) => isStored(check.springs, known));
+  const isUnshapedPicked = chosen === 0;
+  const pick = async (index: number): Promise<void> => {
+    setPicked(index);
+    const better = checks[index].springs;
+    if (better !== null && !(await store(better))) setPicked(null);
   };
   const plot = (): void => {
     onPlot();
@@ -69,13 +71,13 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
           labels={labels}
           nextMm={place?.nextMm ?? 10}
           chosen={chosen < 0 ? null : chosen}
-          onChoose={pick}
+          onChoose={(index) => void pick(index)}
         />
         <fieldset className="pick-list">
           <legend>{words.picks}</legend>
           {labels.map((label, i) => (
             <label key={label} className="pick">
-              <input type="radio" name="picked-line" checked={i === chosen} onChange={() => pick(i)} />
+              <input type="radio" name="picked-line" checked={i === chosen} onChange={() => void pick(i)} />
               {label}
             </label>
           ))}

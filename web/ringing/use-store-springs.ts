@@ -4,17 +4,18 @@ import { useHand } from "../plotter/use-hand.js";
 import { measuredMachine } from "./measured-machine.js";
 import { ringingText } from "./ringing-text.js";
 
-/** Stores the springs with the plotter's machine on the server, and chooses that machine. */
-export const useStoreSprings = (): ((springs: Springs) => Promise<void>) => {
+/** Stores the springs with the plotter's machine on the server, and chooses that machine. False: it failed, which was said. */
+export const useStoreSprings = (): ((springs: Springs) => Promise<boolean>) => {
   const machine = usePageState(({ settings }) => findMachine(settings));
   const machines = usePageState((state) => state.machines);
   const hand = useHand();
   const { chooseMachine } = useActions();
   return async (springs) => {
-    if (machine === null) return;
+    if (machine === null) return false;
     const saved = await hand.saveMachine(
       measuredMachine(machine, springs, machines, ringingText.machineName),
     );
     if (saved) chooseMachine(saved);
+    return saved !== null;
   };
 };
