@@ -34,6 +34,7 @@ export {
 } from "./settings/prepare.js";
 export {
   DEFAULT_FIT,
+  CORNER_RULES,
   MOTION_MODES,
   SHAPERS,
   type Shaper,
