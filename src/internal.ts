@@ -119,6 +119,7 @@ export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-h
 
 // job
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
+export { unusedSettings } from "./job/unused-settings.js";
 
 // drivers
 export type { BoardState } from "./drivers/ebb/compile/command-stream.js";

@@ -34,6 +34,10 @@ export interface ControllerDescription {
   /** Devices that are certainly this controller: "auto" takes the first. Empty: the user names the port. */
   readonly usbIds: readonly UsbId[];
   readonly firmware: FirmwareRules;
+  /**
+   * Settings that do not change its plots: their labels by path, such as "motion.layers.*.cornerMm". Left out: none.
+   */
+  readonly unusedSettings?: Readonly<Record<string, string>>;
 }
 
 export interface Driver {

@@ -1,6 +1,7 @@
 /** The three parts of this folder that `registry.ts` lists. */
 import type { ControllerDescription } from "../driver.js";
 import { GRBL_FIELDS } from "./model/grbl-controller.js";
+import { UNUSED_SETTINGS } from "./unused-settings.js";
 
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
@@ -8,6 +9,7 @@ export const description: ControllerDescription = {
   usbIds: [],
   // The plan does not depend on the version.
   firmware: { isOwn: (firmware) => firmware.startsWith("Grbl"), limitsMotion: () => false },
+  unusedSettings: UNUSED_SETTINGS,
 };
 
 export { planGrblJob as planJob } from "./grbl-job.js";

@@ -37,7 +37,7 @@ export function planGrblJob(
 ): MachineJob<GrblCommands> {
   const grbl = grblOf(machine);
   const runs = new GrblRuns(machine, grbl);
-  const trajectory = plan(strokes, { ...motion, mode: "junction" }, timedPen(pen, grbl), {
+  const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, timedPen(pen, grbl), {
     from: options.from ?? undefined,
     startX: options.startXMm,
     startY: options.startYMm,
