@@ -96,7 +96,8 @@ export class GrblSession {
     this.sentBytes += line.length + 1;
     this.log.add("sent", line);
     this.put(`${line}\n`);
-    if (!this.cancelWatch) this.watch();
+    // While it is identified, silence is no fault: its tries end by themselves.
+    if (!this.cancelWatch && this.version !== null) this.watch();
   }
 
   /** Resolves when the line is accepted; for `G4` when everything before it is done. */
