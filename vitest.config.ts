@@ -42,6 +42,7 @@ export default defineConfig({
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
           exclude: [...FUNCTIONS, ...PROCESSES, ...REAL_TIME],
           ...limits(60_000),
+          isolate: false,
         },
       },
       {
