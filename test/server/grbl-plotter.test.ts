@@ -201,16 +201,15 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     const world = new ManualClock();
     let left = answers;
     const line = new ScriptedLine(() => (left-- > 0 ? "echo:wait\n" : null), "\n");
-    const lost: string[] = [];
     const events = {
       changed: () => undefined,
       buttonPressed: () => undefined,
       supplyRead: () => undefined,
-      lost: ({ code }: PlotwrightError) => lost.push(code),
+      lost: () => undefined,
     };
     const options = { clock: world, machineClock: world, speed: 1, events };
     expect(await outcome(world.run(grblDriver.identify(line, options)))).toMatch(message);
-    expect({ lost, closed: line.closed }).toEqual({ lost: [], closed: true });
+    expect(line.closed).toBe(true);
   });
 
   it("gives way to an EiBotBoard for a job of such a machine, and comes back", async () => {
