@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
 import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
+import type { Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -14,9 +15,9 @@ const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
 const outcome = (promise: Promise<unknown>): Promise<unknown> =>
   promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
 
-async function newPlotter(firmware?: string) {
+async function newPlotter(firmware?: string, virtualSprings?: Springs) {
   const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, virtualSprings });
   await world.run(driver.start());
   const board = virtualBoardOf(driver);
   const begin = async (strokes: StrokeSet = TWO_LINES, settings = SETTINGS) => {
@@ -58,6 +59,20 @@ describe("a plotter", () => {
       expect(driver.state).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
     },
   );
+
+  it("draws with a pen that swings where it is told how, and with one that does not elsewhere", async () => {
+    const beyond = async (springs?: Springs): Promise<number> => {
+      const { world, board, begin } = await newPlotter("2.8.1", springs);
+      const { run } = await begin(TWO_LINES, WAITING);
+      expect(await world.run(run.finished)).toEqual({ kind: "done" });
+      expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+      // The second line ends at x = 80.
+      const line = board.drawn().filter(({ penDown }) => penDown)[1].xy;
+      return Math.max(...line.filter((_, i) => i % 2 === 0)) - 80;
+    };
+    expect(await beyond()).toBeLessThan(0.02);
+    expect(await beyond({ xHz: 15, yHz: 25, damping: 0.05 })).toBeGreaterThan(0.04);
+  });
 
   it("reports progress many times a second, always increasing, up to 1", async () => {
     const { world, begin } = await newPlotter();

@@ -16,7 +16,7 @@ interface SheetPictureProps {
 export const SheetPicture = ({ labels, nextMm, chosen, onChoose }: SheetPictureProps) => {
   const last = labels.length - 1;
   const size = STAIRS_MM + last * nextMm;
-  const labelRoom = 30;
+  const labelRoom = 38;
   return (
     <svg
       className="sheet-picture"
