@@ -1,4 +1,5 @@
 /** Checks profiles written by hand in programs without types, which may lack required fields. */
+import { checkObject } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import { isAllowed, rangeInWords, type NumberSetting, type SettingsTable } from "../settings/setting.js";
 import { CONTROLLER_TABLES } from "./controllers.js";
@@ -50,6 +51,7 @@ const KIND: Need = { isRight: isOneOf(...KINDS), what: KINDS.map((kind) => `"${k
 
 /** @throws PlotwrightError "bad-setting" for the first field that is missing or invalid */
 export function checkProfile(machine: MachineProfile): void {
+  checkObject("machine", "the machine", machine, [], 'a profile, for example machineById("axidraw-v3")');
   const name = String(machine.name ?? machine.id ?? "without a name");
   check(name, "", PROFILE_NEEDS, machine);
   const controller: unknown = machine.controller;
