@@ -11,7 +11,7 @@ import { importDxf } from "./dxf/import-dxf.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
-import { importSvgSteps } from "./svg/import-svg.js";
+import { importSvg } from "./svg/import-svg.js";
 
 export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
@@ -46,24 +46,15 @@ export const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
 };
 
-/**
- * Reads in steps of a few milliseconds; the generator returns the drawing. Throws
- * PlotwrightError("bad-file").
- */
-type Reader = (text: string, options: ImportOptions) => Generator<void, Drawing>;
+/** Throws PlotwrightError("bad-file"). */
+type Reader = (text: string, options: ImportOptions) => Drawing;
 
 const READERS: Readonly<Record<DrawingFormat, Reader>> = {
-  svg: importSvgSteps,
-  dxf: inOneStep(importDxf),
-  hpgl: inOneStep(importHpgl),
-  json: inOneStep(importPolylines),
+  svg: importSvg,
+  dxf: importDxf,
+  hpgl: importHpgl,
+  json: importPolylines,
 };
-
-function inOneStep(read: (text: string, options: ImportOptions) => Drawing): Reader {
-  return function* (text, options) {
-    return read(text, options);
-  };
-}
 
 export const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
 /** The extensions of all formats, without the dot. */
@@ -99,11 +90,7 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
 export function importDrawing(name: string, text: string, options: ImportOptions = {}): Drawing {
   checkText("importDrawing(name, text)", text);
   checkImportOptions(options);
-  const steps = readerOf(name, text)(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-  }
+  return readerOf(name, text)(text, options);
 }
 
 function readerOf(name: string, text: string): Reader {
