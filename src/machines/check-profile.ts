@@ -1,4 +1,5 @@
 /** Checks profiles written by hand in programs without types, which may lack required fields. */
+import { checkObject } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
 import type { ControllerField, ControllerFields } from "./controller.js";
@@ -31,6 +32,7 @@ const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
 
 /** @throws PlotwrightError "bad-setting" for the first field that is missing or invalid, except the controller's */
 export function checkProfile(machine: MachineProfile): void {
+  checkObject("machine", "the machine", machine, [], 'a profile, for example machineById("axidraw-v3")');
   const values = machine as unknown as Values;
   for (const [key, need] of Object.entries(PROFILE_NEEDS)) check(machine, key, need, values[key]);
   if (isObject(values.controller)) return;
