@@ -7,6 +7,7 @@ import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from 
 import type { Springs } from "../../src/internal.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { applyFault, faultHelp } from "./board-faults.js";
+import { fileFault } from "../storage/file-fault.js";
 import type { CliIo } from "./io.js";
 
 export interface BoardCommandOptions {
@@ -118,7 +119,12 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     ...(options.springs === undefined ? {} : { springs: options.springs }),
   });
   const { board } = ptyBoard;
-  link(ptyBoard.path, options.pty);
+  try {
+    link(ptyBoard.path, options.pty);
+  } catch (error) {
+    await ptyBoard.close();
+    throw error;
+  }
   const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
   const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
   const dropped = watchDrops(ptyBoard, options.pty, io);
@@ -209,7 +215,7 @@ function writeDrawing(path: string, board: VirtualBoard, machine: MachineProfile
   try {
     writeFileSync(path, drawnSvg(board, machine));
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, {
       cause,
     });
   }
@@ -230,9 +236,13 @@ function link(target: string, path: string): void {
     if (isLink(path)) rmSync(path);
     symlinkSync(target, path);
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be made: ${(cause as Error).message}.`, {
-      cause,
-    });
+    throw new PlotwrightError(
+      "bad-setting",
+      `${path} can't be made: ${fileFault(cause)}. Choose another --pty path.`,
+      {
+        cause,
+      },
+    );
   }
 }
 
