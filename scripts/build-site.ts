@@ -34,7 +34,8 @@ buildEntrances();
 console.log(`The site is in ${path.relative(process.cwd(), site)}`);
 
 function buildApp(folder: string): void {
-  const args = ["build", "--config", "web/vite.config.ts", "--outDir", folder, "--logLevel", "warn"];
+  const paths = ["--outDir", folder, "--base", "./"];
+  const args = ["build", "--config", "web/vite.config.ts", ...paths, "--logLevel", "warn"];
   const env = { ...process.env, VITE_BACKEND: "browser", NODE_ENV: "production" };
   const vite = [nodeModule("vite", "bin", "vite.js"), ...args];
   const { status } = spawnSync(process.execPath, vite, { cwd: ROOT, env, stdio: "inherit" });
