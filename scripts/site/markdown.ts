@@ -1,7 +1,7 @@
 /** Markdown of the repository to HTML of the site: ids of headings as on GitHub, links between the files as pages. */
 import path from "node:path";
 import { Marked, type Tokens } from "marked";
-import { PAGES } from "./pages.js";
+import { PAGES, type DocPage } from "./pages.js";
 
 export interface Heading {
   readonly depth: number;
@@ -37,8 +37,11 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
             : ` <a class="anchor" href="#${id}" aria-label="Link to “${escapeHtml(text)}”">#</a>`;
         return `<h${depth} id="${id}">${this.parser.parseInline(tokens)}${anchor}</h${depth}>\n`;
       },
-      link({ href, tokens }: Tokens.Link) {
-        return `<a href="${escapeHtml(linkTo(source, href))}">${this.parser.parseInline(tokens)}</a>`;
+      link({ href, text, tokens }: Tokens.Link) {
+        // On GitHub a file's name is a good text, here its page has a name.
+        const page = text.endsWith(".md") ? pageOf(source, href) : undefined;
+        const words = page === undefined ? this.parser.parseInline(tokens) : escapeHtml(page.label);
+        return `<a href="${escapeHtml(linkTo(source, href))}">${words}</a>`;
       },
       image({ href, text }: Tokens.Image) {
         const picture = inRepository(source, href);
@@ -75,11 +78,15 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
 /** Where a link of a Markdown file leads on the site. Throws if its target is not on the site. */
 function linkTo(source: string, href: string): string {
   if (/^(https?|mailto):/.test(href) || href.startsWith("#")) return href;
-  const [file = "", anchor] = href.split("#");
-  const target = inRepository(source, file);
-  const found = PAGES.find((one) => one.source === target);
+  const anchor = href.split("#")[1] as string | undefined;
+  const found = pageOf(source, href);
   if (found === undefined) throw new Error(`${source}: the link to ${href} leads to no page of the site`);
   return anchor === undefined ? found.file : `${found.file}#${anchor}`;
+}
+
+function pageOf(source: string, href: string): DocPage | undefined {
+  const target = inRepository(source, href.split("#")[0]);
+  return PAGES.find((one) => one.source === target);
 }
 
 const inRepository = (source: string, href: string): string =>
