@@ -1,9 +1,9 @@
 /**
- * The web site of `npm run build:site`: its links, and every page of the documentation in Chromium. It is served
+ * The web site of `npm run build:site`: its links, every page of the documentation, and the app in Chromium. It is served
  * below a path, as on a host that has several projects.
  */
 import { spawnSync } from "node:child_process";
-import { readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
 import type { Browser, Page } from "playwright-core";
@@ -13,6 +13,7 @@ import { PAGES } from "../../scripts/site/pages.js";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
 import { IS_FULL } from "../support/full-run.js";
+import { chooseSample, waitForPicture } from "../support/page-actions.js";
 import { temporaryFolder } from "../support/server-process.js";
 import { serveFolder, type StaticSite } from "../support/static-site.js";
 
@@ -204,6 +205,52 @@ describe("a reader", () => {
       .first()
       .evaluate((image) => (image as HTMLImageElement).naturalWidth > 0);
     expect(isDrawn).toBe(true);
+    await context.close();
+  });
+});
+
+/** Without it the app of the site is the server's page, which can only report that its server is missing. */
+const HAS_BROWSER_BACKEND = existsSync(path.join(ROOT, "web", "backend", "browser"));
+
+describe.runIf(HAS_BROWSER_BACKEND)("the app of the site", () => {
+  const openApp = async (page: Page, host: StaticSite): Promise<void> => {
+    await page.goto(`${host.url}app/index.html`);
+    await page.getByText("Drop a drawing here").waitFor();
+  };
+
+  it("loads at most 320 kB of code, gzipped, for an empty sheet, and shows no error under its policy", async () => {
+    const page = await browser.newPage({ serviceWorkers: "block" });
+    const complaints = complaintsOf(page);
+    const loaded = new Map<string, number>();
+    page.on("response", (response) => {
+      if (!response.url().startsWith(site.url)) return;
+      const file = new URL(response.url()).pathname.slice(BASE.length);
+      loaded.set(file, gzipSync(readFileSync(path.join(folder.path, file))).length);
+    });
+    await openApp(page, site);
+    await page.waitForLoadState("networkidle");
+    // The samples' pictures come after the page.
+    const bytes = [...loaded]
+      .filter(([file]) => !file.endsWith(".svg"))
+      .reduce((sum, [, size]) => sum + size, 0);
+    expect([...loaded.keys()].filter((file) => file.endsWith(".js")).length).toBeGreaterThan(2);
+    expect(bytes).toBeLessThanOrEqual(320_000);
+    await chooseSample(page);
+    await waitForPicture(page);
+    expect(complaints).toEqual([]);
+    await page.close();
+  });
+
+  it("opens and plans a sample without a network after one visit", async () => {
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    const host = await serveFolder(folder.path, BASE);
+    await openApp(page, host);
+    await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+    await host.close();
+    await openApp(page, host);
+    await chooseSample(page);
     await context.close();
   });
 });
