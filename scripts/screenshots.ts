@@ -1,27 +1,27 @@
 /**
  * `npm run screenshots [-- FOLDER [STATE…]]`: every state of the page, at desktop and phone size, light and
- * dark, as PNG files in test/screenshots/, and the pictures of the documents in docs/screenshots/. Look at them
- * after each visible change. Each state is also checked by axe; serious findings are printed, and set exit code 1.
- *
- *   npm run screenshots -- --docs      only the pictures of the documents
+ * dark, as PNG files in test/screenshots/, and the README's picture in docs/. Look at them after each visible
+ * change. Each state is also checked by axe; serious findings are printed, and set exit code 1.
  */
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { seriousFindings } from "../test/support/axe.js";
 import { launchBrowser } from "../test/support/browser.js";
-import { dropFile, plotBar, waitForPlan } from "../test/support/page-actions.js";
+import { dropFile, waitForPlan } from "../test/support/page-actions.js";
 import { DESK, PAGE_STATES, PHONE, inStates, sampleText, type Look } from "../test/support/page-states.js";
 import { startServerProcess, temporaryFolder } from "../test/support/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";
 
-const DOCS_ONLY = "--docs";
-const [folderName, ...onlyStates] = process.argv.slice(2).filter((argument) => argument !== DOCS_ONLY);
+const DOCS_ONLY = process.argv.includes("--docs");
+const [folderName, ...onlyStates] = process.argv.slice(2).filter((argument) => argument !== "--docs");
 const folder = path.resolve(folderName ?? path.join(ROOT, "test", "screenshots"));
 const findings: string[] = [];
 
 async function shootAll(browser: Browser, look: Look): Promise<void> {
-  const states = PAGE_STATES.filter(({ name }) => onlyStates.length === 0 || onlyStates.includes(name));
+  const states = DOCS_ONLY
+    ? []
+    : PAGE_STATES.filter(({ name }) => onlyStates.length === 0 || onlyStates.includes(name));
   await inStates(browser, states, look, async (page, state, scheme) => {
     const name = `${look.name}-${scheme}-${state.name}`;
     await drawn(page);
@@ -38,8 +38,8 @@ async function drawn(page: Page): Promise<void> {
   await page.waitForTimeout(300);
 }
 
-/** In docs/screenshots/, as WebP: a third of the size of PNG. */
-async function picturesForDocs(browser: Browser): Promise<void> {
+/** The pictures of the documents in docs/screenshots/, as WebP: a third of the size of PNG. `--docs`: only these. */
+async function picturesForDocuments(browser: Browser): Promise<void> {
   const data = temporaryFolder("screenshots");
   const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 4 });
   const look = { reducedMotion: "reduce", colorScheme: "light" } as const;
@@ -54,7 +54,10 @@ async function picturesForDocs(browser: Browser): Promise<void> {
     await dropFile(desk, "moonrise.svg", sampleText("moonrise"));
     await desk.getByText("moonrise").first().waitFor();
     await waitForPlan(desk);
-    await plotBar(desk).getByRole("button", { name: "Plot", exact: true }).click();
+    await desk
+      .getByRole("region", { name: "Plot", exact: true })
+      .getByRole("button", { name: "Plot", exact: true })
+      .click();
     // Watch opens by itself.
     // Enough of the drawing for a picture.
     await desk.waitForTimeout(90_000);
@@ -85,8 +88,8 @@ ensureBuild();
 mkdirSync(folder, { recursive: true });
 const browser = await launchBrowser();
 try {
-  if (onlyStates.length === 0) await picturesForDocs(browser);
-  if (!process.argv.includes(DOCS_ONLY)) for (const look of [DESK, PHONE]) await shootAll(browser, look);
+  if (onlyStates.length === 0) await picturesForDocuments(browser);
+  for (const look of [DESK, PHONE]) await shootAll(browser, look);
 } finally {
   await browser.close();
 }
