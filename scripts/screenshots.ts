@@ -38,8 +38,8 @@ async function drawn(page: Page): Promise<void> {
   await page.waitForTimeout(300);
 }
 
-/** The pictures of the documents in docs/screenshots/, as WebP: a third of the size of PNG. `--docs`: only these. */
-async function picturesForDocuments(browser: Browser): Promise<void> {
+/** The pictures of README and documents, in docs/screenshots/, as WebP: a third of the size of PNG. `--docs`: only these. */
+async function pictureForReadme(browser: Browser): Promise<void> {
   const data = temporaryFolder("screenshots");
   const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 4 });
   const look = { reducedMotion: "reduce", colorScheme: "light" } as const;
@@ -88,7 +88,7 @@ ensureBuild();
 mkdirSync(folder, { recursive: true });
 const browser = await launchBrowser();
 try {
-  if (onlyStates.length === 0) await picturesForDocuments(browser);
+  if (onlyStates.length === 0) await pictureForReadme(browser);
   for (const look of [DESK, PHONE]) await shootAll(browser, look);
 } finally {
   await browser.close();
