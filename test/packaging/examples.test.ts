@@ -5,7 +5,6 @@
  */
 import { spawnSync } from "node:child_process";
 import {
-  copyFileSync,
   mkdirSync,
   mkdtempSync,
   readFileSync,
@@ -34,6 +33,8 @@ const DOCUMENTS = [
 ];
 /** A new example that is not run is a decision: change this number with it. */
 const NO_RUN_COUNT = 22;
+/** For the commands: large enough for every option in them, and plotted in a moment. */
+const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40"><path d="M5 5H50V30" fill="none" stroke="#000"/></svg>`;
 
 interface Example {
   readonly name: string;
@@ -69,7 +70,7 @@ beforeAll(() => {
     "junction",
   );
   symlinkSync(path.join(ROOT, "samples"), path.join(folder, "samples"), "junction");
-  copyFileSync(path.join(ROOT, "samples", "three-colour-hills.svg"), path.join(folder, "drawing.svg"));
+  writeFileSync(path.join(folder, "drawing.svg"), DRAWING);
   writeFileSync(path.join(folder, "package.json"), '{ "type": "module" }');
   const options = {
     target: "ES2022",
@@ -156,11 +157,11 @@ describe("the commands of the documents", () => {
     }
   });
 
-  /** Draws on the virtual board, at once. */
+  /** Draws on the virtual board. */
   function runPlotwright(program: string, args: string[]) {
     expect(program).toBe("plotwright");
     const data = ["--data", path.join(folder, "data")];
-    const board = ["--device", "virtual", "--virtual-speed", "1000", ...data];
+    const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
     const withoutBoard: Readonly<Record<string, string[]>> = { plan: [], devices: [], logs: data };
     const additions = (args.includes("--device") ? board.slice(2) : withoutBoard[args[0]]) ?? board;
     return spawnSync(process.execPath, [path.join(ROOT, "dist/server/main.js"), ...args, ...additions], {
