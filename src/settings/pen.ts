@@ -71,7 +71,7 @@ export const OVERLAP_TABLE = {
     label: "Move while the pen lifts",
     about: "whether the carriage moves while the pen lifts and lowers clear of the paper",
     flag: "--pen-overlap",
-    default: "off",
+    default: "safe",
     choices: PEN_OVERLAPS,
   },
   /** Share of the way from down to up. */
