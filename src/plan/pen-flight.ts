@@ -62,7 +62,7 @@ export function liftBefore(pen: PenSettings, travelMm: number): Lift {
   const { waitS: moveS } = liftTiming(pen, heightPct);
   if (!liftsInFlight(pen)) return { heightPct, waitS: moveS, moveS };
   const clearS = FRAME_S + (clearHeight(pen) - pen.downPct) / liftRate(pen);
-  return { heightPct, waitS: Math.min(clearS, pen.liftMs / 1_000), moveS };
+  return { heightPct, waitS: wholeMs(Math.min(clearS, pen.liftMs / 1_000)), moveS };
 }
 
 /** The time of a lift to the hop height. */
@@ -98,8 +98,12 @@ export function lowerDuring(
     if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;
   }
-  return { hoverS, dropS, downS: Math.max(endS, dropS + (fromPct - pen.downPct) / down) };
+  const waitS = wholeMs(dropS + (fromPct - pen.downPct) / down - endS);
+  return { hoverS, dropS, downS: endS + waitS };
 }
+
+/** A board waits for whole milliseconds. So must the plan: half a millisecond for each stroke adds up to seconds. */
+const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
 
 /** At this height the tip is clear of the paper, whatever the servo: percent of its range. */
 const hopHeight = (pen: PenSettings): number => atShare(pen, pen.contactPct + MARGIN_PCT);

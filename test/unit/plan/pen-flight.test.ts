@@ -43,7 +43,8 @@ describe("a pen in flight", () => {
 
   it("lets the carriage start when the tip is clear, a frame of the servo later", () => {
     const waitOf = (pen: PenSettings): number => penMovesOf(planned(pen)).find(({ up }) => up)!.waitS;
-    expect(waitOf(SAFE)).toBeCloseTo(0.024 + 0.65 * 0.25, 9);
+    // 186.5 ms, in whole milliseconds.
+    expect(waitOf(SAFE)).toBeCloseTo(0.187, 9);
     expect(waitOf(FAST)).toBeCloseTo(0.024 + 0.5 * 0.25, 9);
   });
 

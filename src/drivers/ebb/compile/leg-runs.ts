@@ -96,7 +96,7 @@ export class LegRuns implements RunWriter {
       const [next, ...later] = this.midway;
       if (!next) return;
       this.midway = later;
-      next.write(this.runIndex);
+      next.write(this.runIndex, this.walk.planS(this.columns.boardTicks));
     }
   }
 
