@@ -8,6 +8,7 @@ import {
   type Trajectory,
 } from "../../../src/index.js";
 import { comeToRest } from "../../../src/plan/come-to-rest.js";
+import { landingMm } from "../../../src/plan/pen-flight.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 import { placeAt } from "../../../src/plan/place-on-plan.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
@@ -59,6 +60,25 @@ describe("a pen in flight", () => {
       expect(awayMm).toBeGreaterThan(0.05);
       expect(awayMm).toBeLessThanOrEqual(0.1 + 1e-6);
     }
+  });
+
+  it("tells how far from a stroke it may begin to come down", () => {
+    for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
+      const t = planned(pen);
+      const { accelMmPerS2 } = DEFAULT_MOTION.travel;
+      const awayMm = penMovesOf(t)
+        .filter(({ up }) => !up)
+        .slice(1)
+        .map(({ startS, beforeRun }) => {
+          const block = t.runs.firstBlock[beforeRun];
+          const { x, y } = stateAt(t, startS);
+          return Math.hypot(x - t.x[block], y - t.y[block]);
+        });
+      expect(Math.max(...awayMm)).toBeLessThanOrEqual(landingMm(pen, accelMmPerS2) + 1e-9);
+      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * landingMm(pen, accelMmPerS2));
+    }
+    expect(landingMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
+    expect(landingMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
   });
 
   it("waits for the whole first drop, because the height of the pen is not known", () => {
