@@ -10,6 +10,8 @@ export const plotterText = {
   pen: "Pen",
   up: "up",
   down: "down",
+  goingUp: "going up",
+  goingDown: "going down",
   motors: "Motors",
   on: "on",
   off: "off",

@@ -94,7 +94,7 @@ describe("a pen in flight", () => {
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
   });
 
-  it("goes on to the stroke's start and lifts there, when it is stopped while it comes down", () => {
+  it("lifts at once and goes on to the stroke's start, when it is stopped while it comes down", () => {
     for (const [t, pen] of [SAFE, FAST].flatMap((p) => [planned(p), shaped(p)].map((u) => [u, p] as const))) {
       const limits = { drawAccel: 500, travelAccel: 1_000 };
       for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
@@ -104,12 +104,16 @@ describe("a pen in flight", () => {
           const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, pen);
           expect(rest.trajectory.endX).toBeCloseTo(t.x[block], 6);
           expect(rest.trajectory.endY).toBeCloseTo(t.y[block], 6);
-          const [lift] = penMovesOf(rest.trajectory);
-          expect([lift.up, lift.heightPct, lift.waitS]).toEqual([true, 60, 0.25]);
+          const lifts = penMovesOf(rest.trajectory).map(({ up, heightPct, waitS }) => [up, heightPct, waitS]);
+          expect(lifts).toEqual([[true, 60, 0], [true, 60, 0.25]]); // prettier-ignore
+          expect(penMovesOf(rest.trajectory)[0].startS).toBe(0);
           expect(placeAt(t, rest.planS)).toEqual({ stroke: t.runs.stroke[drop.beforeRun], alongMm: 0 });
         }
-        // Before the drop it stops where it can, and the pen is up.
-        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory)).toEqual([]);
+        // Before the drop it stops where it can, and the pen goes up from the hop height.
+        const [lift, ...more] = penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory);
+        expect([lift.up, lift.heightPct, lift.waitS, more]).toEqual([true, 60, 0.25, []]);
+        // Up already.
+        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, null).trajectory)).toEqual([]);
       }
     }
   });
