@@ -18,10 +18,10 @@ const { firmware, speed, futureSyntax, wakeful, servo } = JSON.parse(process.arg
   speed: number;
   futureSyntax: boolean;
   wakeful: boolean;
-  servo?: VirtualServo;
+  servo: VirtualServo;
 };
 const ownClock = wakeful ? wakefulClock() : null;
-const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed, ...(servo && { servo }) });
+const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed, servo });
 const say = (message: FromBoard): void => void process.send!(message);
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-pty-"));

@@ -55,7 +55,7 @@ export class PtyBoard {
       servo?: VirtualServo;
     } = {},
   ): Promise<PtyBoard> {
-    const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo } = options;
+    const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo = {} } = options;
     const file = fileURLToPath(new URL("./pty-board-child.ts", import.meta.url));
     const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })], {
       execArgv: ["--import", "tsx"],
