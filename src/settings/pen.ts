@@ -77,10 +77,11 @@ export const OVERLAP_TABLE = {
   /** Share of the way from down to up. */
   contactPct: {
     ...height,
-    label: "Leaves the paper at",
+    label: "Tip touches at",
     about: "share of the lift at which the tip leaves the paper",
     flag: "--pen-contact",
     default: 50,
+    slider: [0, 100],
   },
   fullHeightMm: {
     kind: "number",

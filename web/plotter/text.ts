@@ -50,6 +50,10 @@ export const penText = {
   down: "Pen down",
   motorsOff: "Motors off",
   home: "Home",
+  touch: "Try",
+  touchLabel: "Lower the pen to where the tip touches",
+  touchHint:
+    "Put paper under the pen and lower this until the tip just marks. 100 % is Height up, 0 % Height down: find it again when you change them.",
   testLine: "Draw a test line",
   testLineHint: "A line of 2 cm, half a centimetre from where the carriage is",
   firstPlot: "First plot with this plotter",

@@ -205,7 +205,7 @@ const sampleStrokes = (file: string): StrokeSet =>
   prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes;
 const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
 
-describe.each(samples)("the sample %s", (file) => {
+describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
   const strokes = sampleStrokes(file);
 
   it.each([
