@@ -28,7 +28,7 @@ export class FastBoard {
     readonly machine: MachineProfile,
     readonly pen: PenSettings,
   ) {
-    this.board = new VirtualBoard({ clock: stillClock, firmware, machine, speed: Infinity });
+    this.board = new VirtualBoard({ clock: stillClock, firmware, machine, speed: Infinity, servo: {} });
     this.board.onSend((bytes) => {
       const text = String.fromCharCode(...bytes);
       if (text.includes("!")) this.errors.push(text.trim());
