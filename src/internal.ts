@@ -100,6 +100,7 @@ export {
 // plan
 export { PlaceTimes } from "./plan/place-times.js";
 export type { TrajectoryStats } from "./plan/stats.js";
+export { landingMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 export { leavesLineMm } from "./plan/shapers.js";

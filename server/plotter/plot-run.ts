@@ -13,6 +13,7 @@
 import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
 import {
   movedPlace,
+  landingMm,
   leavesLineMm,
   placeBehindSent,
   pointOfPlace,
@@ -192,10 +193,16 @@ export class MachinePlot implements LivePlotRun {
     const mostMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
     const pen = { ...at, up: left.penUp };
     const { sent } = this.#start;
-    const leavesMm = leavesLineMm(motion, machineOf(this.#settings.current).springs ?? null);
+    const since = {
+      aheadMm: LEFT_S * mostMmPerS,
+      stops: this.#stops.strokes,
+      leavesMm: leavesLineMm(motion, machineOf(this.#settings.current).springs ?? null),
+      landingMm: landingMm(this.#settings.current.pen, travel.accelMmPerS2),
+    };
+    const sentSince = { ...since, aheadMm: UNTIL_NEXT_ENTRY_S * drawMmPerS, stops: [] };
     return (
-      (sent && placeBehindSent(this.#strokes, sent, pen, UNTIL_NEXT_ENTRY_S * drawMmPerS, leavesMm)) ??
-      stoppedPlace(this.#strokes, from, pen, LEFT_S * mostMmPerS, this.#stops.strokes, leavesMm)
+      (sent && placeBehindSent(this.#strokes, sent, pen, sentSince)) ??
+      stoppedPlace(this.#strokes, from, pen, since)
     );
   }
 

@@ -28,7 +28,7 @@ import { nodeClock } from "../serial/node-clock.js";
 import { connect, type Connection } from "./connection.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
-import type { LivePlotRun, PlotStart } from "./types.js";
+import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
   /**
@@ -95,6 +95,7 @@ export class PlotterDriver {
       emergencyStopMs: null,
       message: null,
       penUp: null,
+      penMoving: false,
       motorsOn: null,
       xMm: null,
       yMm: null,
@@ -142,7 +143,7 @@ export class PlotterDriver {
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
     this.#tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
     run.onHeld((held) => this.#tell({ activity: held ? "held" : "plotting" }));
-    run.onProgress((progress) => this.#movedTo(progress.xMm, progress.yMm, progress.penUp));
+    run.onProgress((progress) => this.#movedTo(progress));
     run.finished.then(
       () => this.#runEnded(),
       () => this.#runEnded(),
@@ -260,6 +261,7 @@ export class PlotterDriver {
       connection: "connecting",
       message: null,
       penUp: null,
+      penMoving: false,
       motorsOn: null,
       xMm: null,
       yMm: null,
@@ -357,7 +359,8 @@ export class PlotterDriver {
     // A held run does not notice the lost board by itself.
     this.#run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
-    this.#tell({ connection, message: error.message, penUp: null, motorsOn: null, xMm: null, yMm: null });
+    const unknown = { penUp: null, penMoving: false, motorsOn: null, xMm: null, yMm: null };
+    this.#tell({ connection, message: error.message, ...unknown });
     this.#cancelRetry?.();
     this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
   }
@@ -443,6 +446,7 @@ export class PlotterDriver {
     this.#tell({
       emergencyStopMs: machine.emergencyStopMs(this.#settings),
       penUp: machine.penUp,
+      penMoving: machine.penMoving,
       motorsOn: machine.motorsOn,
       xMm: place?.x ?? null,
       yMm: place?.y ?? null,
@@ -450,9 +454,9 @@ export class PlotterDriver {
   }
 
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
-  #movedTo(xMm: number, yMm: number, penUp: boolean): void {
+  #movedTo({ xMm, yMm, penUp, penMoving }: PlotProgress): void {
     // A run that ends because the connection is lost still reports a position, which is then unknown.
-    if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp };
+    if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp, penMoving };
   }
 
   #tell(change: Partial<PlotterState>): void {

@@ -203,7 +203,7 @@ export class RunningPlots {
   }
 
   #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
-    const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp } = progress;
+    const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp, penMoving } = progress;
     // The travel home of a cancelled plot is not progress of the drawing.
     if (this.#running.get(plotterId)?.runner.isCancelling !== true) {
       this.#jobs.progressed(jobId, { progress: part, elapsedS, remainingS });
@@ -219,6 +219,7 @@ export class RunningPlots {
       xMm,
       yMm,
       penUp,
+      penMoving,
     });
   }
 

@@ -94,6 +94,8 @@ export interface Machine {
   /** The machine's seconds per second of this computer. */
   readonly speed: number;
   readonly penUp: boolean | null;
+  /** The pen is still on its way there. */
+  readonly penMoving: boolean;
   readonly motorsOn: boolean | null;
   /**
    * Set until something moves: how the machine was found, if it still knew its position when it was

@@ -1,7 +1,13 @@
 /** Progress of a plot: translates the position in the current stream into a position in the whole plot. */
 import { nextPlace } from "../plan/place-on-plan.js";
 import { PlaceTimes } from "../plan/place-times.js";
-import { stateAt, type MotionState, type Place, type Trajectory } from "../plan/trajectory.js";
+import {
+  newMotionState,
+  stateAt,
+  type MotionState,
+  type Place,
+  type Trajectory,
+} from "../plan/trajectory.js";
 import type { MachineCommands } from "./machine-job.js";
 
 export interface PlotProgress {
@@ -14,6 +20,8 @@ export interface PlotProgress {
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
+  /** The pen is still on its way up or down. */
+  readonly penMoving: boolean;
 }
 
 /** A stretch of motion that is or will be streamed, and the plan that it belongs to. */
@@ -44,17 +52,7 @@ export class RunProgress<P extends Part = Part> {
   /** Underruns of the current part. */
   private partS = 0;
   private partStartS = 0;
-  private readonly motion: MotionState = {
-    x: 0,
-    y: 0,
-    vx: 0,
-    vy: 0,
-    ax: 0,
-    ay: 0,
-    penUp: true,
-    stroke: -1,
-    alongMm: 0,
-  };
+  private readonly motion = newMotionState();
 
   /**
    * What will be streamed are parts of this plan, the one that the page has. `from`: an earlier run drew
@@ -106,6 +104,7 @@ export class RunProgress<P extends Part = Part> {
       xMm: now.x,
       yMm: now.y,
       penUp: now.penUp,
+      penMoving: now.penMoving,
     };
     return this.latest;
   }
@@ -121,7 +120,7 @@ export class RunProgress<P extends Part = Part> {
     this.doneS = doneS;
     const { xMm, yMm, penUp } = at;
     const times = { elapsedS: doneS, remainingS: totalS - doneS, planS: doneS };
-    this.latest = { progress: doneS / totalS, ...times, xMm, yMm, penUp };
+    this.latest = { progress: doneS / totalS, ...times, xMm, yMm, penUp, penMoving: false };
     return this.latest;
   }
 

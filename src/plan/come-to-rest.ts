@@ -16,7 +16,7 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import type { Kernel } from "./filter.js";
-import { isPenUpBefore, penMoveColumns } from "./pen-moves.js";
+import { isPenUpBefore, liftedTo, penMoveColumns } from "./pen-moves.js";
 import { liftTiming } from "./pen-times.js";
 import type { PenSettings } from "../settings/pen.js";
 import { fillAlong } from "./shaped-along.js";
@@ -24,6 +24,7 @@ import { shapeRest } from "./shaped-rest.js";
 import {
   blockLength,
   blockState,
+  newMotionState,
   stateAt,
   type MotionState,
   type PlannedMotion,
@@ -68,37 +69,46 @@ export function comeToRest(
   pen: PenSettings | null,
 ): RestPlan {
   const state = stateAt(trajectory, tS);
-  // A pen that comes down on the way to a stroke must not touch the paper before it: go on to the stroke's start.
+  // A pen that comes down on the way to a stroke lifts at once. It may have touched the paper all the same, so the
+  // carriage goes on to the stroke's start.
   const isLowering = !state.penUp && state.stroke < 0;
   const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
-  // A drop that the plan has for later than the stop is not given any more.
-  const liftedBy = isPenUpBefore(trajectory, tS) ? null : pen;
-  if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, liftedBy);
+  // A drop that the plan has for later than the stop is not given any more. A pen that is up only for a short travel
+  // goes to its full height.
+  const isUp = isPenUpBefore(trajectory, tS) && !(pen && (liftedTo(trajectory, tS) ?? 100) < pen.upPct);
+  const lift: Lift | null = isUp || !pen ? null : { pen, atOnce: isLowering };
+  if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, lift);
   const pieces = new BlockColumns(0, false);
   const speed = Math.hypot(state.vx, state.vy);
-  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, liftedBy);
+  if (speed <= REST_SPEED) return finish(pieces, state, tS, -1, lift);
   const planS = slowDown(trajectory, tS, speed * speed, accel, pieces);
   const stroke = state.penUp ? -1 : state.stroke;
-  return finish(pieces, stateAt(trajectory, planS), planS, stroke, liftedBy);
+  return finish(pieces, stateAt(trajectory, planS), planS, stroke, lift);
+}
+
+/** How the pen lifts: at the end, or at once and until the end. */
+interface Lift {
+  readonly pen: PenSettings;
+  readonly atOnce: boolean;
 }
 
 /**
  * The planned motion brakes, and the shaper makes the carriage's motion of it.
  *
- * @param pen lifts at the end; null: it is up
+ * @param lift null: the pen is up
  */
 function shapedRest(
   trajectory: Trajectory,
   { trajectory: planned, kernel }: PlannedMotion,
   tS: number,
   accel: number,
-  pen: PenSettings | null,
+  lift: Lift | null,
 ): RestPlan {
   const run = trajectory.blockCount > 0 ? runOf(trajectory, blockAt(trajectory, tS)) : 0;
   const runEndS = endOfRun(trajectory, run);
   const state = stateAt(trajectory, tS);
   const pieces = new BlockColumns(0, false);
-  if (tS >= runEndS) return finish(pieces, state, tS, -1, pen);
+  if (tS >= runEndS) return finish(pieces, state, tS, -1, lift);
   const plannedEndS = endOfRun(planned, run);
   const { vx, vy } = stateAt(planned, tS);
   const speed2 = vx * vx + vy * vy;
@@ -107,9 +117,9 @@ function shapedRest(
   const end = stateAt(planned, stopS);
   const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
   // At the very start of a run nothing moves yet.
-  if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, pen);
+  if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, lift);
   const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;
-  return finish(rest.shaped, end, planS, state.stroke, pen, { rest: rest.planned, kernel });
+  return finish(rest.shaped, end, planS, state.stroke, lift, { rest: rest.planned, kernel });
 }
 
 /** Fills `pieces` and returns the plan time at which the carriage stops. `speed2`: v₀². */
@@ -130,17 +140,17 @@ function slowDown(
       const next = pieceEnd(trajectory, k, t);
       const lengthMm = blockLength(trajectory, k, next) - blockLength(trajectory, k, t);
       const curvature = maxCurvature(trajectory, k, t, next);
-      const from = blockState(trajectory, k, t, newState());
+      const from = blockState(trajectory, k, t, newMotionState());
       v2 = Math.min(v2, from.vx * from.vx + from.vy * from.vy);
       // After a change of settings the carriage may be faster on a curve than A allows: brake gradually from
       // there.
       const brake = new Brake(Math.max(SHARE_OF_ACCEL * accel, curvature * v2), curvature, v2);
       if (brake.stopMm <= lengthMm) {
         const until = timeAfter(trajectory, k, t, next, brake.stopMm);
-        addPiece(from, blockState(trajectory, k, until, newState()), brake.stopMm, v2, 0, pieces);
+        addPiece(from, blockState(trajectory, k, until, newMotionState()), brake.stopMm, v2, 0, pieces);
         return startS[k] + until;
       }
-      const to = blockState(trajectory, k, next, newState());
+      const to = blockState(trajectory, k, next, newMotionState());
       const end2 = Math.min(brake.speed2After(lengthMm), to.vx * to.vx + to.vy * to.vy);
       addPiece(from, to, lengthMm, v2, end2, pieces);
       if (end2 <= REST_SPEED * REST_SPEED) return startS[k] + next;
@@ -173,11 +183,11 @@ class Brake {
 
 /** The end of a piece that starts at `t` in block `k`, short enough that the path turns by little. */
 function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
-  const from = blockState(trajectory, k, t, newState());
+  const from = blockState(trajectory, k, t, newMotionState());
   const leftS = trajectory.durationS[k] - t;
   let stepS = Math.min(PIECE_S, leftS);
   for (; stepS > SHORTEST_PIECE_S; stepS /= 2) {
-    const to = blockState(trajectory, k, t + stepS, newState());
+    const to = blockState(trajectory, k, t + stepS, newMotionState());
     const turn = Math.atan2(from.vx * to.vy - from.vy * to.vx, from.vx * to.vx + from.vy * to.vy);
     if (Math.abs(turn) <= PIECE_TURN) break;
   }
@@ -189,7 +199,7 @@ function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
 function maxCurvature(trajectory: Trajectory, k: number, t: number, until: number): number {
   let max = 0;
   for (const at of [t, (t + until) / 2, until]) {
-    const { vx, vy, ax, ay } = blockState(trajectory, k, at, newState());
+    const { vx, vy, ax, ay } = blockState(trajectory, k, at, newMotionState());
     const speed = Math.hypot(vx, vy);
     if (speed > REST_SPEED) max = Math.max(max, Math.abs(vx * ay - vy * ax) / speed ** 3);
   }
@@ -231,19 +241,19 @@ function timeAfter(trajectory: Trajectory, k: number, t: number, end: number, mm
   return high;
 }
 
-/** @param pen lifts at the end; null: it is up */
+/** @param lift null: the pen is up */
 function finish(
   pieces: BlockColumns,
   end: { readonly x: number; readonly y: number },
   planS: number,
   stroke: number,
-  pen: PenSettings | null,
+  lift: Lift | null,
   planned?: { readonly rest: BlockColumns; readonly kernel: Kernel },
 ): RestPlan {
-  const waitS = pen ? liftTiming(pen, pen.upPct).waitS : 0;
+  const { waitS, heightPct } = lift ? liftTiming(lift.pen, lift.pen.upPct) : { waitS: 0, heightPct: 0 };
   const runs = pieces.count > 0 ? 1 : 0;
-  const heightPct = pen?.upPct ?? 0;
-  const lift = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
+  const atEnd = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
+  const lifts = lift?.atOnce && runs ? [{ ...atEnd, beforeRun: 0, startS: 0, waitS: 0 }, atEnd] : [atEnd];
   const oneRun = (blocks: BlockColumns): Trajectory => ({
     blockCount: blocks.count,
     durationS: blocks.durationS,
@@ -263,7 +273,7 @@ function finish(
       stroke: runs ? Int32Array.of(stroke) : new Int32Array(0),
       startS: new Float64Array(runs),
     },
-    penMoves: penMoveColumns(pen ? [lift] : []),
+    penMoves: penMoveColumns(lift ? lifts : []),
     totalS: pieces.clockS + waitS,
     endX: end.x,
     endY: end.y,
@@ -304,15 +314,3 @@ function endOfRun({ runs, startS, durationS, totalS }: Trajectory, run: number):
   const last = runs.firstBlock[run + 1] - 1;
   return last >= runs.firstBlock[run] ? startS[last] + durationS[last] : totalS;
 }
-
-const newState = (): MotionState => ({
-  x: 0,
-  y: 0,
-  vx: 0,
-  vy: 0,
-  ax: 0,
-  ay: 0,
-  penUp: true,
-  stroke: -1,
-  alongMm: 0,
-});

@@ -17,7 +17,7 @@
  * "safe" trusts the tip to be clear at the hop height only; "fast" at the contact height itself.
  */
 import type { PenSettings } from "../settings/pen.js";
-import { liftTiming } from "./pen-times.js";
+import { liftTiming, penOfLayer } from "./pen-times.js";
 
 /** A frame of the servo's pulses. */
 const FRAME_S = 0.024;
@@ -62,7 +62,7 @@ export function liftBefore(pen: PenSettings, travelMm: number): Lift {
   const { waitS: moveS } = liftTiming(pen, heightPct);
   if (!liftsInFlight(pen)) return { heightPct, waitS: moveS, moveS };
   const clearS = FRAME_S + (clearHeight(pen) - pen.downPct) / liftRate(pen);
-  return { heightPct, waitS: Math.min(clearS, pen.liftMs / 1_000), moveS };
+  return { heightPct, waitS: wholeMs(Math.min(clearS, pen.liftMs / 1_000)), moveS };
 }
 
 /** The time of a lift to the hop height. */
@@ -77,9 +77,9 @@ export function lowerDuring(
   { heightPct, liftS }: { readonly heightPct: number; readonly liftS: number },
   { startS, endS, accel }: Approach,
 ): Lowering {
-  const nearS = endS - Math.sqrt((2 * NEAR_MM) / accel);
+  const nearS = endS - nearTime(accel);
   const up = liftRate(pen);
-  const down = ((pen.upPct - pen.downPct) * 1_000) / Math.max(1, pen.dropMs);
+  const down = dropRate(pen);
   const clearPct = clearHeight(pen);
   const hopPct = hopHeight(pen);
   const topPct = Math.min(heightPct, hopPct);
@@ -98,8 +98,27 @@ export function lowerDuring(
     if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;
   }
-  return { hoverS, dropS, downS: Math.max(endS, dropS + (fromPct - pen.downPct) / down) };
+  const waitS = wholeMs(dropS + (fromPct - pen.downPct) / down - endS);
+  return { hoverS, dropS, downS: endS + waitS };
 }
+
+/** The carriage is at most this far from the stroke when the drop is given, mm; 0 if it waits for the whole drop. */
+export function landingMm(pen: PenSettings, accel: number): number {
+  const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
+  return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));
+}
+
+function landingOf(pen: PenSettings, accel: number): number {
+  const aboveClearS = (hopHeight(pen) - clearHeight(pen)) / dropRate(pen);
+  const beforeEndS = nearTime(accel) + aboveClearS;
+  return (accel * beforeEndS * beforeEndS) / 2;
+}
+
+/** A board waits for whole milliseconds. So must the plan: half a millisecond for each stroke adds up to seconds. */
+const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
+
+/** Braking from `NEAR_MM` to rest takes this long, s. */
+const nearTime = (accel: number): number => Math.sqrt((2 * NEAR_MM) / accel);
 
 /** At this height the tip is clear of the paper, whatever the servo: percent of its range. */
 const hopHeight = (pen: PenSettings): number => atShare(pen, pen.contactPct + MARGIN_PCT);
@@ -112,4 +131,5 @@ const atShare = ({ upPct, downPct }: PenSettings, sharePct: number): number =>
   downPct + ((upPct - downPct) * Math.min(100, sharePct)) / 100;
 
 /** Percent of the servo's range per second. */
+const dropRate = (pen: PenSettings): number => ((pen.upPct - pen.downPct) * 1_000) / Math.max(1, pen.dropMs);
 const liftRate = (pen: PenSettings): number => ((pen.upPct - pen.downPct) * 1_000) / Math.max(1, pen.liftMs);

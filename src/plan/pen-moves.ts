@@ -58,6 +58,13 @@ export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
 /** Rounding difference between a command's plan time and the trajectory's. */
 const SAME_TIME_S = 1e-7;
 
+/** The height to which the last pen move before `tS` lifts the pen; null if it lowers it, or there is none. */
+export function liftedTo({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): number | null {
+  let last = -1;
+  while (last + 1 < penMoves.count && penMoves.startS[last + 1] < tS - SAME_TIME_S) last++;
+  return last >= 0 && penMoves.up[last] === 1 ? penMoves.heightPct[last] : null;
+}
+
 /** True if the last pen move before `tS` lifts the pen, or there is none. */
 export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
   let up = true;

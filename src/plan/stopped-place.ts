@@ -15,7 +15,7 @@ import type { Place } from "./trajectory.js";
 /** Tolerance for rounded corners, merged blocks and whole steps, mm. */
 const NEAR_MM = 0.08;
 
-/** So near to a stroke's start the pen may have begun to come down, mm (see `pen-flight.ts`), and rounding. */
+/** A pen that is down so near to a stroke's start may not have reached it, mm: by rounding, or as `pen-flight.ts` says. */
 const LANDING_MM = 0.15;
 /** How far the carriage may stand beside the drawing: `leavesMm` by shaping (shapers.ts), and by all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
@@ -26,17 +26,24 @@ export interface PenPlace {
   readonly up: boolean;
 }
 
-/**
- * `aheadMm`: how far the pen can have moved since, including travel. `stops`: the strokes before which it goes home.
- * If nothing matches, the journal's place; if everything is drawn, the end of the last stroke.
- */
+/** How the carriage may have moved since the journal's entry. */
+export interface SinceThen {
+  /** How far, mm, including travel. */
+  readonly aheadMm: number;
+  /** The strokes before which it goes home. */
+  readonly stops?: readonly number[];
+  /** How far shaping may take it beside the line (`leavesLineMm`). */
+  readonly leavesMm?: number;
+  /** How far before a stroke the pen may begin to come down (`landingMm`). */
+  readonly landingMm?: number;
+}
+
+/** If nothing matches, the journal's place; if everything is drawn, the end of the last stroke. */
 export function stoppedPlace(
   strokes: StrokeSet,
   journal: Place,
   pen: PenPlace,
-  aheadMm: number,
-  stops: readonly number[] = [],
-  leavesMm = 0,
+  { aheadMm, stops = [], leavesMm = 0, landingMm = 0 }: SinceThen,
 ): Place {
   const nearMm = nearMmOf(leavesMm);
   const { xy, offsets } = strokes;
@@ -48,6 +55,8 @@ export function stoppedPlace(
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
     if (!pen.up) {
       const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y, nearMm);
+      const isBefore = fromMm === 0 && isLanding(strokes, stroke, pen, { landingMm, nearMm, alongMm });
+      if (isBefore) return { stroke, alongMm: 0 };
       if (alongMm !== null) return { stroke, alongMm };
     }
     const lengthMm = strokeLengthMm(strokes, stroke);
@@ -60,15 +69,30 @@ export function stoppedPlace(
         return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
-    const landsAtMm = Math.hypot(xy[next] - pen.x, xy[next + 1] - pen.y);
-    const isOnNext = !pen.up && alongOf(strokes, stroke + 1, 0, pen.x, pen.y, nearMm) !== null;
-    if (!pen.up && !isOnNext && landsAtMm <= LANDING_MM) return { stroke: stroke + 1, alongMm: 0 };
     const travel = [xy[end], xy[end + 1], xy[next], xy[next + 1]] as const;
     if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= nearMm)
       return { stroke: stroke + 1, alongMm: 0 };
     leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
   }
   return journal;
+}
+
+/**
+ * The pen is down, but the carriage is still on its way to the stroke. Where the stroke goes back along that way, it is
+ * only certain to be drawn beyond `landingMm`. `alongMm`: where on the stroke the carriage may be instead.
+ */
+function isLanding(
+  { xy, offsets }: StrokeSet,
+  stroke: number,
+  pen: PenPlace,
+  { landingMm, nearMm, alongMm }: { landingMm: number; nearMm: number; alongMm: number | null },
+): boolean {
+  const start = 2 * offsets[stroke];
+  const awayMm = Math.hypot(xy[start] - pen.x, xy[start + 1] - pen.y);
+  if (awayMm <= LANDING_MM) return alongMm === null;
+  if (awayMm > landingMm || stroke === 0) return false;
+  const travel = [xy[start - 2], xy[start - 1], xy[start], xy[start + 1]] as const;
+  return nearest(...travel, pen.x, pen.y).awayMm <= nearMm;
 }
 
 /**
@@ -80,12 +104,11 @@ export function placeBehindSent(
   strokes: StrokeSet,
   sent: Place,
   pen: PenPlace,
-  aheadMm: number,
-  leavesMm = 0,
+  since: Omit<SinceThen, "stops">,
 ): Place | null {
   if (pen.up) return null;
-  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - nearMmOf(leavesMm)) };
-  const found = stoppedPlace(strokes, fromHere, pen, aheadMm, [], leavesMm);
+  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - nearMmOf(since.leavesMm ?? 0)) };
+  const found = stoppedPlace(strokes, fromHere, pen, since);
   return found === fromHere ? null : found;
 }
 

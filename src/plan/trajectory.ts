@@ -109,13 +109,15 @@ export interface MotionState {
   ay: number;
   /** True from the start of a lift until the start of a drop. */
   penUp: boolean;
+  /** The pen is still on its way up or down: it may or may not touch the paper. */
+  penMoving: boolean;
   /** −1 while travelling or waiting for the pen. */
   stroke: number;
   alongMm: number;
 }
 
 export function newMotionState(): MotionState {
-  return { x: 0, y: 0, vx: 0, vy: 0, ax: 0, ay: 0, penUp: true, stroke: -1, alongMm: 0 };
+  return { x: 0, y: 0, vx: 0, vy: 0, ax: 0, ay: 0, penUp: true, penMoving: false, stroke: -1, alongMm: 0 };
 }
 
 /**
@@ -134,6 +136,7 @@ export function stateAt(
   const { penMoves, runs } = trajectory;
   const move = lastNotAfter(tS, penMoves.count, (i) => penMoves.startS[i]);
   out.penUp = move < 0 || penMoves.up[move] === 1;
+  out.penMoving = move >= 0 && tS < penRestS(trajectory, move);
   const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]);
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k];
@@ -147,6 +150,13 @@ export function stateAt(
   blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
   if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
   return out;
+}
+
+/** When the pen has arrived: up by its time, and down when the next run begins, which waits for it. */
+function penRestS({ penMoves, runs }: Trajectory, move: number): number {
+  const { up, startS, moveS, waitS, beforeRun } = penMoves;
+  if (up[move] === 1) return startS[move] + moveS[move];
+  return beforeRun[move] < runs.count ? runs.startS[beforeRun[move]] : startS[move] + waitS[move];
 }
 
 /** Where on the drawing the pen is at `tS`, during a run: where the planned motion was one mean delay ago. */

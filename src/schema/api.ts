@@ -92,6 +92,8 @@ export const plotterSchema = z.object({
   /** What is wrong and what to do, or null. */
   message: z.string().nullable(),
   penUp: z.boolean().nullable(),
+  /** The pen is still on its way up or down. */
+  penMoving: z.boolean().default(false),
   motorsOn: z.boolean().nullable(),
   /** mm from home; null if unknown. */
   xMm: z.number().nullable(),
@@ -173,6 +175,7 @@ export const serverEventSchema = z.discriminatedUnion("type", [
     xMm: z.number(),
     yMm: z.number(),
     penUp: z.boolean(),
+    penMoving: z.boolean().default(false),
   }),
 ]);
 export type ServerEvent = z.infer<typeof serverEventSchema>;

@@ -71,16 +71,17 @@ export const OVERLAP_TABLE = {
     label: "Move while the pen lifts",
     about: "whether the carriage moves while the pen lifts and lowers clear of the paper",
     flag: "--pen-overlap",
-    default: "off",
+    default: "safe",
     choices: PEN_OVERLAPS,
   },
   /** Share of the way from down to up. */
   contactPct: {
     ...height,
-    label: "Leaves the paper at",
+    label: "Tip touches at",
     about: "share of the lift at which the tip leaves the paper",
     flag: "--pen-contact",
     default: 50,
+    slider: [0, 100],
   },
   fullHeightMm: {
     kind: "number",

@@ -104,7 +104,16 @@ async function plotGoesOn(): Promise<void> {
   expect(app.plotter.asked).toEqual([]);
   expect(app.queue.list().map(({ id, state }) => [id, state])).toEqual([[job.id, "plotting"]]);
   elapsedS++;
-  run.progress({ progress: elapsedS / 100, elapsedS, remainingS: 9, planS: 1, xMm: 1, yMm: 1, penUp: false });
+  run.progress({
+    progress: elapsedS / 100,
+    elapsedS,
+    remainingS: 9,
+    planS: 1,
+    xMm: 1,
+    yMm: 1,
+    penUp: false,
+    penMoving: false,
+  });
   await events.find("progress", (event) => event.elapsedS === elapsedS);
 }
 /** Refused with one of the statuses, with a log line for each attempt. */

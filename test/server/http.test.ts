@@ -139,7 +139,16 @@ describe("the HTTP interface", () => {
     await call("POST", `/jobs/${id}/start`);
     const run = await app.plotter.nextRun();
     await one.find("job", (event) => event.job.state === "plotting");
-    run.progress({ progress: 0.25, elapsedS: 3, remainingS: 9, planS: 3, xMm: 5, yMm: 6, penUp: false });
+    run.progress({
+      progress: 0.25,
+      elapsedS: 3,
+      remainingS: 9,
+      planS: 3,
+      xMm: 5,
+      yMm: 6,
+      penUp: false,
+      penMoving: false,
+    });
     run.end({ kind: "done" });
     for (const stream of [one, two]) {
       await stream.find("job", (event) => event.job.id === id && event.job.state === "done");

@@ -67,7 +67,16 @@ describe("the queue", () => {
     await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
-    run.progress({ progress: 0.5, elapsedS: 6, remainingS: 6, planS: 6, xMm: 1, yMm: 2, penUp: false });
+    run.progress({
+      progress: 0.5,
+      elapsedS: 6,
+      remainingS: 6,
+      planS: 6,
+      xMm: 1,
+      yMm: 2,
+      penUp: false,
+      penMoving: false,
+    });
     expect(queue.get(id)).toMatchObject({ state: "plotting", progress: 0.5, remainingS: 6 });
     queue.pause(id);
     expect(queue.get(id).state).toBe("paused");

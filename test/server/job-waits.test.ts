@@ -141,7 +141,7 @@ describe("the progress of a plot", () => {
     await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
-    run.progress({ ...part, planS: 3, xMm: 0, yMm: 0, penUp: false });
+    run.progress({ ...part, planS: 3, xMm: 0, yMm: 0, penUp: false, penMoving: false });
     run.record({ place: { stroke: 1, alongMm: 7 }, elapsedS: 3 });
     crash();
     expect(queue.get(id)).toMatchObject({

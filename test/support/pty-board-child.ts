@@ -6,21 +6,22 @@ import { chmodSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { spawn, type IPty } from "@lydell/node-pty";
-import { VirtualBoard } from "../../src/index.js";
+import { VirtualBoard, type VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { wakefulClock } from "./wakeful-clock.js";
 import type { FromBoard, ToBoard } from "./pty-board.js";
 
 const CR = 13;
 
-const { firmware, speed, futureSyntax, wakeful } = JSON.parse(process.argv[2]) as {
+const { firmware, speed, futureSyntax, wakeful, servo } = JSON.parse(process.argv[2]) as {
   firmware: string;
   speed: number;
   futureSyntax: boolean;
   wakeful: boolean;
+  servo: VirtualServo;
 };
 const ownClock = wakeful ? wakefulClock() : null;
-const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed });
+const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed, servo });
 const say = (message: FromBoard): void => void process.send!(message);
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-pty-"));

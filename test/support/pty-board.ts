@@ -1,6 +1,7 @@
 /** Starts virtual boards behind pseudo-terminals, in other processes, and ends them. */
 import { fork, type ChildProcess } from "node:child_process";
 import { fileURLToPath } from "node:url";
+import type { VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 
 export type ToBoard =
@@ -46,11 +47,17 @@ export class PtyBoard {
   ) {}
 
   static async open(
-    options: { firmware?: string; speed?: number; futureSyntax?: boolean; wakeful?: boolean } = {},
+    options: {
+      firmware?: string;
+      speed?: number;
+      futureSyntax?: boolean;
+      wakeful?: boolean;
+      servo?: VirtualServo;
+    } = {},
   ): Promise<PtyBoard> {
-    const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false } = options;
+    const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo = {} } = options;
     const file = fileURLToPath(new URL("./pty-board-child.ts", import.meta.url));
-    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax, wakeful })], {
+    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })], {
       execArgv: ["--import", "tsx"],
     });
     const opened = await answer(child, "open");

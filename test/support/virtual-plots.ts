@@ -30,7 +30,8 @@ export class FastBoard {
     springs?: Springs,
   ) {
     const swing = springs === undefined ? {} : { springs };
-    this.board = new VirtualBoard({ clock: stillClock, firmware, machine, speed: Infinity, ...swing });
+    const options = { clock: stillClock, firmware, machine, speed: Infinity, servo: {} };
+    this.board = new VirtualBoard({ ...options, ...swing });
     this.board.onSend((bytes) => {
       const text = String.fromCharCode(...bytes);
       if (text.includes("!")) this.errors.push(text.trim());

@@ -18,7 +18,7 @@ const pageWith = (job: Job, more: Partial<PageState> = {}): PageState => ({
   jobs: [job],
   ...more,
 });
-const live = { jobId: "a", plotterId: "virtual", planS: 1.5, xMm: 0, yMm: 0, penUp: false };
+const live = { jobId: "a", plotterId: "virtual", planS: 1.5, xMm: 0, yMm: 0, penUp: false, penMoving: false };
 
 describe("how much of the drawing on the paper is drawn", () => {
   it.each(["paused", "interrupted"] as const)("is the job's place while it is %s", (state) => {

@@ -35,6 +35,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   firmware: "3.0.3",
   message: null,
   penUp: true,
+  penMoving: false,
   activity: "none",
   motorsOn: false,
   xMm: 0,

@@ -35,6 +35,7 @@ const progress = (jobId: string, share: number): ServerEvent => ({
   xMm: 12,
   yMm: 34,
   penUp: false,
+  penMoving: false,
 });
 
 describe("server events", () => {
@@ -68,7 +69,7 @@ describe("server events", () => {
     const state = after(start(), snapshot("a"), progress("a", 0.25));
     expect(state.jobs[0]).toMatchObject({ progress: 0.25, remainingS: 30 });
     expect(state.live).toMatchObject({ jobId: "a", planS: 9.5 });
-    expect(currentPlotter(state)).toMatchObject({ xMm: 12, yMm: 34, penUp: false });
+    expect(currentPlotter(state)).toMatchObject({ xMm: 12, yMm: 34, penUp: false, penMoving: false });
   });
 
   it("the live plot ends with its job", () => {

@@ -1,6 +1,5 @@
-import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE, type NumberSetting } from "../../src/internal.js";
+import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { isReady } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { heightsText } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
@@ -60,63 +59,24 @@ const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
   </>
 );
 
-const Overlap = ({ pen, change }: RefinementProps) => {
-  const { overlap, contactPct, fullHeightMm, upPct, downPct } = pen;
+const Overlap = ({ pen: { overlap, fullHeightMm }, change }: RefinementProps) => {
+  const [, hint] = words.overlaps[overlap];
   return (
     <>
       <Segments
         label={OVERLAP_TABLE.overlap.label}
         value={overlap}
-        options={OVERLAP_TABLE.overlap.choices.map((value) => ({ value, label: words.overlaps[value] }))}
+        options={OVERLAP_TABLE.overlap.choices.map((value) => ({ value, label: words.overlaps[value][0] }))}
         onChange={(value) => change({ overlap: value })}
       />
+      <p className="note">{overlap === "off" ? hint : `${hint} ${words.whereTouches}`}</p>
       {overlap !== "off" && (
-        <>
-          <HeightField
-            setting={OVERLAP_TABLE.contactPct}
-            tryLabel={words.tryContact}
-            value={contactPct}
-            heightPct={downPct + ((upPct - downPct) * contactPct) / 100}
-            isUp={false}
-            onChange={(value) => change({ contactPct: value })}
-          />
-          <p className="note">{words.contactHint}</p>
-          <SettingField
-            setting={OVERLAP_TABLE.fullHeightMm}
-            value={fullHeightMm}
-            onChange={(value) => change({ fullHeightMm: value })}
-          />
-        </>
+        <SettingField
+          setting={OVERLAP_TABLE.fullHeightMm}
+          value={fullHeightMm}
+          onChange={(value) => change({ fullHeightMm: value })}
+        />
       )}
     </>
-  );
-};
-
-interface HeightFieldProps {
-  readonly setting: NumberSetting;
-  readonly tryLabel: string;
-  readonly value: number;
-  readonly isUp: boolean;
-  /** The height to try, if it is not the value itself. */
-  readonly heightPct?: number;
-  onChange(value: number): void;
-}
-
-const HeightField = ({ setting, tryLabel, value, heightPct = value, isUp, onChange }: HeightFieldProps) => {
-  const isIdle = usePageState(isReady);
-  const { movePen } = useActions();
-  return (
-    <div className="field-with-button">
-      <SettingField setting={setting} value={value} onChange={onChange} />
-      <button
-        type="button"
-        className="button"
-        aria-label={tryLabel}
-        disabled={!isIdle}
-        onClick={() => void movePen(isUp, heightPct)}
-      >
-        {words.try}
-      </button>
-    </div>
   );
 };

@@ -46,9 +46,10 @@ export const pensText = {
 export const heightsText = {
   title: "Lifting the pen",
   gentle: "Lower the pen gently",
-  overlaps: { off: "Off", safe: "Safe", fast: "Fast" },
-  try: "Try",
-  tryContact: "Try the height at which the tip leaves the paper",
-  contactHint:
-    "Put paper under the pen, press Try, and lower the number until the tip just marks. 0 % is the height down, 100 % the height up.",
+  overlaps: {
+    off: ["Off", "The carriage waits until the pen is all the way up or down."],
+    safe: ["Safe", "The carriage moves while the tip is well clear of the paper, even if the pen is slow."],
+    fast: ["Fast", "The quickest, for a pen that keeps its times. If lines get tails, choose Safe."],
+  },
+  whereTouches: "How low the tip may be is set in the plotter’s panel: Tip touches at.",
 };

@@ -17,6 +17,13 @@ export const plotterWords = ({ connection }: Plotter, job: Job | null): string =
   return connection === "busy" ? words.moving : words.connection[connection];
 };
 
+/** "Up", "going down" …: a pen on its way is neither. */
+export const penWords = ({ penUp, penMoving }: Plotter): string => {
+  if (penUp === null) return words.unknown;
+  if (penMoving) return penUp ? words.goingUp : words.goingDown;
+  return penUp ? words.up : words.down;
+};
+
 export const waitWords = ({ penName, layerName }: NonNullable<Job["wait"]>): string =>
   penName === null ? words.waitsForLayer(layerName) : words.waitsForPen(penName);
 

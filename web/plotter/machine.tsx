@@ -7,7 +7,7 @@ import { Select } from "../ui/choice.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
-import { lampOf, plotterWords } from "./machine-words.js";
+import { lampOf, penWords, plotterWords } from "./machine-words.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
 const words = plotterText;
@@ -77,7 +77,7 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
   const facts = [
     [words.position, place],
-    [words.pen, plotter.penUp === null ? words.unknown : plotter.penUp ? words.up : words.down],
+    [words.pen, penWords(plotter)],
     [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
     [words.firmware, plotter.firmware ?? words.unknown],
   ] as const;

@@ -1,5 +1,5 @@
 import { useMemo, useState, type ReactNode } from "react";
-import { PEN_TABLE } from "../../src/internal.js";
+import { OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { SettingField } from "../ui/setting-field.js";
@@ -131,10 +131,42 @@ const Heights = ({ onTry }: { onTry(): void }) => {
       </button>
     </div>
   );
+  const touch = (contactPct: number): void => {
+    onTry();
+    const pct = pen.downPct + ((pen.upPct - pen.downPct) * contactPct) / 100;
+    if (isFollowing) follow({ isUp: false, pct });
+  };
   return (
     <div className="pen-heights">
       {row("upPct")}
       {row("downPct")}
+      {pen.overlap !== "off" && (
+        <>
+          <div className="field-with-button">
+            <SettingField
+              setting={OVERLAP_TABLE.contactPct}
+              value={pen.contactPct}
+              onChange={(contactPct) =>
+                changeSettings("pen contactPct", (settings) => ({
+                  ...settings,
+                  pen: { ...settings.pen, contactPct },
+                }))
+              }
+              onSlide={touch}
+            />
+            <button
+              type="button"
+              className="button"
+              aria-label={words.touchLabel}
+              disabled={!isFollowing}
+              onClick={() => touch(pen.contactPct)}
+            >
+              {words.touch}
+            </button>
+          </div>
+          <p className="note">{words.touchHint}</p>
+        </>
+      )}
     </div>
   );
 };

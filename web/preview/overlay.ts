@@ -7,7 +7,8 @@ export const RULER_PX = 22;
 export interface Marker {
   readonly xMm: number;
   readonly yMm: number;
-  readonly penUp: boolean;
+  /** Drawing: neither up nor on its way. */
+  readonly penDown: boolean;
 }
 
 /** What part of the rulers is marked, mm. */
@@ -133,9 +134,9 @@ export const drawMarker = (
   context.globalAlpha = 1;
   context.beginPath();
   context.arc(x, y, 7, 0, 2 * Math.PI);
-  context.fillStyle = marker.penUp ? colors.halo : colors.accent;
+  context.fillStyle = marker.penDown ? colors.accent : colors.halo;
   context.fill();
   context.lineWidth = 2;
-  context.strokeStyle = marker.penUp ? colors.accent : colors.halo;
+  context.strokeStyle = marker.penDown ? colors.halo : colors.accent;
   context.stroke();
 };

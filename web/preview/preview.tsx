@@ -179,15 +179,15 @@ const lookOf = (state: PageState): FrameLook => {
 
 const markerOf = (state: PageState): Marker | null => {
   if (state.momentS !== null && state.planned) {
-    const { x, y, penUp } = stateAt(state.planned.trajectory, state.momentS);
-    return { xMm: x, yMm: y, penUp };
+    const { x, y, penUp, penMoving } = stateAt(state.planned.trajectory, state.momentS);
+    return { xMm: x, yMm: y, penDown: !penUp && !penMoving };
   }
   // The pen of a plot is shown on that plot's drawing, not over another one.
   const job = activeJob(state);
   if (job && job.id !== state.drawing?.jobId) return null;
   const plotter = currentPlotter(state);
   if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
-  return { xMm: plotter.xMm, yMm: plotter.yMm, penUp: plotter.penUp ?? true };
+  return { xMm: plotter.xMm, yMm: plotter.yMm, penDown: plotter.penUp === false && !plotter.penMoving };
 };
 
 /** What stands on the paper while the drawing does not: that it is being read, or what is wrong with it. */

@@ -83,12 +83,12 @@ const ordered = ({ jobs }: PageState, ids: readonly string[]): PageState["jobs"]
 };
 
 const applyProgress = (state: PageState, event: Extract<ServerEvent, { type: "progress" }>): Change => {
-  const { jobId, plotterId, progress, elapsedS, remainingS, planS, xMm, yMm, penUp } = event;
+  const { jobId, plotterId, progress, elapsedS, remainingS, planS, xMm, yMm, penUp, penMoving } = event;
   return {
-    live: { jobId, plotterId, planS, xMm, yMm, penUp },
+    live: { jobId, plotterId, planS, xMm, yMm, penUp, penMoving },
     jobs: state.jobs.map((job) => (job.id === jobId ? { ...job, progress, elapsedS, remainingS } : job)),
     plotters: state.plotters.map((plotter) =>
-      plotter.id === plotterId ? { ...plotter, xMm, yMm, penUp } : plotter,
+      plotter.id === plotterId ? { ...plotter, xMm, yMm, penUp, penMoving } : plotter,
     ),
   };
 };

@@ -43,6 +43,7 @@ interface LivePlot {
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
+  readonly penMoving: boolean;
 }
 
 export interface Selected {

@@ -32,8 +32,8 @@ const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.setti
 export const markerOfJob = (state: PageState, job: Job | null): Marker | null => {
   const plotter = currentPlotter(state);
   if (!job || state.link !== "connected" || !plotter) return null;
-  const { xMm, yMm, penUp } = plotter;
-  return xMm === null || yMm === null ? null : { xMm, yMm, penUp: penUp ?? true };
+  const { xMm, yMm, penUp, penMoving } = plotter;
+  return xMm === null || yMm === null ? null : { xMm, yMm, penDown: penUp === false && !penMoving };
 };
 
 export interface LayerNow {

@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { commandLine, compile, DEFAULT_PEN, machineById, plan, stateAt } from "../../../src/index.js";
-import { MOTION_MODES } from "../../../src/internal.js";
+import { MOTION_MODES, PEN_OVERLAPS } from "../../../src/internal.js";
 import { motor1FromXy, motor2FromXy } from "../../../src/machines/motors.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
@@ -28,14 +28,15 @@ const drawing = fc.record({
   mode: fc.constantFrom(...MOTION_MODES),
   draw: limits,
   travel: limits,
+  pen: fc.constantFrom(...PEN_OVERLAPS).map((overlap) => ({ ...DEFAULT_PEN, overlap })),
 });
 
 describe("slices of any plan", () => {
   it("stay close to it in place and time, and end on its last step", () => {
     fc.assert(
-      fc.property(drawing, ({ strokes, mode, draw, travel }) => {
-        const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel }, DEFAULT_PEN);
-        const stream = compile(trajectory, { machine, firmware: "2.4.4", pen: DEFAULT_PEN });
+      fc.property(drawing, ({ strokes, mode, draw, travel, pen }) => {
+        const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel }, pen);
+        const stream = compile(trajectory, { machine, firmware: "2.4.4", pen });
         expect(Math.abs(stream.boardS[stream.count] - trajectory.totalS)).toBeLessThan(0.01);
         let steps1 = 0;
         let steps2 = 0;

@@ -23,7 +23,7 @@ import {
 } from "../../../src/index.js";
 import { MOTION_MODES, type PenOverlap } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
-import { cases } from "../../support/full-run.js";
+import { cases, IS_FULL } from "../../support/full-run.js";
 import { SPRINGS, swinging } from "../../support/swinging.js";
 import { tipMarks, type TipMarks, type TipServo } from "../../support/tip-marks.js";
 
@@ -127,29 +127,55 @@ const shaped = (jobs: fc.Arbitrary<Job>, shaper: "zv" | "ei"): fc.Arbitrary<Job>
       machine: swinging(springs),
     }));
 
-describe("random drawings", () => {
+/** The full run draws many: longer than the limit of other tests. */
+const TIMEOUT_MS = 600_000;
+
+/** The longest marks of all drawings; the full run prints them. */
+class Longest {
+  private strayMm = 0;
+  private lateMm = 0;
+
+  constructor(private readonly what: string) {}
+
+  note({ strayMm, lateMm }: TipMarks): void {
+    this.strayMm = Math.max(this.strayMm, strayMm);
+    this.lateMm = Math.max(this.lateMm, lateMm);
+  }
+
+  print(): void {
+    if (IS_FULL) console.info(`${this.what}: stray ${this.strayMm} mm, late ${this.lateMm} mm`);
+  }
+}
+
+describe("random drawings", { timeout: TIMEOUT_MS }, () => {
   it("are drawn without a stray mark and without a late start by a servo that differs: safe", () => {
+    const longest = new Longest("random drawings, safe");
     fc.assert(
       fc.property(arbitraryJob("safe"), arbitraryServo, (job, servo) => {
         const marks = marksOf(job, servo);
+        longest.note(marks);
         expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
         expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
         expect(marks.brokenCount).toBe(0);
       }),
       { numRuns: cases() },
     );
+    longest.print();
   });
 
   it("are drawn within 0.3 mm by a servo that is as stated: fast", () => {
+    const longest = new Longest("random drawings, fast");
     fc.assert(
       fc.property(arbitraryJob("fast"), arbitraryPhase, (job, servo) => {
         const marks = marksOf(job, servo);
+        longest.note(marks);
         expect(marks.strayMm).toBeLessThanOrEqual(FAST_MM);
         expect(marks.lateMm).toBeLessThanOrEqual(FAST_MM);
         expect(marks.brokenCount).toBe(0);
       }),
       { numRuns: cases() },
     );
+    longest.print();
   });
 
   it.each([
@@ -179,7 +205,7 @@ const sampleStrokes = (file: string): StrokeSet =>
   prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes;
 const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
 
-describe.each(samples)("the sample %s", (file) => {
+describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
   const strokes = sampleStrokes(file);
 
   it.each([

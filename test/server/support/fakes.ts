@@ -117,6 +117,7 @@ export class LedPlotter implements ManagedPlotter {
       firmware: this.firmware,
       message: null,
       penUp: true,
+      penMoving: false,
       activity: "none",
       motorsOn: false,
       xMm: 0,

@@ -4,6 +4,7 @@ import {
   compile,
   DEFAULT_MOTION,
   DEFAULT_PEN,
+  type PenSettings,
   machineById,
   plan,
   planJob,
@@ -14,13 +15,15 @@ import {
 import { closingCommands } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
+/** The carriage waits for the pen. */
+const WAITING: PenSettings = { ...DEFAULT_PEN, overlap: "off" };
 const machine = machineById("axidraw-v3");
 const linesOf = (stream: CommandStream): string[] =>
   Array.from({ length: stream.count }, (_, i) => commandLine(stream, i));
-const compiled = (strokes: readonly (readonly Point[])[], firmware: string, pen = DEFAULT_PEN) =>
+const compiled = (strokes: readonly (readonly Point[])[], firmware: string, pen = WAITING) =>
   compile(plan(strokeSetOf(strokes), DEFAULT_MOTION, pen), { machine, firmware, pen });
 
-const DEFAULT_JOB = { motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
+const DEFAULT_JOB = { motion: DEFAULT_MOTION, pen: WAITING };
 const LINE: readonly Point[] = [
   [10, 10],
   [60, 35],
@@ -39,8 +42,8 @@ describe("compile", () => {
   });
 
   it("uses T3 for constant jerk where the firmware has it", () => {
-    const trajectory = plan(strokeSetOf([LINE]), { ...DEFAULT_MOTION, mode: "scurve" }, DEFAULT_PEN);
-    const lines = linesOf(compile(trajectory, { machine, firmware: "3.0.3", pen: DEFAULT_PEN }));
+    const trajectory = plan(strokeSetOf([LINE]), { ...DEFAULT_MOTION, mode: "scurve" }, WAITING);
+    const lines = linesOf(compile(trajectory, { machine, firmware: "3.0.3", pen: WAITING }));
     expect(lines.some((line) => line.startsWith("T3,"))).toBe(true);
   });
 
@@ -61,10 +64,10 @@ describe("compile", () => {
       code: "bad-setting",
       message: expect.stringContaining(field) as unknown,
     }) as Error;
-    expect(() => compile(trajectory, { machine: incomplete, firmware: "2.8.1", pen: DEFAULT_PEN })).toThrow(
+    expect(() => compile(trajectory, { machine: incomplete, firmware: "2.8.1", pen: WAITING })).toThrow(
       refused,
     );
-    expect(() => setUpCommands(incomplete, DEFAULT_PEN, "2.8.1")).toThrow(refused);
+    expect(() => setUpCommands(incomplete, WAITING, "2.8.1")).toThrow(refused);
     expect(() => planJob({ strokes: strokeSetOf([LINE]) }, DEFAULT_JOB, incomplete)).toThrow(refused);
   });
 
@@ -82,8 +85,8 @@ describe("compile", () => {
 
   it("moves a pen on the second servo output by S2", () => {
     const nextdraw = machineById("nextdraw-8511");
-    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, DEFAULT_PEN);
-    const lines = linesOf(compile(trajectory, { machine: nextdraw, firmware: "2.8.1", pen: DEFAULT_PEN }));
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING);
+    const lines = linesOf(compile(trajectory, { machine: nextdraw, firmware: "2.8.1", pen: WAITING }));
     expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual(["S2,7560,5,270,300", "S2,9720,5,360,250"]);
   });
 
@@ -101,10 +104,10 @@ describe("compile", () => {
   });
 
   it("continues from any state of the board", () => {
-    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, DEFAULT_PEN, { startX: 5, startY: 5 });
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING, { startX: 5, startY: 5 });
     const start = { steps1: 801, steps2: -1, acc1: 12_345, acc2: 2 ** 31 - 1 };
     for (const firmware of ["2.4.4", "2.5.3", "2.8.1", "3.0.3"]) {
-      const stream = compile(trajectory, { machine, firmware, pen: DEFAULT_PEN, start });
+      const stream = compile(trajectory, { machine, firmware, pen: WAITING, start });
       const last = stream.count - 1;
       expect([stream.steps1[last], stream.steps2[last]]).toEqual([0, 0]);
     }
@@ -131,19 +134,19 @@ describe("compile", () => {
   });
 
   it("refuses an invalid firmware and a plan that is not finite", () => {
-    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, DEFAULT_PEN);
-    expect(() => compile(trajectory, { machine, firmware: "new", pen: DEFAULT_PEN })).toThrow(/firmware/);
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING);
+    expect(() => compile(trajectory, { machine, firmware: "new", pen: WAITING })).toThrow(/firmware/);
     expect(() =>
-      compile({ ...trajectory, totalS: NaN }, { machine, firmware: "2.8.1", pen: DEFAULT_PEN }),
+      compile({ ...trajectory, totalS: NaN }, { machine, firmware: "2.8.1", pen: WAITING }),
     ).toThrow(RangeError);
   });
 });
 
 describe("the commands around a plot", () => {
   it("switch the motors on, reset the counters and set the pen; and switch off", () => {
-    expect(setUpCommands(machine, DEFAULT_PEN, "2.8.1")[0]).toBe("EM,1,1");
-    expect(setUpCommands(machine, DEFAULT_PEN, "2.8.1")).not.toContain("CS");
-    expect(setUpCommands(machine, DEFAULT_PEN, "2.5.3")[1]).toBe("CS");
+    expect(setUpCommands(machine, WAITING, "2.8.1")[0]).toBe("EM,1,1");
+    expect(setUpCommands(machine, WAITING, "2.8.1")).not.toContain("CS");
+    expect(setUpCommands(machine, WAITING, "2.5.3")[1]).toBe("CS");
     expect(closingCommands()).toEqual(["EM,0,0"]);
   });
 });

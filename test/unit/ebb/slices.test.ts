@@ -4,15 +4,18 @@ import {
   compile,
   DEFAULT_MOTION,
   DEFAULT_PEN,
+  type PenSettings,
   machineById,
   plan,
   type CommandStream,
 } from "../../../src/index.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 
+/** The carriage waits for the pen. */
+const WAITING: PenSettings = { ...DEFAULT_PEN, overlap: "off" };
 const machine = machineById("axidraw-v3");
 const firmware = "2.4.4";
-const pen = DEFAULT_PEN;
+const pen = WAITING;
 
 const circle = (x: number, y: number, r: number, n: number): Point[] =>
   Array.from({ length: n + 1 }, (_, i) => {

@@ -8,6 +8,7 @@ import {
   type Trajectory,
 } from "../../../src/index.js";
 import { comeToRest } from "../../../src/plan/come-to-rest.js";
+import { landingMm } from "../../../src/plan/pen-flight.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 import { placeAt } from "../../../src/plan/place-on-plan.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
@@ -43,7 +44,8 @@ describe("a pen in flight", () => {
 
   it("lets the carriage start when the tip is clear, a frame of the servo later", () => {
     const waitOf = (pen: PenSettings): number => penMovesOf(planned(pen)).find(({ up }) => up)!.waitS;
-    expect(waitOf(SAFE)).toBeCloseTo(0.024 + 0.65 * 0.25, 9);
+    // 186.5 ms, in whole milliseconds.
+    expect(waitOf(SAFE)).toBeCloseTo(0.187, 9);
     expect(waitOf(FAST)).toBeCloseTo(0.024 + 0.5 * 0.25, 9);
   });
 
@@ -60,6 +62,25 @@ describe("a pen in flight", () => {
     }
   });
 
+  it("tells how far from a stroke it may begin to come down", () => {
+    for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
+      const t = planned(pen);
+      const { accelMmPerS2 } = DEFAULT_MOTION.travel;
+      const awayMm = penMovesOf(t)
+        .filter(({ up }) => !up)
+        .slice(1)
+        .map(({ startS, beforeRun }) => {
+          const block = t.runs.firstBlock[beforeRun];
+          const { x, y } = stateAt(t, startS);
+          return Math.hypot(x - t.x[block], y - t.y[block]);
+        });
+      expect(Math.max(...awayMm)).toBeLessThanOrEqual(landingMm(pen, accelMmPerS2) + 1e-9);
+      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * landingMm(pen, accelMmPerS2));
+    }
+    expect(landingMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
+    expect(landingMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
+  });
+
   it("waits for the whole first drop, because the height of the pen is not known", () => {
     const [drop] = penMovesOf(planned(FAST));
     expect([drop.startS, drop.waitS]).toEqual([0, 0.3]);
@@ -73,7 +94,7 @@ describe("a pen in flight", () => {
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
   });
 
-  it("goes on to the stroke's start and lifts there, when it is stopped while it comes down", () => {
+  it("lifts at once and goes on to the stroke's start, when it is stopped while it comes down", () => {
     for (const [t, pen] of [SAFE, FAST].flatMap((p) => [planned(p), shaped(p)].map((u) => [u, p] as const))) {
       const limits = { drawAccel: 500, travelAccel: 1_000 };
       for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
@@ -83,12 +104,16 @@ describe("a pen in flight", () => {
           const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, pen);
           expect(rest.trajectory.endX).toBeCloseTo(t.x[block], 6);
           expect(rest.trajectory.endY).toBeCloseTo(t.y[block], 6);
-          const [lift] = penMovesOf(rest.trajectory);
-          expect([lift.up, lift.heightPct, lift.waitS]).toEqual([true, 60, 0.25]);
+          const lifts = penMovesOf(rest.trajectory).map(({ up, heightPct, waitS }) => [up, heightPct, waitS]);
+          expect(lifts).toEqual([[true, 60, 0], [true, 60, 0.25]]); // prettier-ignore
+          expect(penMovesOf(rest.trajectory)[0].startS).toBe(0);
           expect(placeAt(t, rest.planS)).toEqual({ stroke: t.runs.stroke[drop.beforeRun], alongMm: 0 });
         }
-        // Before the drop it stops where it can, and the pen is up.
-        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory)).toEqual([]);
+        // Before the drop it stops where it can, and the pen goes up from the hop height.
+        const [lift, ...more] = penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory);
+        expect([lift.up, lift.heightPct, lift.waitS, more]).toEqual([true, 60, 0.25, []]);
+        // Up already.
+        expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, null).trajectory)).toEqual([]);
       }
     }
   });

@@ -33,7 +33,12 @@ describe("where a plot was interrupted", () => {
           stroke,
           alongMm: stroke === first ? Math.max(alongMm, journal.alongMm) : alongMm,
         };
-        const found = stoppedPlace(strokes, journal, { ...pointOfPlace(strokes, pen), up: false }, 1e6);
+        const found = stoppedPlace(
+          strokes,
+          journal,
+          { ...pointOfPlace(strokes, pen), up: false },
+          { aheadMm: 1e6 },
+        );
         expect(drawnMm(strokes, journal, found)).toBeGreaterThan(-0.1);
         expect(drawnMm(strokes, found, pen)).toBeGreaterThan(-0.1);
         const [a, b] = [pointOfPlace(strokes, found), pointOfPlace(strokes, pen)];
@@ -47,24 +52,46 @@ describe("where a plot was interrupted", () => {
   const journal = { stroke: 0, alongMm: 20 };
 
   it("is the point of the stroke if the pen is down", () => {
-    expect(stoppedPlace(two, journal, { x: 60, y: 0.03, up: false }, 500)).toEqual({
+    expect(stoppedPlace(two, journal, { x: 60, y: 0.03, up: false }, { aheadMm: 500 })).toEqual({
       stroke: 0,
       alongMm: 60,
     });
-    expect(stoppedPlace(two, journal, { x: 30, y: 50, up: false }, 500)).toEqual({ stroke: 1, alongMm: 70 });
+    expect(stoppedPlace(two, journal, { x: 30, y: 50, up: false }, { aheadMm: 500 })).toEqual({
+      stroke: 1,
+      alongMm: 70,
+    });
   });
 
   it("is the next stroke if the pen is up on the way to it", () => {
-    expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, 500)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(stoppedPlace(two, journal, { x: 100, y: 20, up: true }, { aheadMm: 500 })).toEqual({
+      stroke: 1,
+      alongMm: 0,
+    });
   });
 
   it("is the next stroke where the pen has begun to come down just before it", () => {
     const landing = { x: 100, y: 49.9, up: false };
-    expect(stoppedPlace(two, journal, landing, 500)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(stoppedPlace(two, journal, landing, { aheadMm: 500 })).toEqual({ stroke: 1, alongMm: 0 });
     // On the stroke already: from there on.
-    const begun = stoppedPlace(two, journal, { x: 99.9, y: 50, up: false }, 500);
+    const begun = stoppedPlace(two, journal, { x: 99.9, y: 50, up: false }, { aheadMm: 500 });
     expect(begun.stroke).toBe(1);
     expect(begun.alongMm).toBeCloseTo(0.1, 6);
+  });
+
+  it("is the next stroke where the pen comes down fast, further before it but on the way to it", () => {
+    const landing = { x: 100, y: 47, up: false };
+    const since = { aheadMm: 500, landingMm: 3.5 };
+    expect(stoppedPlace(two, journal, landing, since)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(stoppedPlace(two, journal, { ...landing, y: 46 }, since)).toEqual(journal);
+    expect(stoppedPlace(two, journal, { ...landing, x: 99 }, since)).toEqual(journal);
+    expect(stoppedPlace(two, journal, landing, { aheadMm: 500 })).toEqual(journal);
+    expect(placeBehindSent(two, { stroke: 1, alongMm: 0 }, landing, since)).toEqual({
+      stroke: 1,
+      alongMm: 0,
+    });
+    // A stroke that goes back along the way is drawn again: better than leaving it out.
+    const back = strokesOf([0, 0, 100, 0], [100, 50, 100, 10, 90, 10]);
+    expect(stoppedPlace(back, journal, landing, since)).toEqual({ stroke: 1, alongMm: 0 });
   });
 
   it("is the end if the pen is up on the way home from the last stroke", () => {
@@ -75,27 +102,29 @@ describe("where a plot was interrupted", () => {
       [5, 40],
       [0, 0],
     ] as const) {
-      expect(stoppedPlace(two, late, { x, y, up: true }, 500)).toEqual(end);
+      expect(stoppedPlace(two, late, { x, y, up: true }, { aheadMm: 500 })).toEqual(end);
     }
-    expect(stoppedPlace(two, journal, { x: 0, y: 0, up: true }, 100)).toEqual(journal);
+    expect(stoppedPlace(two, journal, { x: 0, y: 0, up: true }, { aheadMm: 100 })).toEqual(journal);
   });
 
   it("is the stroke after a change of pens if the pen is up on the way home to it", () => {
     const home = { x: 0, y: 0, up: true };
-    expect(stoppedPlace(two, journal, home, 500, [1])).toEqual({ stroke: 1, alongMm: 0 });
+    expect(stoppedPlace(two, journal, home, { aheadMm: 500, stops: [1] })).toEqual({ stroke: 1, alongMm: 0 });
   });
 
   it("stays the journal's at home if nothing was drawn since the plot was there", () => {
     const line = strokesOf([10, 0, 20, 0]);
     const begun = { stroke: 0, alongMm: 0 };
-    expect(stoppedPlace(line, begun, { x: 0, y: 0, up: true }, 500)).toEqual(begun);
+    expect(stoppedPlace(line, begun, { x: 0, y: 0, up: true }, { aheadMm: 500 })).toEqual(begun);
     const other = { stroke: 1, alongMm: 0 };
-    expect(stoppedPlace(two, other, { x: 0, y: 0, up: true }, 500, [1, 2])).toEqual(other);
+    expect(stoppedPlace(two, other, { x: 0, y: 0, up: true }, { aheadMm: 500, stops: [1, 2] })).toEqual(
+      other,
+    );
   });
 
   it("stays the journal's if the pen is somewhere else, or further than possible", () => {
-    expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, 500)).toEqual(journal);
-    expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, 100)).toEqual(journal);
+    expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, { aheadMm: 500 })).toEqual(journal);
+    expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, { aheadMm: 100 })).toEqual(journal);
   });
 
   describe("by a kill, after which the board plays everything that was sent", () => {
@@ -104,23 +133,25 @@ describe("where a plot was interrupted", () => {
     const crossing = { x: 18.5, y: 0, up: false };
 
     it("is the crossing's later passage if the first was sent before the last entry", () => {
-      expect(stoppedPlace(loop, { stroke: 0, alongMm: 10 }, crossing, 60)).toEqual({
+      expect(stoppedPlace(loop, { stroke: 0, alongMm: 10 }, crossing, { aheadMm: 60 })).toEqual({
         stroke: 0,
         alongMm: 18.5,
       });
-      expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, crossing, 18)).toEqual({
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, crossing, { aheadMm: 18 })).toEqual({
         stroke: 0,
         alongMm: 25.5,
       });
-      expect(placeBehindSent(loop, { stroke: 0, alongMm: 18.4 }, crossing, 18)).toEqual({
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 18.4 }, crossing, { aheadMm: 18 })).toEqual({
         stroke: 0,
         alongMm: 18.5,
       });
     });
 
     it("is unknown if nothing matches, or the pen is up", () => {
-      expect(placeBehindSent(loop, { stroke: 0, alongMm: 26 }, crossing, 18)).toBeNull();
-      expect(placeBehindSent(loop, { stroke: 0, alongMm: 19 }, { ...crossing, up: true }, 18)).toBeNull();
+      expect(placeBehindSent(loop, { stroke: 0, alongMm: 26 }, crossing, { aheadMm: 18 })).toBeNull();
+      expect(
+        placeBehindSent(loop, { stroke: 0, alongMm: 19 }, { ...crossing, up: true }, { aheadMm: 18 }),
+      ).toBeNull();
     });
   });
 });

@@ -121,7 +121,7 @@ class Compiler {
         inFlight.push(penMoveAt(penMoves, next));
       this.runs.write(
         r,
-        inFlight.map((move) => ({ atS: move.startS, write: (run) => this.penMoveInFlight(move, run) })),
+        inFlight.map((move) => ({ atS: move.startS, write: (...at) => this.penMoveInFlight(move, ...at) })),
       );
       for (const { waitS } of inFlight) this.waitForPen(waitS, endS);
     }
@@ -135,7 +135,7 @@ class Compiler {
   /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const way = this.wayOf(move, false, -1);
+    const way = this.wayOf(move, { inFlight: false, run: -1, planS: move.startS });
     this.still(
       penCommand(this.options.machine, way, waitMs),
       Math.max(1, waitMs * TICKS_PER_MS),
@@ -145,9 +145,9 @@ class Compiler {
   }
 
   /** A pen move that costs the run a tick. */
-  private penMoveInFlight(move: PenMove, run: number): void {
-    const way = this.wayOf(move, !move.up, run);
-    this.still(penCommand(this.options.machine, way, 0), 1, move.startS, run);
+  private penMoveInFlight(move: PenMove, run: number, planS: number): void {
+    const way = this.wayOf(move, { inFlight: !move.up, run, planS });
+    this.still(penCommand(this.options.machine, way, 0), 1, planS, run);
   }
 
   /** The rest of a pen move that began in flight. */
@@ -157,7 +157,10 @@ class Compiler {
   }
 
   /** Sets the height and speed of a pen move if they changed. */
-  private wayOf(move: PenMove, inFlight: boolean, run: number): PenWay {
+  private wayOf(
+    move: PenMove,
+    { inFlight, run, planS }: { readonly inFlight: boolean; readonly run: number; readonly planS: number },
+  ): PenWay {
     const { machine, pen } = this.options;
     const { heights } = this;
     const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
@@ -171,7 +174,7 @@ class Compiler {
       ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
       inFlight,
     };
-    this.setUp(penMoveSetUp(machine, way), move.startS, run);
+    this.setUp(penMoveSetUp(machine, way), planS, run);
     return way;
   }
 

@@ -96,7 +96,7 @@ export class LegRuns implements RunWriter {
       const [next, ...later] = this.midway;
       if (!next) return;
       this.midway = later;
-      next.write(this.runIndex);
+      next.write(this.runIndex, this.walk.planS(this.columns.boardTicks));
     }
   }
 
@@ -152,9 +152,10 @@ export class LegRuns implements RunWriter {
         k = walk.blockAt(end, block);
       }
     }
-    // The rest of the run must be long enough for a command.
-    if (end < runEnd && runEnd - end < writer.minTicks) {
-      const earlier = runEnd - writer.minTicks;
+    // The rest of the run must be long enough for a command, after a tick for each pen move.
+    const restTicks = writer.minTicks + this.midway.length;
+    if (end < runEnd && runEnd - end < restTicks) {
+      const earlier = runEnd - restTicks;
       end = earlier >= soonest && earlier < end ? earlier : runEnd;
       k = walk.blockAt(end, block);
       if (end === runEnd) k = last;

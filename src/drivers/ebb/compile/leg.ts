@@ -34,7 +34,8 @@ export interface MotorPlace {
 export interface Midway {
   /** Trajectory seconds. */
   readonly atS: number;
-  write(run: number): void;
+  /** `planS`: where the plan is then, a few ms later than `atS` at most. */
+  write(run: number, planS: number): void;
 }
 
 /**

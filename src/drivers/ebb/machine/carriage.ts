@@ -49,6 +49,7 @@ const COARSEST_MODE = 5;
 
 export class Carriage {
   penUp: boolean | null = null;
+  penMoving = false;
   motorsOn: boolean | null = null;
   /**
    * Set until something moves, for a board that was left in the middle of a plot: its state when it was
@@ -217,17 +218,18 @@ export class Carriage {
   }
 
   /** `certain` is called with each place that the board certainly reached with its motors supplied. */
-  streamer({ sendAheadMs }: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
+  streamer(settings: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const lines = this.pollLines();
     const places = new CertainPlace(features, this.origin, lines[lines.length - 1]);
     const streamer = new Streamer(session, {
       clock: boardClock,
-      windowS: (sendAheadMs / 1_000) * speed,
+      windowS: (settings.sendAheadMs / 1_000) * speed,
       queueDepth: this.queueDepth,
       poll: { lines, everyS: POLL_S * speed },
       stuckS: STUCK_S * waitSpeed,
+      liftLine: penCommand(machineOf(settings), penMoveOf(settings.pen, true), 0),
       origin: this.origin,
       onPoll: (line, reply, asked) => {
         if (line === this.markQuery && Number(reply) === 0) void this.checkRestart(streamer);
@@ -322,18 +324,12 @@ export class Carriage {
       if (canFindPlace(streamer, error)) await this.findPlace();
       throw error;
     }
-    this.penUp = true;
-    this.events.changed();
+    this.penIs(true);
   }
 
-  /**
-   * Drops what the board has queued of a move: the move rejects with `conflict`, and the position is read
-   * back.
-   */
+  /** Drops what the board has queued of a move, which rejects with `conflict`; the position is read back. */
   stopAtOnce(): void {
-    if (!this.playing) return;
-    this.connection.session.write([{ line: "ES" }]);
-    this.playing.abandon(new PlotwrightError("conflict", "The move was stopped at once."));
+    this.playing?.stopAtOnce(new PlotwrightError("conflict", "The move was stopped at once."));
   }
 
   /** Before the connection is closed during motion: nothing more is drawn, and the pen is lifted. */
@@ -350,11 +346,16 @@ export class Carriage {
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
     const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
     const way = penMoveOf(pen, up);
-    for (const line of penSetUpCommands(machine, pen)) await session.send(line);
-    await session.send(penCommand(machine, way), way.timeMs / 1000);
-    await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
-    this.penUp = up;
-    this.events.changed();
+    this.penIs(up, true);
+    try {
+      for (const line of penSetUpCommands(machine, pen)) await session.send(line);
+      await session.send(penCommand(machine, way), way.timeMs / 1000);
+      await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
+    } catch (error) {
+      this.penIs(null);
+      throw error;
+    }
+    this.penIs(up);
   }
 
   /** Moves to a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is then unknown. */
@@ -362,12 +363,13 @@ export class Carriage {
     const { session, boardClock } = this.connection;
     await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
     await new Promise<void>((resolve) => void boardClock.after(SERVO_MS / 1000 + SETTLE_S, resolve));
-    this.penIsUnknown();
+    this.penIs(null);
   }
 
-  /** Something else has moved the pen. */
-  penIsUnknown(): void {
-    this.penUp = null;
+  /** Null: something else has moved the pen. */
+  penIs(up: boolean | null, isMoving = false): void {
+    this.penUp = up;
+    this.penMoving = isMoving;
     this.events.changed();
   }
 

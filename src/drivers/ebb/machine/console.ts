@@ -45,7 +45,7 @@ async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
 
 async function noteOn(carriage: Carriage, name: string): Promise<string | null> {
   if (PEN.has(name)) {
-    carriage.penIsUnknown();
+    carriage.penIs(null);
     return "The pen was moved or set outside plotwright. The next move sets heights and speeds again.";
   }
   if (ZEROES.has(name)) {

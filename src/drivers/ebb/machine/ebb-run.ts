@@ -125,6 +125,7 @@ export class EbbRun implements MachineRun {
       this.events.tell({
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
         penUp,
+        penMoving: false,
       });
       left = this.whereStopped() ?? this.progress.place;
     } catch (error) {

@@ -2,6 +2,7 @@
  * Command streams that are cut or made by hand: they are played when one plan takes over from another in
  * motion.
  */
+import { commandLine } from "../compile/compile.js";
 import type { BoardState, CommandStream } from "../compile/command-stream.js";
 
 /** The board's state after the commands before `index`. */
@@ -21,6 +22,18 @@ export function commandAfter(commands: CommandStream, index: number, leadS: numb
   let i = index;
   while (i < commands.count && commands.boardS[i] < fromS) i++;
   return i;
+}
+
+/**
+ * The command after those that are written together: a drop in mid-run and the rest of the run. A host that is killed
+ * in between would leave the pen on the paper before the stroke.
+ */
+export function endOfLanding(stream: CommandStream, index: number): number {
+  const { run, count } = stream;
+  let end = index + 1;
+  if (run[index] < 0 || !/^(SP,0|S2),/.test(commandLine(stream, index))) return end;
+  while (end < count && run[end] === run[index]) end++;
+  return end;
 }
 
 /** A plan begins by lowering the pen; here it is already down. */

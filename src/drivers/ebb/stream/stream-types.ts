@@ -20,6 +20,8 @@ export interface StreamOptions {
   /** Board seconds beyond the plan after which a board that makes no progress counts as stuck. Default 2. */
   readonly stuckS?: number;
   readonly onPoll?: (line: string, reply: string, asked: PollTime) => void;
+  /** Sent right behind an emergency stop: a pen that was coming down must not reach the paper. */
+  readonly liftLine?: string;
   /** Offset to add to the board's step counters to get the streams' steps. Default 0, 0. */
   readonly origin?: readonly [number, number];
 }

@@ -20,6 +20,7 @@ import type { CommandStream } from "../compile/command-stream.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
+import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
 import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
@@ -178,6 +179,7 @@ export class Streamer {
     this.session.write([
       note(query, (reply) => (stop.waitingCount = waitingCount(query, reply))),
       note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
+      ...(this.options.liftLine === undefined ? [] : [{ line: this.options.liftLine, waitS }]),
     ]);
     this.fail(error);
   }
@@ -227,9 +229,10 @@ export class Streamer {
     this.timeline.forgetExecuted(boardS);
     const batch: Outgoing[] = [];
     const endIndex = this.limit?.atIndex ?? stream.count;
-    while (this.next < endIndex && this.mayWrite(stream, boardS)) {
-      batch.push(this.outgoing(stream, this.next));
-      this.next++;
+    while (this.next < endIndex) {
+      const end = Math.min(endIndex, endOfLanding(stream, this.next));
+      if (!this.mayWrite(stream, boardS, end - this.next)) break;
+      for (; this.next < end; this.next++) batch.push(this.outgoing(stream, this.next));
     }
     if (batch.length > 0) this.session.write(batch);
     if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
@@ -237,12 +240,13 @@ export class Streamer {
     else this.awaitEnd(boardS);
   }
 
-  private mayWrite(stream: CommandStream, boardS: number): boolean {
+  /** @param count of commands that belong together */
+  private mayWrite(stream: CommandStream, boardS: number, count: number): boolean {
     if (this.options.pacing === "acks") return this.unanswered === 0;
     const waiting = this.timeline.count;
     // Always keep one whole command waiting behind the executing one, however long they are.
     if (waiting < 2) return true;
-    if (this.options.queueDepth > 1 && waiting >= this.options.queueDepth) return false;
+    if (this.options.queueDepth > 1 && waiting + count > this.options.queueDepth) return false;
     return this.dueS(stream) <= boardS;
   }
 

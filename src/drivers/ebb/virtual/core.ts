@@ -283,6 +283,7 @@ export class BoardCore {
   /** Moves the pen; `up`: whether the board takes that for a lift. */
   movePen(position: number, rate: number, up: boolean): void {
     const { servo, nowTick, machine } = this;
+    if (this.contactTick <= nowTick) this.changeContact();
     servo.moveTo(position, rate, nowTick);
     this.servoUsed = true;
     const contactPct = this.servoOptions?.contactPct;

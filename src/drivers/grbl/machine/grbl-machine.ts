@@ -33,6 +33,7 @@ export class GrblMachine implements Machine {
   readonly name = null;
   readonly left = null;
   penUp: boolean | null = null;
+  penMoving = false;
   motorsOn: boolean | null = null;
   /** Work position, mm; null if its origin is unknown. */
   private at: Axes | null = null;
@@ -88,9 +89,18 @@ export class GrblMachine implements Machine {
     const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
     const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
     if (this.isAsleep) await this.ready(machineOf(settings));
-    for (const line of [SYNC, ...penLines(grbl, zMm)]) await this.session.send(line);
     this.penUp = up;
+    this.penMoving = true;
     this.options.events.changed();
+    try {
+      for (const line of [SYNC, ...penLines(grbl, zMm)]) await this.session.send(line);
+    } catch (error) {
+      this.penUp = null;
+      throw error;
+    } finally {
+      this.penMoving = false;
+      this.options.events.changed();
+    }
   }
 
   moveServo(): Promise<void> {

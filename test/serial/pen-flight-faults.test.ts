@@ -1,0 +1,136 @@
+/**
+ * kill -9 of a plotting process and an unplugged cable while the pen moves in flight, over a real pseudo-terminal, with
+ * a servo that differs from what the planner takes it for. PLOTWRIGHT_FAULTS=20, or the full run: 20 times each.
+ */
+import { fork } from "node:child_process";
+import { once } from "node:events";
+import { fileURLToPath } from "node:url";
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import type { JournalEntry } from "../../server/plotter/types.js";
+import { machineById, plan } from "../../src/index.js";
+import type { PenOverlap } from "../../src/internal.js";
+import { untilIdle, waitS } from "../support/faulty-plots.js";
+import {
+  HOPS,
+  instant,
+  marksOn,
+  penSettings,
+  SERVOS,
+  STATED_SERVO,
+  virtualServo,
+  type FlyingServo,
+} from "../support/flying-pens.js";
+import { countFor } from "../support/full-run.js";
+import { seeded } from "../support/live-plot.js";
+import { LocalPlanner } from "../support/local-planner.js";
+import { PtyBoard } from "../support/pty-board.js";
+
+const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 2);
+/** Missing or drawn twice, mm. */
+const UNSEEN_MM = 0.05;
+/** How far from a stroke there may be a mark, mm. */
+const BESIDE_MM = { off: 0.05, safe: 0.15, fast: 0.3 };
+const LINES = Array.from({ length: HOPS.offsets.length - 1 }, (_, i) => [
+  ...HOPS.xy.subarray(2 * HOPS.offsets[i], 2 * HOPS.offsets[i + 1]),
+]);
+
+interface Case {
+  readonly overlap: PenOverlap;
+  readonly firmware: string;
+  readonly servo: FlyingServo;
+}
+
+const caseOf = (i: number): Case => {
+  const firmware = i % 2 === 0 ? "3.0.3" : "2.8.1";
+  if (i % 5 === 4) return { overlap: "fast", firmware, servo: STATED_SERVO };
+  return { overlap: "safe", firmware, servo: SERVOS[i % SERVOS.length] };
+};
+
+type Interrupt = (board: PtyBoard, overlap: PenOverlap, afterS: number) => Promise<JournalEntry>;
+
+/** The process that plots is killed. */
+const kill: Interrupt = async (board, overlap, afterS) => {
+  const file = fileURLToPath(new URL("../support/plot-child.ts", import.meta.url));
+  const args = [board.path, JSON.stringify(LINES), JSON.stringify({ overlap })];
+  const child = fork(file, args, { execArgv: ["--import", "tsx"] });
+  const journal: JournalEntry[] = [];
+  child.on("message", (entry: JournalEntry) => journal.push(entry));
+  await once(child, "message");
+  await waitS(afterS);
+  child.kill("SIGKILL");
+  await once(child, "exit");
+  return journal[journal.length - 1];
+};
+
+const unplug: Interrupt = async (board, overlap, afterS) => {
+  const driver = new PlotterDriver({ device: board.path });
+  try {
+    await driver.start();
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), { journal: { record } });
+    await new Promise<void>((resolve) => run.onProgress(() => resolve()));
+    await waitS(afterS);
+    board.tell({ type: "unplug" });
+    await expect(run.finished).rejects.toThrow();
+    await waitS(1);
+    board.tell({ type: "replug" });
+    return journal[journal.length - 1];
+  } finally {
+    await driver.close();
+  }
+};
+
+/** The plot is resumed by another process, as after a restart of the server. */
+async function resumed(interrupt: Interrupt, { overlap, firmware, servo }: Case, afterS: number) {
+  const board = await PtyBoard.open({ firmware, wakeful: true, servo: virtualServo(servo) });
+  try {
+    const { place: from, sent } = await interrupt(board, overlap, afterS);
+    const driver = new PlotterDriver({ device: board.path });
+    try {
+      await driver.start();
+      await untilIdle(driver);
+      const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), { from, sent });
+      await run.resume();
+      expect(await run.finished).toEqual({ kind: "done" });
+    } finally {
+      await driver.close();
+    }
+    const { drawn } = await board.report();
+    return marksOn(drawn.map(({ penDown, xy }) => ({ penDown, xy: Float64Array.from(xy) })));
+  } finally {
+    await board.close();
+  }
+}
+
+// They mostly wait, so they run side by side.
+describe.concurrent("a pen in flight", () => {
+  it.each([
+    ["a kill", kill],
+    ["an unplugged cable", unplug],
+  ] as const)(
+    "%s leaves no gap, no doubled stretch and no mark between strokes",
+    { timeout: 60_000 + 60_000 * COUNT },
+    async (name, interrupt) => {
+      const random = seeded(name.length);
+      const wrong: unknown[] = [];
+      const most = { gapMm: 0, overlapMm: 0, besideMm: 0 };
+      for (let i = 0; i < COUNT; i++) {
+        const one = caseOf(i);
+        const { motion, pen } = penSettings(one.overlap);
+        const afterS = instant(plan(HOPS, motion, pen, { machine: machineById("axidraw-v3") }), random);
+        const { gapMm, overlapMm, awayMm } = await resumed(interrupt, one, Math.max(0.3, afterS));
+        const besideMm = awayMm / BESIDE_MM[one.overlap];
+        if (gapMm > UNSEEN_MM || overlapMm > UNSEEN_MM || besideMm > 1) {
+          wrong.push({ ...one, afterS, gapMm, overlapMm, awayMm });
+        }
+        most.gapMm = Math.max(most.gapMm, gapMm);
+        most.overlapMm = Math.max(most.overlapMm, overlapMm);
+        most.besideMm = Math.max(most.besideMm, awayMm);
+      }
+      if (COUNT > 10) console.info(name, COUNT, most);
+      expect(wrong).toEqual([]);
+    },
+  );
+});

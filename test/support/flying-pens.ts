@@ -1,0 +1,124 @@
+/**
+ * Plots whose pen moves while the carriage does, on a virtual board with a servo of its own. Marks are where its tip
+ * touches the paper.
+ */
+import { MachinePlot } from "../../server/plotter/plot-run.js";
+import type { LivePlotRun, PlotProgress } from "../../server/plotter/types.js";
+import { DEFAULT_PEN, VirtualBoard, type PenSettings, type StrokeSet } from "../../src/index.js";
+import type { Machine } from "../../src/internal.js";
+import { ebbDriver } from "../../src/drivers/ebb/ebb-driver.js";
+import type { DrawnPolyline, VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
+import { penMovesOf } from "../../src/plan/pen-moves.js";
+import type { PenMove, Trajectory } from "../../src/plan/trajectory.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { compareDrawn, type DrawnTruth } from "./drawn-truth.js";
+import { strokesOf } from "./local-planner.js";
+import type { ManualClock } from "./manual-clock.js";
+import { KeepingPlanner } from "./stop-truth.js";
+
+const arc = (x: number, y: number, r: number): number[] =>
+  Array.from({ length: 40 }, (_, i) => [x + r * Math.cos(i / 13), y + r * Math.sin(i / 13)]).flat();
+
+/** Short strokes, some mm apart, in rows: short travels and long ones. About 12 s of plotting. */
+export const HOPS: StrokeSet = strokesOf(
+  ...Array.from({ length: 18 }, (_, i) => {
+    const [x, y] = [20 + 12 * (i % 6), 20 + 24 * Math.floor(i / 6)];
+    if (i % 4 === 1) return arc(x + 3, y + 3, 3);
+    if (i % 4 === 2) return [x, y, x + 6, y];
+    return i % 4 === 3 ? [x, y + 8, x + 4, y, x + 7, y + 8] : [x, y, x, y + 7];
+  }),
+);
+
+/** How a servo may differ from what the planner takes it for: the corners of the range. */
+export const SERVOS = [
+  { speed: 0.8, phaseMs: 1, contact: 0.55 },
+  { speed: 1.2, phaseMs: 13, contact: 0.55 },
+  { speed: 0.8, phaseMs: 23, contact: 0.45 },
+  { speed: 1.2, phaseMs: 7, contact: 0.45 },
+] as const;
+export const STATED_SERVO = { speed: 1, phaseMs: 11, contact: 0.5 } as const;
+
+export interface FlyingServo {
+  readonly speed: number;
+  readonly phaseMs: number;
+  /** Share of the way from down to up below which the tip touches. */
+  readonly contact: number;
+}
+
+export const virtualServo = (
+  { speed, phaseMs, contact }: FlyingServo,
+  { downPct, upPct }: PenSettings = DEFAULT_PEN,
+): VirtualServo => ({
+  speed,
+  framePhaseMs: phaseMs,
+  contactPct: downPct + contact * (upPct - downPct),
+});
+
+export const penSettings = (overlap: PenSettings["overlap"]): PlotSettings => ({
+  ...DEFAULT_PLOT_SETTINGS,
+  pen: { ...DEFAULT_PEN, overlap },
+});
+
+export interface FlyingPlot {
+  readonly board: VirtualBoard;
+  readonly run: LivePlotRun;
+  readonly machine: Machine;
+  readonly trajectory: Trajectory;
+  /** All that was reported. */
+  readonly reports: PlotProgress[];
+}
+
+/** A plot that has just begun: the clock is at the start of its plan. */
+export async function flyingPlot(
+  world: ManualClock,
+  overlap: PenSettings["overlap"],
+  firmware: string,
+  servo: FlyingServo,
+): Promise<FlyingPlot> {
+  const board = new VirtualBoard({ clock: world, firmware, servo: virtualServo(servo) });
+  const ignore = (): void => undefined;
+  const machine = await world.run(
+    ebbDriver.identify(board.transport(), {
+      clock: world,
+      machineClock: world,
+      speed: 1,
+      events: { changed: ignore, buttonPressed: ignore, supplyRead: ignore, lost: ignore },
+    }),
+  );
+  await world.run(machine.takeOver());
+  const planner = new KeepingPlanner(HOPS);
+  const run = new MachinePlot(machine, planner, penSettings(overlap));
+  const reports: PlotProgress[] = [];
+  run.onProgress((progress) => void reports.push(progress));
+  while (reports.length === 0) await world.advance(0.001);
+  return { board, run, machine, trajectory: planner.plots[0].trajectory, reports };
+}
+
+/** An instant of the plan; mostly while the pen moves, or up to 50 ms before. */
+export function instant(trajectory: Trajectory, random: () => number): number {
+  if (random() < 0.2) return trajectory.totalS * random();
+  const moves = penMovesOf(trajectory);
+  const move = moves[Math.floor(random() * moves.length)];
+  return move.startS - 0.05 + (penEndS(trajectory, move) + 0.05 - move.startS) * random();
+}
+
+function penEndS({ runs }: Trajectory, { up, startS, moveS, beforeRun }: PenMove): number {
+  return up ? startS + moveS : runs.startS[beforeRun];
+}
+
+/** Rounding to steps. */
+const STEP_MM = 0.02;
+
+/** What is on the paper, a dot being a line of no length. */
+export function marksOn(drawn: readonly Pick<DrawnPolyline, "penDown" | "xy">[]): DrawnTruth {
+  const marks = drawn.map(({ penDown, xy }) => ({ penDown, xy: xy.length === 2 ? [...xy, ...xy] : xy }));
+  const { awayMm } = compareDrawn(HOPS, marks);
+  // A landing after which the plot stopped is a mark before the stroke's start: beside the stroke, not a part of it.
+  const strokes = marks.filter(({ xy }) => !endsAtStart([xy[xy.length - 2], xy[xy.length - 1]]));
+  return { ...compareDrawn(HOPS, strokes), awayMm };
+}
+
+const endsAtStart = ([x, y]: readonly [number, number]): boolean =>
+  Array.from(HOPS.offsets.subarray(0, -1), (at) =>
+    Math.hypot(HOPS.xy[2 * at] - x, HOPS.xy[2 * at + 1] - y),
+  ).some((mm) => mm < STEP_MM);
