@@ -16,7 +16,8 @@ import {
   waitForPlan,
   waitForSamples,
 } from "../support/page-actions.js";
-import { DESK, PAGE_STATES, PHONE, inStates, type Look } from "../support/page-states.js";
+import { DESK, inStates, PHONE, type Look } from "../support/in-states.js";
+import { PAGE_STATES } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 

@@ -4,6 +4,11 @@ export const historyText = {
   redo: "Redo",
 };
 
+export const skipText = {
+  toPlot: "Skip to Plot",
+  toWatch: "Skip to the plot’s buttons",
+};
+
 export const tabsText = {
   label: "Panels",
   setup: "Set up",

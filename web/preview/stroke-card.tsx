@@ -1,5 +1,5 @@
 import { useMemo } from "react";
-import { activeJob, isReady, mayOperate, otherOperator, selectedStroke } from "../state/store.js";
+import { activeJob, isReady, mayOperate, selectedStroke } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
 import { IconButton } from "../ui/icon-button.js";
@@ -53,7 +53,6 @@ const PlotFromHere = ({ strokeIndex }: { strokeIndex: number }) => {
     (state) =>
       !isReady(state) ||
       !mayOperate(state) ||
-      otherOperator(state) !== null ||
       activeJob(state) !== null ||
       state.busyAction !== null,
   );

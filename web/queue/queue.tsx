@@ -84,6 +84,7 @@ const BetweenJobs = () => {
   return (
     <Segments
       label={words.between}
+      isInline
       value={queue.runOn ? "run" : "wait"}
       options={[
         { value: "wait", label: words.wait },

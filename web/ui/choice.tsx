@@ -1,4 +1,5 @@
 import { useId, type ReactNode } from "react";
+import { useHint } from "./hint.js";
 
 export interface ChoiceOption<T extends string> {
   readonly value: T;
@@ -14,18 +15,36 @@ interface ChoiceProps<T extends string> {
   onChange(value: T): void;
 }
 
+interface SegmentsProps<T extends string> extends ChoiceProps<T> {
+  /** The label stands beside the choices, where there are two short ones. */
+  readonly isInline?: boolean;
+  /** Help on demand. */
+  readonly hint?: string;
+}
+
 /** One of a few, all in sight: a row of radio buttons that looks like one control. */
 export const Segments = <T extends string>({
   label,
   value,
   options,
   isLabelHidden,
+  isInline,
+  hint,
   onChange,
-}: ChoiceProps<T>) => {
+}: SegmentsProps<T>) => {
   const name = useId();
+  const help = useHint(label, `${name}-note`, hint !== undefined);
   return (
-    <fieldset className="field segments-field">
-      <legend className={isLabelHidden ? "visually-hidden" : undefined}>{label}</legend>
+    <div
+      role="group"
+      aria-labelledby={`${name}-label`}
+      className="field segments-field"
+      data-inline={isInline || undefined}
+    >
+      <span className={isLabelHidden ? "visually-hidden" : "field-label"}>
+        <span id={`${name}-label`}>{label}</span>
+        {help.button}
+      </span>
       <div className="segments">
         {options.map((option) => (
           <label key={option.value} className="segment">
@@ -42,7 +61,12 @@ export const Segments = <T extends string>({
           </label>
         ))}
       </div>
-    </fieldset>
+      {hint !== undefined && (
+        <p id={`${name}-note`} className="note" hidden={!help.isShown}>
+          {hint}
+        </p>
+      )}
+    </div>
   );
 };
 

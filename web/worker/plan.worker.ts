@@ -22,6 +22,7 @@ import {
   pointCount,
   prepareSettingsOf,
   strokeCount,
+  unreachedCount,
   type Placement,
 } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
@@ -116,6 +117,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       fileWarnings: drawing.warnings,
       layoutWarnings: ready.warnings,
       cutOff,
+      unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),
       stats,
