@@ -377,10 +377,11 @@ export const PAGE_STATES: readonly PageState[] = [
     },
   },
   {
-    name: "35-failed",
-    virtualSpeed: 2,
+    name: "35-stopped",
+    virtualSpeed: 8,
     reach: async ({ page }) => {
       await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("1 %").waitFor();
       await button(page, "Emergency stop").click();
       await statusCard(page).getByText("Plotting", { exact: true }).waitFor({ state: "detached" });
     },
@@ -399,7 +400,8 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openTab(page, "Set up");
       const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
-      while ((await folded.count()) > 0) await folded.first().click();
+      // On a phone the sheet may lie over the one to be pressed.
+      while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
     },
   },
 ];

@@ -32,7 +32,7 @@ export const pairingText = {
     "Scan the code there with this device’s camera, or open the link on it.",
   ],
   terminal: "The link is also printed in the window in which plotwright was started.",
-  retry: "Look again",
+  retry: "Try again",
 };
 
 export const takeOverText = {
