@@ -51,10 +51,7 @@ export const StrokeCard = () => {
 const PlotFromHere = ({ strokeIndex }: { strokeIndex: number }) => {
   const isOff = usePageState(
     (state) =>
-      !isReady(state) ||
-      !mayOperate(state) ||
-      activeJob(state) !== null ||
-      state.busyAction !== null,
+      !isReady(state) || !mayOperate(state) || activeJob(state) !== null || state.busyAction !== null,
   );
   const { plotDrawing } = useActions();
   return (
