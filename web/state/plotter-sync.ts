@@ -43,6 +43,10 @@ interface SyncParts {
 export const createPlotterSync = ({ store, backend, asOperator, after, failed, show }: SyncParts) => {
   /** What the user has changed here and the server does not have yet. */
   let unsaved: { readonly id: string; readonly settings: PlotterSettings } | null = null;
+  /** As it was before the first change that the server does not have yet. */
+  let lastSaved: PlotterSettings | null = null;
+  /** Rises when the user leaves another browser operating: changes of before that are dropped. */
+  let refusals = 0;
   let isWaiting = false;
   let sendingCount = 0;
   let turn: Promise<void> = Promise.resolve();
@@ -80,6 +84,14 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     return true;
   };
 
+  const saveOrTakeBack = async (id: string, settings: PlotterSettings, turnOf: number): Promise<void> => {
+    if (turnOf !== refusals || (await saveNow(id, settings))) return;
+    refusals++;
+    unsaved = null;
+    const { settings: now } = store.getState();
+    if (lastSaved) show({ settings: withPlotterPart(now, lastSaved), presets: lastSaved.presets }, true);
+  };
+
   const saveSoon = (): void => {
     if (isWaiting) return;
     isWaiting = true;
@@ -87,7 +99,8 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
       isWaiting = false;
       const wanted = unsaved;
       unsaved = null;
-      if (wanted) send(() => saveNow(wanted.id, wanted.settings));
+      const turnOf = refusals;
+      if (wanted) send(() => saveOrTakeBack(wanted.id, wanted.settings, turnOf));
     });
   };
 
@@ -108,6 +121,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
       pens: isSame(old.pens, now.pens) ? stored.pens : now.pens,
       presets: isSame(old.presets, now.presets) ? stored.presets : now.presets,
     };
+    if (!unsaved && sendingCount === 0) lastSaved = old;
     unsaved = { id: plotter.id, settings };
     saveSoon();
   };
