@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
-import { activeJob, currentPlotter, mayOperate, shownView, type DialogName } from "../state/store.js";
+import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { plotterText } from "./text.js";
 import { Select } from "../ui/choice.js";
@@ -19,13 +19,11 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
-  // In Watch a running plot's heights are changed under "While it plots".
-  const isWatched = usePageState((state) => shownView(state) === "watch" && activeJob(state) !== null);
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
-      {isMine && !isWatched && <PenAtHand />}
+      {isMine && <PenAtHand />}
       <div className="group-in-card">
         {isMine && <MoreMoves />}
         {isMine && children}

@@ -15,6 +15,7 @@ import {
 } from "../../src/index.js";
 import {
   boxOfPoints,
+  unreachedCount,
   textOfBytes,
   machineOf,
   penStopsOf,
@@ -22,7 +23,6 @@ import {
   pointCount,
   prepareSettingsOf,
   strokeCount,
-  unreachedCount,
   type Placement,
 } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
