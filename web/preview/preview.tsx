@@ -64,6 +64,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     if (
       state.planned !== before?.planned ||
       state.settings !== before?.settings ||
+      state.view.lengthUnit !== before?.view.lengthUnit ||
       state.selected !== before?.selected ||
       state.noteBoxes !== before?.noteBoxes ||
       state.snapLines !== before.snapLines

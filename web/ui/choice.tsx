@@ -70,12 +70,21 @@ export const Segments = <T extends string>({
   );
 };
 
+interface SelectProps<T extends string> extends ChoiceProps<T> {
+  /** Help on demand. */
+  readonly hint?: string;
+}
+
 /** One of many: the system's own list. */
-export const Select = <T extends string>({ label, value, options, onChange }: ChoiceProps<T>) => {
+export const Select = <T extends string>({ label, value, options, hint, onChange }: SelectProps<T>) => {
   const id = useId();
+  const help = useHint(label, `${id}-note`, hint !== undefined);
   return (
     <div className="field">
-      <label htmlFor={id}>{label}</label>
+      <span className="field-label">
+        <label htmlFor={id}>{label}</label>
+        {help.button}
+      </span>
       <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
         {options.map((option) => (
           <option key={option.value} value={option.value}>
@@ -83,6 +92,11 @@ export const Select = <T extends string>({ label, value, options, onChange }: Ch
           </option>
         ))}
       </select>
+      {hint !== undefined && (
+        <p id={`${id}-note`} className="note" hidden={!help.isShown}>
+          {hint}
+        </p>
+      )}
     </div>
   );
 };

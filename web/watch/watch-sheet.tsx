@@ -1,3 +1,4 @@
+import type { Desk } from "../preview/backdrop.js";
 import { Sheet, type SheetKind } from "../preview/sheet.js";
 import type { Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
@@ -55,13 +56,18 @@ const plannedOf = (state: PageState) => (watchedJob(state) ? (state.watchPlan?.p
 
 const lookOf = (state: PageState) => lookOfJob(watchedJob(state), plannedOf(state), state.live);
 
+/** Without the reach: what is being plotted is within it. */
+const watchedDesk = (state: PageState): Desk => ({
+  ...deskOf(settingsOf(state), state.view.lengthUnit),
+  reach: null,
+});
+
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     const planned = plannedOf(state);
     if (!before || planned !== plannedOf(before))
       stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
-    if (!before || settingsOf(state) !== settingsOf(before))
-      stage.setDesk(deskOf(settingsOf(state), state.view.lengthUnit));
+    if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(watchedDesk(state));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
     }
@@ -74,7 +80,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
 
 /** Nothing on this sheet can be moved or asked about. */
 const WATCHED: SheetKind = {
-  desk: (state) => deskOf(settingsOf(state), state.view.lengthUnit),
+  desk: watchedDesk,
   look: lookOf,
   belowPx: BELOW_PX,
   show: showState,
