@@ -169,6 +169,12 @@ describe.each(LOOKED_AT)("axe finds nothing serious at $width × $height, and no
       if (!IS_FULL && scheme === "dark") return;
       const findings = await seriousFindings(page);
       found.push(...findings.map((finding) => `${name}, ${scheme}: ${finding}`));
+      const wide = await page.evaluate(() =>
+        [...document.querySelectorAll(".column, .group-body, .card, .status-card, dialog")]
+          .filter(({ scrollWidth, clientWidth }) => scrollWidth > clientWidth + 1)
+          .map(({ className }) => className),
+      );
+      if (wide.length > 0) found.push(`${name}: content is cut off in ${wide.join(", ")}`);
       const { scrollWidth, scrollHeight } = await page.evaluate(() => ({
         scrollWidth: document.documentElement.scrollWidth,
         scrollHeight: document.documentElement.scrollHeight,

@@ -193,6 +193,7 @@ describe("two browsers and a watcher", () => {
       .getByText(/last seen \d+/)
       .waitFor();
     expect(await queuePanel(anna).getByRole("button", { name: "Pause" }).isDisabled()).toBe(true);
+    expect(await queuePanel(anna).innerText()).not.toMatch(/done \d/);
     await queuePanel(ben).getByRole("button", { name: "Pause" }).click();
     await queuePanel(ben).getByRole("button", { name: "Resume" }).waitFor();
     expect(await queuePanel(anna).getByText("Paused").count()).toBe(0);
