@@ -5,10 +5,10 @@
  * Polling between short moves needs only the board's PI, which every firmware has.
  */
 import { PlotwrightError } from "../../../errors.js";
-import type { HomingSwitches, SwitchInput } from "../../../machines/controllers.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { MachineSettings } from "../../machine-job.js";
+import type { HomingSwitches, SwitchInput } from "../protocol/ebb-controller.js";
 import type { Carriage } from "./carriage.js";
 
 /** Shorter than the travel of a pressed switch. */
