@@ -288,9 +288,9 @@ export const PAGE_STATES: readonly PageState[] = [
       const [operatePath, watchPath] = await pairingPaths(stand.server);
       const operator = await stand.openOther(operatePath);
       await operator.waitForURL(`${stand.server.url}/`);
-      await start(operator, "two-pens", TWO_PENS);
-      await lay(await inPrepare(operator), "hills", sampleText("three-colour-hills"));
+      await lay(operator, "hills", sampleText("three-colour-hills"));
       await plotBar(operator).getByRole("button", { name: "Add to queue" }).click();
+      await start(operator, "two-pens", TWO_PENS);
       await stand.page.goto(`${stand.server.url}${watchPath}`);
       await queuePanel(stand.page).getByText("hills").waitFor();
     },
