@@ -1,13 +1,6 @@
 import { useMemo, useState, type ReactNode } from "react";
 import { PEN_TABLE } from "../../src/internal.js";
-import {
-  activeJob,
-  currentPlotter,
-  isReady,
-  otherOperator,
-  shownView,
-  type PageState,
-} from "../state/store.js";
+import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { SettingField } from "../ui/setting-field.js";
 import { servoFollower } from "./servo-follow.js";
@@ -22,8 +15,6 @@ type Step = "home" | "heights" | "mark";
 /** Home, heights and a test line: what every plot begins with. Before the first plot they are numbered steps. */
 export const PenAtHand = () => {
   const isFirst = usePageState(isFirstPlot);
-  // In Watch, the heights of a plot under way are changed under "While it plots".
-  const isElsewhere = usePageState((state) => shownView(state) === "watch" && activeJob(state) !== null);
   const { changeView } = useActions();
   const [done, setDone] = useState<ReadonlySet<Step>>(new Set());
   const note = (step: Step): void => setDone(new Set([...done, step]));
@@ -41,7 +32,6 @@ export const PenAtHand = () => {
     part("heights", <Heights onTry={() => note("heights")} />),
     part("mark", <TestLine onDraw={() => note("mark")} />),
   ];
-  if (isElsewhere) return null;
   if (!isFirst) return <div className="pen-at-hand">{parts}</div>;
   return (
     <section className="pen-at-hand first-plot" aria-label={words.firstPlot}>
