@@ -1,5 +1,5 @@
 /**
- * `npm run screenshots [-- FOLDER [STATE…]]`: every state of the page, at desktop and phone size, light and
+ * `npm run screenshots [-- FOLDER [STATE…]]`: every state of the page, at four sizes of screen, light and
  * dark, as PNG files in test/screenshots/, and the README's picture in docs/. Look at them after each visible
  * change. Each state is also checked by axe; serious findings are printed, and set exit code 1.
  */
@@ -9,7 +9,8 @@ import type { Browser, Page } from "playwright-core";
 import { seriousFindings } from "../test/support/axe.js";
 import { launchBrowser } from "../test/support/browser.js";
 import { dropFile, waitForPlan } from "../test/support/page-actions.js";
-import { DESK, PAGE_STATES, PHONE, inStates, sampleText, type Look } from "../test/support/page-states.js";
+import { inStates, LOOKS, type Look } from "../test/support/in-states.js";
+import { PAGE_STATES, sampleText } from "../test/support/page-states.js";
 import { startServerProcess, temporaryFolder } from "../test/support/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";
 
@@ -89,7 +90,7 @@ mkdirSync(folder, { recursive: true });
 const browser = await launchBrowser();
 try {
   if (onlyStates.length === 0) await pictureForReadme(browser);
-  for (const look of [DESK, PHONE]) await shootAll(browser, look);
+  for (const look of LOOKS) await shootAll(browser, look);
 } finally {
   await browser.close();
 }

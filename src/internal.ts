@@ -72,7 +72,7 @@ export { STREAM_TABLE } from "./settings/stream.js";
 
 // prepare
 export { boxOfPoints, isEmptyBox, type Box } from "./geometry/box.js";
-export { isReached } from "./prepare/check-bounds.js";
+export { isReached, unreachedCount } from "./prepare/check-bounds.js";
 export {
   canBePaper,
   isOnFilesPage,

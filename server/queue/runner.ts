@@ -67,6 +67,12 @@ export class Runner {
     if (this.#run !== null) this.#ask(this.#run.cancel());
   }
 
+  /** Stops without slowing down. While the plot is still being planned nothing moves, and it is paused. */
+  async emergencyStop(): Promise<void> {
+    if (this.#run === null) this.pause();
+    else await this.#run.emergencyStop();
+  }
+
   /** The running plot, for all other requests; throws `conflict` while it is still being planned. */
   get live(): LivePlotRun {
     if (this.#run !== null) return this.#run;

@@ -112,7 +112,7 @@ export class RunningPlots {
 
   /** Stops without slowing down; afterwards the job is held. */
   async emergencyStop(id: string): Promise<Job> {
-    await this.#runnerOf(id, ["plotting", "paused"], "stopped").live.emergencyStop();
+    await this.#runnerOf(id, ["plotting", "paused"], "stopped").emergencyStop();
     return this.#jobs.get(id);
   }
 

@@ -1,6 +1,6 @@
 /** Checks that the drawing fits the machine, before anything moves. */
 import { checkObject } from "../check-arguments.js";
-import { checkStrokes, type StrokeSet } from "../drawing/stroke-set.js";
+import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import { PlotwrightError } from "../errors.js";
 import { boxOfPoints, type Box } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
@@ -13,6 +13,20 @@ export const isReached = (
   box: Box,
   { widthMm, heightMm }: Pick<MachineProfile, "widthMm" | "heightMm">,
 ): boolean => box.x0 >= -SLACK && box.y0 >= -SLACK && box.x1 <= widthMm + SLACK && box.y1 <= heightMm + SLACK;
+
+/** How many strokes the machine does not reach, or reaches only in part. */
+export function unreachedCount(
+  strokes: StrokeSet,
+  machine: Pick<MachineProfile, "widthMm" | "heightMm">,
+): number {
+  const { xy, offsets } = strokes;
+  if (isReached(boxOfPoints(xy), machine)) return 0;
+  let count = 0;
+  for (let i = 0; i < strokeCount(strokes); i++) {
+    if (!isReached(boxOfPoints(xy, 2 * offsets[i], 2 * offsets[i + 1]), machine)) count++;
+  }
+  return count;
+}
 
 /**
  * Checks that a machine reaches every stroke, with 0.01 mm to spare for rounding. `planSvg` does it; call it yourself

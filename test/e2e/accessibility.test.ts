@@ -16,7 +16,8 @@ import {
   waitForPlan,
   waitForSamples,
 } from "../support/page-actions.js";
-import { DESK, PAGE_STATES, PHONE, inStates, type Look } from "../support/page-states.js";
+import { DESK, inStates, LOOKS, PHONE, type Look } from "../support/in-states.js";
+import { PAGE_STATES, type PageState } from "../support/page-states.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
@@ -150,24 +151,36 @@ describe("axe finds nothing serious, light and dark", () => {
   });
 });
 
-describe("axe finds nothing serious on a phone, light and dark, and nothing overflows its width", () => {
-  // The temporary states show every panel once; the full run adds the others, and dark colours.
-  const lasting = IS_FULL ? PAGE_STATES : [];
-  const groups = [
-    ["states that leave nothing behind", PAGE_STATES.filter(({ isPassing }) => isPassing)] as const,
-    ...lasting.filter(({ isPassing }) => !isPassing).map((state) => [state.name, [state]] as const),
-  ];
+// Every panel once, on a phone, which shows one at a time; the full run has all states at all sizes, dark too.
+const LOOKED_AT = IS_FULL ? LOOKS : [PHONE];
+const STATES = PAGE_STATES.filter(({ isPassing, isOnlyPlace }) => IS_FULL || isPassing || isOnlyPlace);
+const LASTING = STATES.filter(({ isPassing }) => !isPassing);
+const GROUPS: readonly (readonly [string, readonly PageState[]])[] = [
+  ["states that leave nothing behind", STATES.filter(({ isPassing }) => isPassing)],
+  ...LASTING.map((state) => [state.name, [state]] as const),
+];
 
-  it.each(groups)("%s", { timeout: 240_000 }, async (_name, group) => {
+describe.each(LOOKED_AT)("axe finds nothing serious at $width × $height, and nothing overflows", (look) => {
+  it.each(GROUPS)("%s", { timeout: 240_000 }, async (_name, group) => {
     const found: string[] = [];
     let lookedAt = 0;
-    await inStates(browser, group, PHONE, async (page, { name }, scheme) => {
+    await inStates(browser, group, look, async (page, { name }, scheme) => {
       lookedAt++;
       if (!IS_FULL && scheme === "dark") return;
       const findings = await seriousFindings(page);
       found.push(...findings.map((finding) => `${name}, ${scheme}: ${finding}`));
-      const widthPx = await page.evaluate(() => document.documentElement.scrollWidth);
-      if (widthPx > PHONE.width) found.push(`${name}: ${widthPx} px wide`);
+      const wide = await page.evaluate(() =>
+        [...document.querySelectorAll(".column, .group-body, .card, .status-card, dialog")]
+          .filter(({ scrollWidth, clientWidth }) => scrollWidth > clientWidth + 1)
+          .map(({ className }) => className),
+      );
+      if (wide.length > 0) found.push(`${name}: content is cut off in ${wide.join(", ")}`);
+      const { scrollWidth, scrollHeight } = await page.evaluate(() => ({
+        scrollWidth: document.documentElement.scrollWidth,
+        scrollHeight: document.documentElement.scrollHeight,
+      }));
+      if (scrollWidth > look.width) found.push(`${name}: ${scrollWidth} px wide`);
+      if (look !== PHONE && scrollHeight > look.height) found.push(`${name}: ${scrollHeight} px high`);
     });
     expect(found).toEqual([]);
     expect(lookedAt).toBe(2 * group.length);

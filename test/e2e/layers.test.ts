@@ -26,7 +26,7 @@ beforeAll(async () => {
   await test.page.getByRole("radio", { name: "True size" }).check();
   await test.group("Paper", false);
   await test.group("Drawing", false);
-  await test.group("Layers");
+  await test.group("Layers and pens");
   await test.group("Pens");
   await test.page.locator(".layer-list .layer-name").first().waitFor();
 });

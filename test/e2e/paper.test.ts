@@ -58,6 +58,7 @@ describe("what the machine does not reach", () => {
     await test.planned();
     const why = plotBar(test.page).getByText(/AxiDraw V3 reaches 300 × 218/);
     await why.waitFor();
+    expect(await why.innerText()).toContain("1 line can’t be drawn as it lies.");
     expect(await plot().isDisabled()).toBe(true);
     await plotBar(test.page).getByRole("button", { name: "Turn for this machine" }).click();
     await test.planned();
@@ -83,6 +84,26 @@ describe("what the machine does not reach", () => {
 });
 
 describe("the form", () => {
+  it("has a group for each thing to decide, and help at the press of a key", async () => {
+    const { page } = test;
+    const titles = await page.locator(".column-setup .group:not(.group-part) > .group-top").allInnerTexts();
+    expect(titles.map((title) => title.split("\n")[0])).toEqual([
+      "Drawing",
+      "Paper",
+      "Layers and pens",
+      "Lines",
+      expect.any(String),
+      "Presets",
+    ]);
+    const help = page.getByText("Drop it anywhere, paste it, or choose a file");
+    expect(await help.isVisible()).toBe(false);
+    await page.getByRole("button", { name: "About: Drawing" }).focus();
+    await page.keyboard.press("Enter");
+    await help.waitFor();
+    await page.keyboard.press("Enter");
+    await help.waitFor({ state: "hidden" });
+  });
+
   it("keeps mirror, cutting and separate margins folded until they are asked for", async () => {
     const mirror = test.page.getByRole("radio", { name: "Left–right" });
     expect(await mirror.isVisible()).toBe(false);
@@ -129,6 +150,7 @@ describe("a length", () => {
 describe("a file", () => {
   it("without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
     await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
+    await test.group("Lines");
     await test.group("Fill and shade");
     await test.page.getByText("Fill areas with lines").click();
     await test.page.getByText(/No shape of this drawing is filled/).waitFor();

@@ -1,8 +1,9 @@
 /** What belongs to the plotter is the same on every screen, and a first plot takes few clicks. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { DEFAULT_PLOT_SETTINGS, snapshotSchema, type Snapshot } from "../../src/schema/index.js";
+import { snapshotSchema, type Snapshot } from "../../src/schema/index.js";
 import { dropFile, openTab, plotBar, waitForPlan } from "../support/page-actions.js";
+import { makeOldDatabase, OLD_BROWSER } from "../support/old-storage.js";
 import { PageTest } from "../support/page-test.js";
 
 const LIMIT_MS = 120_000;
@@ -13,7 +14,7 @@ let test: PageTest;
 let phone: Page;
 
 beforeAll(async () => {
-  test = await PageTest.firstVisit("pen-at-hand");
+  test = await PageTest.firstVisit("pen-at-hand", {}, [], makeOldDatabase);
 });
 
 afterAll(async () => test.close());
@@ -31,27 +32,17 @@ describe("what a browser kept before the server did", () => {
     async () => {
       const { page } = test;
       expect((await state()).plotterSettings).toEqual({});
-      const settings = {
-        ...DEFAULT_PLOT_SETTINGS,
-        machine: "axidraw-se-a3",
-        pen: { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 66, downPct: 41 },
-      };
-      const { motion, pen } = settings;
-      // As the version before wrote them.
-      await page.evaluate(
-        ([stored, presets]) => {
-          localStorage.clear();
-          localStorage.setItem("plotwright.page.v1", stored);
-          localStorage.setItem("plotwright.presets.v1", presets);
-        },
-        [JSON.stringify({ settings, view: {} }), JSON.stringify([{ name: "Brush", motion, pen }])] as const,
-      );
+      await page.evaluate((stored) => {
+        localStorage.clear();
+        for (const [key, text] of Object.entries(stored)) localStorage.setItem(key, text);
+      }, OLD_BROWSER);
       await page.reload();
       await expect.poll(storedPen).toMatchObject({ upPct: 66, downPct: 41 });
       // The model follows by a request of its own.
       await expect.poll(async () => (await state()).plotters[0].machine).toBe("axidraw-se-a3");
       const { plotterSettings } = await state();
       expect(plotterSettings["main"].presets.map(({ name }) => name)).toEqual(["Brush"]);
+      expect(plotterSettings["main"].pens.map(({ name }) => name)).toEqual(["Gold"]);
       const context = await test.browser.newContext({ viewport: { width: 390, height: 844 } });
       phone = await context.newPage();
       await phone.goto(test.server.url);
@@ -59,6 +50,18 @@ describe("what a browser kept before the server did", () => {
       await expect.poll(() => height(phone, "up").inputValue()).toBe("66");
       expect(await height(phone, "down").inputValue()).toBe("41");
       expect(await panel(phone).getByLabel("Model", { exact: true }).inputValue()).toBe("axidraw-se-a3");
+      // Only into a plotter that has none: another such browser that comes later gets the plotter's.
+      await height(page, "up").fill("70");
+      await expect.poll(storedPen).toMatchObject({ upPct: 70 });
+      const late = await test.browser.newContext({ viewport: { width: 1440, height: 900 } });
+      await late.addInitScript((stored) => {
+        for (const [key, text] of Object.entries(stored)) localStorage.setItem(key, text);
+      }, OLD_BROWSER);
+      const latePage = await late.newPage();
+      await latePage.goto(test.server.url);
+      await expect.poll(() => height(latePage, "up").inputValue()).toBe("70");
+      expect(await storedPen()).toMatchObject({ upPct: 70, downPct: 41 });
+      await late.close();
     },
     LIMIT_MS,
   );

@@ -153,21 +153,37 @@ describe("two browsers and a watcher", () => {
   it("one operates until the other takes over", async () => {
     for (const page of [anna, ben]) await openView(page, "Prepare");
     await ben.getByText(/^\S+ on .* is operating\.$/).waitFor();
-    expect(await plotButton(ben).isDisabled()).toBe(true);
     // A button that only the operator may press asks, instead of failing.
     const question = ben.getByRole("dialog", { name: "Another browser operates" });
     await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
     await question.getByRole("button", { name: "Leave it" }).click();
     expect(await ben.getByRole("alert").count()).toBe(0);
     await ben.getByText("is operating.").waitFor();
+    const jobCount = await queuePanel(ben).getByRole("listitem").count();
+    await plotButton(ben).click();
+    await question.getByRole("button", { name: "Leave it" }).click();
+    // A slider, too: what it was moved to does not stay beside what the plotter has.
+    const height = (page: Page): Locator => page.getByLabel("Height up", { exact: true });
+    const before = await height(ben).inputValue();
+    await height(ben).fill("71");
+    await question.getByRole("button", { name: "Leave it" }).click();
+    await expect.poll(() => height(ben).inputValue()).toBe(before);
+    expect(await ben.getByRole("alert").count()).toBe(0);
+    expect(await queuePanel(ben).getByRole("listitem").count()).toBe(jobCount);
     await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
     await question.getByRole("button", { name: "Take over" }).click();
     await queuePanel(ben).getByRole("radio", { name: "Run on" }).and(ben.locator(":checked")).waitFor();
     await anna.getByText(/^\S+ \d on .* is operating\.$/).waitFor();
     await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
-    expect(await plotButton(anna).isDisabled()).toBe(true);
     await plotButton(ben).and(ben.locator(":enabled")).waitFor();
+    await height(anna).fill("72");
+    await anna.getByRole("dialog").getByRole("button", { name: "Take over" }).click();
+    await expect.poll(() => height(ben).inputValue()).toBe("72");
+    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
+    await question.getByRole("button", { name: "Take over" }).click();
+    await anna.getByRole("button", { name: "Take over" }).waitFor();
+    await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
   });
 
   it("one that was offline catches up with the plot", async () => {
@@ -177,6 +193,7 @@ describe("two browsers and a watcher", () => {
       .getByText(/last seen \d+/)
       .waitFor();
     expect(await queuePanel(anna).getByRole("button", { name: "Pause" }).isDisabled()).toBe(true);
+    expect(await queuePanel(anna).innerText()).not.toMatch(/done \d/);
     await queuePanel(ben).getByRole("button", { name: "Pause" }).click();
     await queuePanel(ben).getByRole("button", { name: "Resume" }).waitFor();
     expect(await queuePanel(anna).getByText("Paused").count()).toBe(0);

@@ -1,6 +1,6 @@
 /** Watch: the plot under way has a view of its own, and what is laid out in Prepare stays as it is. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import type { Job } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { ruledSheet } from "../support/drawings.js";
 import {
   colorCounts,
@@ -142,6 +142,21 @@ describe("the queue", { timeout: PATIENCE_MS }, () => {
     await more.click();
     await row.getByRole("button", { name: "Remove all 2" }).click();
     await row.waitFor({ state: "detached" });
+  });
+
+  it("says at which stroke a job starts, apart from the whole drawing", async () => {
+    const drawing = ruledSheet(6);
+    const add = (from?: { strokeIndex: number; alongMm: number }) =>
+      fetch(`${test.server.url}/api/v1/jobs`, {
+        method: "POST",
+        headers: { "content-type": "application/json" },
+        body: JSON.stringify({ name: "part", drawing, settings: DEFAULT_PLOT_SETTINGS, from }),
+      });
+    await add();
+    await add({ strokeIndex: 3, alongMm: 0 });
+    const rows = queuePanel(test.page).getByRole("listitem").filter({ hasText: "part" });
+    await rows.getByText(/, from stroke 4$/).waitFor();
+    expect(await rows.count()).toBe(2);
   });
 
   it("meets no error in the browser's console on the way", () => {

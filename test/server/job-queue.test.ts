@@ -375,6 +375,15 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
+  it("holds a plot that is stopped while it is still being planned", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    await queue.emergencyStop(id);
+    await plotter.nextRun();
+    await settled();
+    expect(queue.get(id).state).toBe("paused");
+  });
+
   it("makes copies that share the drawing, right behind the original", async () => {
     const fern = await add("fern");
     await add("moss");

@@ -7,6 +7,7 @@ import {
   SharedDatabase,
   introduce,
   jobsOf,
+  linesSvg,
   noticesOf,
   send,
   share,
@@ -108,5 +109,29 @@ describe("a claimed shared job that has not begun", () => {
     await expect.poll(async () => (await jobsOf(server))[0]).toBe("oak queued");
     await expect.poll(() => Promise.all([start("oak"), start("oak")])).toEqual(["200", "200"]);
     await expect.poll(async () => (await jobsOf(server)).includes("oak done")).toBe(true);
+  });
+});
+
+describe("a shared job that was cancelled in the middle", () => {
+  it("resumes where it was cancelled while the database is away, and stays with its server", async () => {
+    await share(server, "elm", { plotter: "left" }, linesSvg(80));
+    await expect.poll(async () => (await jobsOf(server))[0]).toBe("elm queued");
+    await expect.poll(() => start("elm")).toBe("200");
+    const id = await jobNamed("elm");
+    const elm = async () => (await stateOf(server)).jobs.find((job) => job.id === id)!;
+    await expect.poll(async () => (await elm()).progress).toBeGreaterThan(0.05);
+    await send(server.url, "POST", `/jobs/${id}/cancel`);
+    await expect.poll(async () => (await elm()).state).toBe("cancelled");
+    const { progress, place } = await elm();
+    expect(place).not.toBe(null);
+    expect(await sharedOf(server, "elm")).toMatchObject({ state: "stored", hasBegun: true });
+    await database.cut();
+    expect((await send(server.url, "POST", `/jobs/${id}/recover`)).status).toBe(200);
+    await expect.poll(async () => (await elm()).state).toBe("paused");
+    expect((await elm()).progress).toBeCloseTo(progress, 2);
+    expect((await send(server.url, "POST", `/jobs/${id}/resume`)).status).toBe(200);
+    await expect.poll(async () => (await elm()).state).toBe("done");
+    await database.restore();
+    await expect.poll(() => sharedOf(server, "elm")).toMatchObject({ state: "stored", hasBegun: true });
   });
 });

@@ -1,39 +1,29 @@
 /** Every visible state of the page, and how a user gets there: for screenshots and accessibility checks. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { ROOT } from "../../scripts/setup.mjs";
 import { ruledSheet } from "./drawings.js";
 import {
-  chooseSample,
   dropFile,
   historyPanel,
   openTab,
+  openView,
   plotBar,
   queuePanel,
   statusCard,
   waitForPlan,
   waitForSamples,
 } from "./page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
-
-/** The size of a screen. */
-export interface Look {
-  readonly name: string;
-  readonly width: number;
-  readonly height: number;
-}
-export const DESK: Look = { name: "desk", width: 1440, height: 900 };
-export const PHONE: Look = { name: "phone", width: 390, height: 844 };
-
-const SCHEMES = ["light", "dark"] as const;
-export type Scheme = (typeof SCHEMES)[number];
+import type { ServerProcess } from "./server-process.js";
 
 interface Stand {
   readonly page: Page;
   readonly server: ServerProcess;
   /** A new server in place of one that ended. */
   restart(): Promise<void>;
+  /** The page in another browser, which the server tells apart from this one. */
+  openOther(path?: string): Promise<Page>;
 }
 
 export interface PageState {
@@ -41,10 +31,14 @@ export interface PageState {
   readonly virtualSpeed?: number;
   /** Instead of the virtual board. */
   readonly device?: string;
+  /** The server lets in only devices that are paired. */
+  readonly isPairing?: true;
   /** Leaves nothing behind once a sheet that it opened is closed. */
   readonly isPassing?: true;
   /** Begins with an empty paper; other states begin with a sample on it. */
   readonly isFirstVisit?: true;
+  /** Shows a part of the page that no passing state shows: part of every test run, not only of the full one. */
+  readonly isOnlyPlace?: true;
   reach(stand: Stand): Promise<void>;
 }
 
@@ -61,6 +55,8 @@ const TWO_PENS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http:/
   <g inkscape:groupmode="layer" inkscape:label="Outline" stroke="#222"><path d="M20 20h20v20h-20z"/></g>
   <g inkscape:groupmode="layer" inkscape:label="!Red circle" stroke="#c8102e"><circle cx="90" cy="60" r="30"/></g>
   </g></svg>`;
+
+const TALL = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="200mm" viewBox="0 0 100 200"><path d="M0 0L100 200M100 0L0 200" fill="none" stroke="#000"/></svg>`;
 
 /** Enough strokes that the planning is visible. */
 function manyStrokes(): string {
@@ -83,9 +79,24 @@ const notePlanning = (page: Page): Promise<void> =>
   });
 
 async function lay(page: Page, name: string, text: string): Promise<void> {
+  await openTab(page, "Set up");
   await dropFile(page, `${name}.svg`, text);
   await page.getByText(name).first().waitFor();
   await waitForPlan(page);
+}
+
+async function inPrepare(page: Page): Promise<Page> {
+  await openView(page, "Prepare");
+  return page;
+}
+
+/** The links that the server printed: for an operator, and for a watcher. */
+async function pairingPaths(server: ServerProcess): Promise<readonly string[]> {
+  for (;;) {
+    const paths = server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
+    if (paths.length >= 2) return paths;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
 }
 
 async function start(page: Page, name: string, text: string): Promise<void> {
@@ -260,69 +271,137 @@ export const PAGE_STATES: readonly PageState[] = [
       await page.getByText("server can’t be reached").first().waitFor();
     },
   },
-];
-
-type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
-
-/**
- * Brings the page into each of the states and calls `lookAtIt`, light and dark. States that leave nothing
- * behind share one page; each of the others has its own server.
- */
-export async function inStates(
-  browser: Browser,
-  states: readonly PageState[],
-  look: Look,
-  lookAtIt: LookAtIt,
-): Promise<void> {
-  const passing = states.filter(({ isPassing }) => isPassing);
-  const lasting = states.filter(({ isPassing }) => !isPassing);
-  const groups = [passing, ...lasting.map((state) => [state])].filter((group) => group.length > 0);
-  for (const group of groups) await inGroup(browser, group, look, lookAtIt);
-}
-
-async function inGroup(
-  browser: Browser,
-  states: readonly PageState[],
-  { width, height }: Look,
-  lookAtIt: LookAtIt,
-): Promise<void> {
-  const data = temporaryFolder("page-state");
-  const { device, virtualSpeed = 20 } = states[0];
-  const open = (port: string): Promise<ServerProcess> =>
-    startServerProcess({
-      dataDir: data.path,
-      virtualSpeed,
-      args: [...(device === undefined ? [] : ["--device", device]), "--port", port],
-    });
-  let server = await open("0");
-  const restart = async (): Promise<void> => {
-    const { port } = new URL(server.url);
-    server.process.kill("SIGKILL");
-    await server.stop();
-    server = await open(port);
-  };
-  // Colour transitions have ended when the check runs.
-  const reducedMotion = "reduce" as const;
-  const context = await browser.newContext({
-    viewport: { width, height },
-    hasTouch: width < 760,
-    reducedMotion,
-  });
-  const page = await context.newPage();
-  try {
-    await page.goto(server.url);
-    if (!states[0].isFirstVisit) await chooseSample(page);
-    for (const state of states) {
-      await state.reach({ page, server, restart });
-      for (const colorScheme of SCHEMES) {
-        await page.emulateMedia({ colorScheme, reducedMotion });
-        await lookAtIt(page, state, colorScheme);
+  {
+    name: "25-pairing",
+    isPairing: true,
+    isFirstVisit: true,
+    isOnlyPlace: true,
+    reach: ({ page }) => page.getByRole("heading", { name: "Pair this device" }).waitFor(),
+  },
+  {
+    name: "26-monitor",
+    isPairing: true,
+    isFirstVisit: true,
+    isOnlyPlace: true,
+    virtualSpeed: 2,
+    reach: async (stand) => {
+      const [operatePath, watchPath] = await pairingPaths(stand.server);
+      const operator = await stand.openOther(operatePath);
+      await operator.waitForURL(`${stand.server.url}/`);
+      await lay(operator, "hills", sampleText("three-colour-hills"));
+      await plotBar(operator).getByRole("button", { name: "Add to queue" }).click();
+      await start(operator, "two-pens", TWO_PENS);
+      await stand.page.goto(`${stand.server.url}${watchPath}`);
+      await queuePanel(stand.page).getByText("hills").waitFor();
+    },
+  },
+  {
+    name: "27-full-screen",
+    isOnlyPlace: true,
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await page.getByRole("button", { name: "Full screen" }).click();
+      await page.getByRole("button", { name: "End full screen" }).waitFor();
+    },
+  },
+  {
+    name: "28-first-plot",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      await page.getByText("First plot with this plotter").scrollIntoViewIfNeeded();
+    },
+  },
+  {
+    name: "29-stroke",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "lines", ruledSheet());
+      await page.locator(".stage:visible").click();
+      await page.getByRole("region", { name: "Selected stroke" }).waitFor();
+    },
+  },
+  {
+    name: "30-queue-menu",
+    isOnlyPlace: true,
+    reach: async ({ page }) => {
+      for (const name of ["hello", "a long name of a drawing, with its date"]) {
+        await lay(page, name, sampleText("hello-paper"));
+        await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
       }
-      await page.keyboard.press("Escape");
-    }
-  } finally {
-    await context.close();
-    await server.stop();
-    data.remove();
-  }
-}
+      await openTab(page, "Queue");
+      await queuePanel(page).getByRole("button", { name: "More for hello" }).click();
+      await page.getByText("Lay on the paper").waitFor();
+    },
+  },
+  {
+    name: "31-other-operates",
+    virtualSpeed: 2,
+    reach: async ({ page, openOther }) => {
+      await start(await openOther(), "lines", ruledSheet());
+      await queuePanel(page).getByText("lines").waitFor({ state: "attached" });
+      await page.getByText("is operating.").waitFor();
+    },
+  },
+  {
+    name: "32-take-over",
+    isOnlyPlace: true,
+    reach: async ({ page, openOther }) => {
+      const other = await openOther();
+      await openTab(other, "Queue");
+      await queuePanel(other).getByRole("radio", { name: "Run on" }).click();
+      await page.getByText("is operating.").waitFor();
+      await openTab(page, "Queue");
+      await queuePanel(page).getByRole("radio", { name: "Wait for paper" }).click();
+      await page.getByRole("dialog", { name: "Another browser operates" }).waitFor();
+    },
+  },
+  {
+    name: "33-out-of-reach",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "tall", TALL);
+      await page.getByRole("radio", { name: "Portrait" }).check();
+      await page.getByRole("button", { name: "Turn for this machine" }).waitFor();
+    },
+  },
+  {
+    name: "34-server-gone-while-plotting",
+    virtualSpeed: 2,
+    reach: async ({ page, server }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("left").first().waitFor();
+      await server.stop();
+      await page.getByText("last seen").first().waitFor();
+    },
+  },
+  {
+    name: "35-stopped",
+    virtualSpeed: 8,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("1 %").waitFor();
+      await button(page, "Emergency stop").click();
+      await statusCard(page).getByText("Plotting", { exact: true }).waitFor({ state: "detached" });
+    },
+  },
+  {
+    name: "36-prepare-while-plotting",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "two-pens", TWO_PENS);
+      await lay(await inPrepare(page), "hills", sampleText("three-colour-hills"));
+    },
+  },
+  {
+    name: "37-all-settings",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await openTab(page, "Set up");
+      const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
+      // On a phone the sheet may lie over the one to be pressed.
+      while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
+    },
+  },
+];

@@ -6,7 +6,7 @@ import {
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
-import type { Backend } from "../../web/backend/backend.js";
+import { BackendFault, type Backend } from "../../web/backend/backend.js";
 import { createActions } from "../../web/state/actions.js";
 import { noteTakenOver, readKeptHere } from "../../web/state/kept-here.js";
 import { DEFAULT_VIEW, type TextStore } from "../../web/state/persist.js";
@@ -20,12 +20,15 @@ class Plotters {
   readonly stored: Record<string, PlotterSettings> = {};
   machine: string | null = null;
   refuses = false;
+  /** Another browser operates. */
+  isOthers = false;
   putCount = 0;
   readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
 
   readonly backend = {
     savePlotterSettings: (id: string, settings: PlotterSettings) => {
       this.putCount++;
+      if (this.isOthers) return Promise.reject(new BackendFault("not-operator", "Anna is operating."));
       if (this.refuses) return Promise.reject(new Error("Somebody else is operating."));
       this.stored[id] = plotterSettingsSchema.parse(JSON.parse(JSON.stringify(settings)));
       this.tell();
@@ -35,6 +38,10 @@ class Plotters {
       this.machine = machine;
       this.tell();
       return Promise.resolve(makePlotter(id, { machine }));
+    },
+    takeOver: () => {
+      this.isOthers = false;
+      return Promise.resolve();
     },
   } as unknown as Backend;
 
@@ -136,6 +143,30 @@ describe("two pages of one plotter", () => {
     await anna.setUp(99);
     expect(anna.pen().upPct).toBe(71);
     expect(anna.store.getState().notices.map(({ text }) => text)).toEqual(["Somebody else is operating."]);
+  });
+
+  it.each([
+    ["nothing was stored", []],
+    ["heights were stored", [71]],
+  ])("ask to take over where another browser operates: %s", async (_name, stored) => {
+    const plotters = new Plotters();
+    const anna = plotters.open();
+    for (const upPct of stored) await anna.setUp(upPct);
+    const before = anna.pen().upPct;
+    plotters.isOthers = true;
+    await anna.setUp(99);
+    // Moved on while the question is open: one question for both.
+    await anna.setUp(98);
+    anna.store.getState().takeOverQuestion!.answer(false);
+    await settle();
+    expect(anna.store.getState().takeOverQuestion).toBe(null);
+    expect(anna.pen().upPct).toBe(before);
+    expect(anna.store.getState().notices).toEqual([]);
+    await anna.setUp(97);
+    anna.store.getState().takeOverQuestion!.answer(true);
+    await settle();
+    expect(anna.pen().upPct).toBe(97);
+    expect(plotters.stored["left"].pen.upPct).toBe(97);
   });
 
   it("leave what belongs to the drawing to each page", async () => {

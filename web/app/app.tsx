@@ -1,8 +1,6 @@
 import { useCallback, useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
 import { DrawnSize } from "../drawing/drawn-size.js";
-import { ExportPanel } from "../drawing/export.js";
-import { FillPanel } from "../drawing/fill.js";
 import { Dialogs } from "./dialogs.js";
 import { LayersPanel } from "../layers/layers.js";
 import { LinesPanel } from "../drawing/lines.js";
@@ -24,7 +22,7 @@ import { TimeLine } from "../preview/time-line.js";
 import { shownView, unfinishedJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
-import { tabsText } from "./text.js";
+import { skipText, tabsText } from "./text.js";
 import { DropZone } from "../ui/drop-zone.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
@@ -34,6 +32,9 @@ const Adjust = lazyPart(async () => (await import("../watch/adjust.js")).Adjust)
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera);
 
+/** Where the skip link leads. */
+const PLOT_ID = "plot-bar";
+const WATCH_ID = "plot-status";
 const TABS = ["setup", "queue", "machine"] as const;
 type Tab = (typeof TABS)[number];
 
@@ -58,7 +59,9 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const machine = (
     <div className="tab-machine">
       {!isWatching && hasCamera && <Camera />}
-      <MachinePanel />
+      <MachinePanel>
+        <PenPanel />
+      </MachinePanel>
     </div>
   );
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
@@ -66,6 +69,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
   return (
     <DropZone hint={drawingText.dropHere} onFile={onFile} onText={openPasted}>
       <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
+        <SkipLink />
         <TopBar />
         <main className="centre">
           <Strips />
@@ -82,14 +86,12 @@ export const App = ({ player, shortcuts }: AppProps) => {
         <aside className="column column-setup" aria-label={tabsText.setup}>
           <DrawingPanel />
           <PaperPanel />
-          <LayersPanel />
-          <PensPanel />
-          <FillPanel />
+          <LayersPanel>
+            <PensPanel />
+          </LayersPanel>
           <LinesPanel />
           <MotionPanel />
-          <PenPanel />
           <PresetsPanel />
-          <ExportPanel />
         </aside>
         <aside className="column column-run" aria-label={tabsText.queue}>
           <PlotBar />
@@ -108,6 +110,24 @@ export const App = ({ player, shortcuts }: AppProps) => {
       </div>
       <Dialogs shortcuts={shortcuts} />
     </DropZone>
+  );
+};
+
+/** For the keyboard: past the header and the settings to what starts or stops a plot. */
+const SkipLink = () => {
+  const isWatching = usePageState((state) => shownView(state) === "watch");
+  const target = isWatching ? WATCH_ID : PLOT_ID;
+  return (
+    <a
+      className="skip-link"
+      href={`#${target}`}
+      onClick={(event) => {
+        event.preventDefault();
+        document.getElementById(target)?.focus();
+      }}
+    >
+      {isWatching ? skipText.toWatch : skipText.toPlot}
+    </a>
   );
 };
 

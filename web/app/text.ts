@@ -4,6 +4,11 @@ export const historyText = {
   redo: "Redo",
 };
 
+export const skipText = {
+  toPlot: "Skip to Plot",
+  toWatch: "Skip to the plot’s buttons",
+};
+
 export const tabsText = {
   label: "Panels",
   setup: "Set up",
@@ -27,7 +32,7 @@ export const pairingText = {
     "Scan the code there with this device’s camera, or open the link on it.",
   ],
   terminal: "The link is also printed in the window in which plotwright was started.",
-  retry: "Look again",
+  retry: "Try again",
 };
 
 export const takeOverText = {

@@ -1,6 +1,7 @@
 import { useId } from "react";
 import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { ExportPanel } from "./export.js";
 import { drawingText, reportText } from "./text.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
@@ -14,17 +15,19 @@ export const DrawingPanel = () => {
   const unit = usePageState((state) => state.view.lengthUnit);
   const size = planned && words.size(formatSize(planned.pageWidthMm, planned.pageHeightMm, unit));
   return (
-    <SettingsGroup id="drawing" title={words.title}>
+    <SettingsGroup id="drawing" title={words.title} help={words.chooseHint}>
       {drawing && (
         <p className="drawing-name">
           <strong title={drawing.name}>{drawing.name}</strong>
           {size && <span className="note">{size}</span>}
         </p>
       )}
-      <ChooseFile label={words.choose} />
-      <p className="note">{words.chooseHint}</p>
-      <Samples />
+      <div className="choose-row">
+        <ChooseFile label={words.choose} />
+        <Samples />
+      </div>
       <Report />
+      <ExportPanel />
     </SettingsGroup>
   );
 };
@@ -56,31 +59,27 @@ export const ChooseFile = ({ label }: { label: string }) => {
 };
 
 const Samples = () => {
-  const id = useId();
   const samples = usePageState((state) => state.samples);
   const { openSample } = useActions();
   if (samples.length === 0) return null;
   return (
-    <div className="field">
-      <label htmlFor={id}>{words.sample}</label>
-      <select
-        id={id}
-        value=""
-        onChange={(event) => {
-          const sample = samples.find(({ name }) => name === event.target.value);
-          if (sample) void openSample(sample.name, sample.title);
-        }}
-      >
-        <option value="" disabled>
-          {words.sampleHint}
+    <select
+      aria-label={words.sampleHint}
+      value=""
+      onChange={(event) => {
+        const sample = samples.find(({ name }) => name === event.target.value);
+        if (sample) void openSample(sample.name, sample.title);
+      }}
+    >
+      <option value="" disabled>
+        {words.sample}
+      </option>
+      {samples.map(({ name, title }) => (
+        <option key={name} value={name}>
+          {title}
         </option>
-        {samples.map(({ name, title }) => (
-          <option key={name} value={name}>
-            {title}
-          </option>
-        ))}
-      </select>
-    </div>
+      ))}
+    </select>
   );
 };
 

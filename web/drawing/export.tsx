@@ -11,7 +11,7 @@ export const ExportPanel = () => {
   const isOpen = usePageState(({ view }) => view.openGroups.includes("export"));
   if (!canExport) return null;
   return (
-    <SettingsGroup id="export" title={saveText.title}>
+    <SettingsGroup id="export" title={saveText.title} isPart>
       {isOpen && <ExportList />}
     </SettingsGroup>
   );

@@ -13,6 +13,7 @@ export const FillPanel = () => {
   return (
     <SettingsGroup
       id="fill"
+      isPart
       title={words.title}
       summary={spacingMm > 0 ? words.on(formatNumber(spacingMm)) : words.off}
     >

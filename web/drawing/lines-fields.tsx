@@ -19,6 +19,7 @@ export const LinesFields = () => {
     <>
       <Segments
         label={PREPARE_TABLE.order.label}
+        hint={words.orderHint}
         value={prepare.order}
         options={[
           { value: "none", label: words.orderNone },
@@ -36,6 +37,7 @@ export const LinesFields = () => {
       )}
       <Segments
         label={PREPARE_TABLE.spread.label}
+        hint={words.spreadHint}
         value={prepare.spread}
         options={[
           { value: "none", label: words.spreads.none },
@@ -44,7 +46,6 @@ export const LinesFields = () => {
         ]}
         onChange={(spread) => change("spread", { spread })}
       />
-      {prepare.spread !== "none" && <p className="note">{words.spreadHint}</p>}
       {ROWS.map(([key, setting]) =>
         setting.kind === "number" ? (
           <SettingField

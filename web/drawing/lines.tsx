@@ -1,3 +1,4 @@
+import { FillPanel } from "./fill.js";
 import { usePageState } from "../state/use-store.js";
 import { linesText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -10,6 +11,7 @@ export const LinesPanel = () => {
   return (
     <SettingsGroup id="lines" title={linesText.title}>
       {isOpen && <LinesFields />}
+      <FillPanel />
     </SettingsGroup>
   );
 };

@@ -10,7 +10,7 @@ import { paperBoxOf } from "../preview/frame.js";
 import type { Planned } from "../worker/protocol.js";
 import type { PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { formatSize } from "../ui/format.js";
+import { formatCount, formatSize } from "../ui/format.js";
 import { reachText } from "./text.js";
 
 const words = reachText;
@@ -41,7 +41,7 @@ export const OutOfReach = () => {
   const unit = usePageState((state) => state.view.lengthUnit);
   const { changeSettings } = useActions();
   if (!planned || !machine) return null;
-  const { drawnBox, frameMm } = planned;
+  const { drawnBox, frameMm, unreachedCount } = planned;
   const isTurnOfHelp =
     frameMm !== null && isReached(quarterTurnedBox(drawnBox, turningHeightMm(planned)), machine);
   const reach = formatSize(machine.widthMm, machine.heightMm, unit);
@@ -50,7 +50,8 @@ export const OutOfReach = () => {
       <p className="note note-error">
         {drawnBox.x0 < 0 || drawnBox.y0 < 0
           ? words.beforeHome(machine.name)
-          : words.tooFar(machine.name, reach, formatSize(drawnBox.x1, drawnBox.y1, unit))}
+          : words.tooFar(machine.name, reach, formatSize(drawnBox.x1, drawnBox.y1, unit))}{" "}
+        {words.lines(unreachedCount, formatCount(unreachedCount))}
         {!isTurnOfHelp && ` ${words.whatToDo}`}
       </p>
       {isTurnOfHelp && (

@@ -70,6 +70,7 @@ export const PaperPanel = () => {
       {name === CUSTOM && <CustomSize paper={paper} change={change} />}
       <Segments
         label={words.orientation}
+        isInline
         value={landscape ? "landscape" : "portrait"}
         options={[
           { value: "portrait", label: words.portrait },
@@ -114,8 +115,14 @@ export const PaperPanel = () => {
           <Icon name="again" />
         </button>
       </div>
-      <details className="more">
-        <summary>{words.more}</summary>
+      <Segments
+        label={words.unit}
+        isInline
+        value={lengthUnit}
+        options={LENGTH_UNITS.map((value) => ({ value, label: words.units[value] }))}
+        onChange={(unit) => changeView({ lengthUnit: unit })}
+      />
+      <SettingsGroup id="paper-more" isPart title={words.more}>
         <Margins prepare={prepare} change={change} />
         <Segments
           label={PREPARE_TABLE.mirror.label}
@@ -137,13 +144,7 @@ export const PaperPanel = () => {
           isOn={prepare.clipToMargins}
           onChange={(clipToMargins) => change("clip", { clipToMargins })}
         />
-      </details>
-      <Segments
-        label={words.unit}
-        value={lengthUnit}
-        options={LENGTH_UNITS.map((value) => ({ value, label: words.units[value] }))}
-        onChange={(unit) => changeView({ lengthUnit: unit })}
-      />
+      </SettingsGroup>
     </SettingsGroup>
   );
 };

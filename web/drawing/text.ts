@@ -4,7 +4,7 @@ export const drawingText = {
   choose: "Choose a drawing",
   chooseHint: "SVG, DXF, HPGL or JSON. Drop it anywhere, paste it, or choose a file.",
   sample: "Samples",
-  sampleHint: "Try one of the samples",
+  sampleHint: "Try a sample",
   dropHere: "Drop the drawing to lay it on the paper",
   size: (size: string) => `${size} in the file`,
 };
@@ -19,6 +19,8 @@ export const reachText = {
     `The ${machine} reaches ${reach} from home; this drawing needs ${needed}.`,
   beforeHome: (machine: string) =>
     `This drawing goes beyond the paper’s left or upper edge, where the ${machine} can’t go.`,
+  lines: (count: number, number: string) =>
+    count === 1 ? "1 line can’t be drawn as it lies." : `${number} lines can’t be drawn as they lie.`,
   whatToDo: "Choose a smaller paper, or make the drawing smaller.",
   turn: "Turn for this machine",
 };
@@ -79,8 +81,10 @@ export const linesText = {
   spreads: { none: "Off", interleave: "Take turns", shuffle: "Shuffle" },
   spreadHint: "Neighbouring strokes are drawn apart in time, so that ink dries and paper survives.",
   orderNone: "As in the file",
-  orderFast: "Short way",
-  orderBest: "Shortest way",
+  orderFast: "Fast",
+  orderBest: "Fastest",
+  orderHint:
+    "“Fast” and “Fastest” change which stroke comes next, so that the pen travels less between strokes. “Fastest” searches longer.",
 };
 
 export const emptyPaperText = {

@@ -1,3 +1,4 @@
+import type { ReactNode } from "react";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -5,11 +6,13 @@ import { SettingsGroup } from "../ui/settings-group.js";
 
 const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerList);
 
-export const LayersPanel = () => {
+/** `children`: the pens, which have a folder of their own. */
+export const LayersPanel = ({ children }: { children: ReactNode }) => {
   const count = usePageState((state) => state.planned?.layers.length ?? 0);
   return (
     <SettingsGroup id="layers" title={layersText.title} summary={count > 0 ? String(count) : ""}>
       <LayerList />
+      {children}
     </SettingsGroup>
   );
 };

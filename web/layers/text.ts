@@ -1,6 +1,6 @@
 /** Words of the layers. */
 export const layersText = {
-  title: "Layers",
+  title: "Layers and pens",
   by: "Layers from",
   group: "Groups",
   stroke: "Colours",

@@ -21,7 +21,6 @@ export const PenList = () => {
   const change = useChange();
   return (
     <>
-      <p className="note">{words.hint}</p>
       <ul className="pen-list">
         {pens.map((pen) => (
           <li key={pen.id} className="layer-card" data-open={openId === pen.id || undefined}>

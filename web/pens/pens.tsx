@@ -5,12 +5,18 @@ import { SettingsGroup } from "../ui/settings-group.js";
 
 const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
 
-/** The pens that layers are drawn with. */
+/** The pens that layers are drawn with: part of the layers' panel. */
 export const PensPanel = () => {
   const pens = usePageState(({ settings }) => settings.pens);
   const isOpen = usePageState(({ view }) => view.openGroups.includes("pens"));
   return (
-    <SettingsGroup id="pens" title={pensText.title} summary={pens.map(({ name }) => name).join(", ")}>
+    <SettingsGroup
+      id="pens"
+      isPart
+      title={pensText.title}
+      summary={pens.map(({ name }) => name).join(", ")}
+      help={pensText.hint}
+    >
       {isOpen && <PenList />}
     </SettingsGroup>
   );

@@ -1,3 +1,4 @@
+import type { ReactNode } from "react";
 import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
@@ -13,7 +14,8 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
-export const MachinePanel = () => {
+/** `children`: how the pen is lifted, which the pens' folder has. */
+export const MachinePanel = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
@@ -24,6 +26,7 @@ export const MachinePanel = () => {
       {isMine && <PenAtHand />}
       <div className="group-in-card">
         {isMine && <MoreMoves />}
+        {isMine && children}
         <SettingsGroup id="plotter" title={words.more}>
           {isMine && <ModelSelect />}
           {plotter && <PlotterFacts plotter={plotter} />}

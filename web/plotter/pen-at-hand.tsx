@@ -84,7 +84,6 @@ const mayFollow = (state: PageState): boolean => {
   const connection = currentPlotter(state)?.connection;
   return (
     state.link === "connected" &&
-    otherOperator(state) === null &&
     activeJob(state) === null &&
     (connection === "idle" || connection === "busy")
   );
@@ -93,6 +92,8 @@ const mayFollow = (state: PageState): boolean => {
 const Heights = ({ onTry }: { onTry(): void }) => {
   const pen = usePageState((state) => state.settings.pen);
   const isFollowing = usePageState(mayFollow);
+  // Its heights change when this browser has taken over, which storing them asks for.
+  const isOthers = usePageState((state) => otherOperator(state) !== null);
   const { changeSettings, movePen } = useActions();
   const follow = useMemo(
     () =>
@@ -115,7 +116,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
         }
         onSlide={(pct) => {
           onTry();
-          if (isFollowing) follow({ isUp: which === "upPct", pct });
+          if (isFollowing && !isOthers) follow({ isUp: which === "upPct", pct });
         }}
       />
       <button

@@ -1,7 +1,8 @@
 /** The drawing's frame on the paper: drawn with handles while it is placed by hand, dragged and nudged. */
 import type { Actions } from "../state/actions.js";
 import type { PageState, PageStore } from "../state/store.js";
-import { formatNumber } from "../ui/format.js";
+import { formatNumber, formatSize } from "../ui/format.js";
+import type { LengthUnit } from "../../src/internal.js";
 import type { Drag } from "./gestures.js";
 import {
   CORNER_PARTS,
@@ -83,11 +84,12 @@ type Painter = (context: CanvasRenderingContext2D, view: View) => void;
 export const painterOf = (state: PageState): Painter | null => {
   const frame = frameNow(state);
   const { noteBoxes, planned, snapLines } = state;
+  const { lengthUnit } = state.view;
   if (!frame && noteBoxes.length === 0) return null;
   return (context, view) => {
     if (planned) for (const box of noteBoxes) paintNote(context, view, paperBoxOf(box, planned.pageToPaper));
     if (frame && snapLines) paintSnapLines(context, view, snapLines);
-    if (frame) paintFrame(context, view, frame);
+    if (frame) paintFrame(context, view, frame, lengthUnit);
   };
 };
 
@@ -123,7 +125,12 @@ const SNAP_COLOR = "#d2452c";
 const NOTE_COLOR = "#b86e00";
 const NOTE_PAD_PX = 5;
 
-const paintFrame = (context: CanvasRenderingContext2D, view: View, frame: FrameMm): void => {
+const paintFrame = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  frame: FrameMm,
+  unit: LengthUnit,
+): void => {
   const onScreen = ({ x, y }: { x: number; y: number }): [number, number] => [
     view.offsetX + x * view.scale,
     view.offsetY + y * view.scale,
@@ -152,15 +159,15 @@ const paintFrame = (context: CanvasRenderingContext2D, view: View, frame: FrameM
   context.arc(...knob, HANDLE_PX / 2 + 1, 0, 2 * Math.PI);
   context.fill();
   context.stroke();
-  paintSize(context, view, frame);
+  paintSize(context, view, frame, unit);
 };
 
 type Px = [number, number];
 
 /** How large it is and how far it is turned, in a label under the frame. */
-const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm): void => {
+const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm, unit: LengthUnit): void => {
   const { x0, x1, y1 } = boxAround(frame);
-  const words = `${formatNumber(frame.widthMm, 1)} × ${formatNumber(frame.heightMm, 1)} mm${
+  const words = `${formatSize(frame.widthMm, frame.heightMm, unit)}${
     frame.turnDeg === 0 ? "" : `, ${formatNumber(frame.turnDeg, 1)}°`
   }`;
   context.font = "12px Helvetica, Arial, sans-serif";

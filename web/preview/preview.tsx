@@ -1,12 +1,10 @@
-import { useEffect, useRef, type RefObject } from "react";
 import { stateAt } from "../../src/index.js";
 import { drawnUntilS } from "./drawn-until.js";
-import { activeJob, currentPlotter, type PageState } from "../state/store.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { activeJob, currentPlotter, type PageState, type PageStore } from "../state/store.js";
+import { usePageState } from "../state/use-store.js";
 import { previewText } from "./text.js";
 import { deskOf } from "./desk.js";
 import { paintCutOff } from "./cut-off.js";
-import { listenForGestures } from "./gestures.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import { HoverTip } from "./hover-tip.js";
@@ -16,94 +14,35 @@ import { isTrueToWidth, layerLooks } from "./looks.js";
 import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
-import { Stage, type FrameLook } from "./stage.js";
+import { Sheet, type SheetKind } from "./sheet.js";
+import type { FrameLook, Stage } from "./stage.js";
 import { StrokeCard } from "./stroke-card.js";
 import { selectionPainter } from "./stroke.js";
 import type { Picture } from "../scene/renderer.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 const words = previewText;
+/** The looks with their legend, and the tools, lie under the paper. */
+const BELOW_PX = 88;
 
 /** The paper with the drawing on it, as it will be plotted. */
-export const Preview = () => {
-  const box = useRef<HTMLDivElement>(null);
-  const desk = useRef<HTMLCanvasElement>(null);
-  const strokes = useRef<HTMLCanvasElement>(null);
-  const overlay = useRef<HTMLCanvasElement>(null);
-  const stage = useStage(box, desk, strokes, overlay);
-  return (
-    <section className="preview" aria-label={words.title}>
-      <div className="stage" ref={box} tabIndex={0} role="group" aria-label={words.hint}>
-        <canvas ref={desk} aria-hidden="true" />
-        <canvas ref={strokes} role="img" aria-label={words.canvas} />
-        <canvas ref={overlay} aria-hidden="true" />
-      </div>
-      <div className="preview-foot">
-        <Looks />
-        <PreviewTools stage={stage} />
-      </div>
-      <PaperMessage />
-      <HoverTip />
-      <StrokeCard />
-    </section>
-  );
-};
+export const Preview = () => (
+  <Sheet kind={PREPARED} label={words.title} pictureLabel={words.canvas}>
+    {(stage) => (
+      <>
+        <div className="preview-foot">
+          <Looks />
+          <PreviewTools stage={stage} />
+        </div>
+        <PaperMessage />
+        <HoverTip />
+        <StrokeCard />
+      </>
+    )}
+  </Sheet>
+);
 
-/** Makes the stage once, and hands it whatever of the state it shows. */
-const useStage = (
-  box: RefObject<HTMLDivElement | null>,
-  desk: RefObject<HTMLCanvasElement | null>,
-  strokes: RefObject<HTMLCanvasElement | null>,
-  overlay: RefObject<HTMLCanvasElement | null>,
-): RefObject<Stage | null> => {
-  const store = usePageStore();
-  const actions = useActions();
-  const stage = useRef<Stage | null>(null);
-  useEffect(() => {
-    if (!box.current || !desk.current || !strokes.current || !overlay.current) return;
-    const canvases = {
-      box: box.current,
-      desk: desk.current,
-      strokes: strokes.current,
-      overlay: overlay.current,
-    };
-    const made = new Stage(canvases, deskOfState(store.getState()), lookOf(store.getState()));
-    const pointAt = (at: { x: number; y: number } | null): void => {
-      const { planned, hover } = store.getState();
-      const found = at && planned ? hoverUnder(made, planned, at) : null;
-      if (found !== hover) store.setState({ hover: found });
-    };
-    const select = (at: { x: number; y: number }): void => {
-      const { planned } = store.getState();
-      const hover = planned && hoverUnder(made, planned, at);
-      store.setState({ hover: null, selected: planned && hover ? { of: planned, hover } : null });
-    };
-    const stopShowing = showState(made, store);
-    const stopGestures = listenForGestures(box.current, {
-      view: () => made.view,
-      setView: (view) => made.setView(view),
-      fit: () => made.fit(),
-      grab: (at) => grabFrame(made, store, actions, at),
-      nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
-      hover: (at) => pointAt(at),
-      tap: (at) => select(at),
-    });
-    const scheme = matchMedia("(prefers-color-scheme: dark)");
-    const recolor = (): void => made.recolor();
-    scheme.addEventListener("change", recolor);
-    stage.current = made;
-    return () => {
-      scheme.removeEventListener("change", recolor);
-      stopGestures();
-      stopShowing();
-      made.close();
-      stage.current = null;
-    };
-  }, [store, actions, box, desk, strokes, overlay]);
-  return stage;
-};
-
-const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() => void) => {
+const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     const swing = shownSwing(state);
     if (swing) stage.setScene(swing, null);
@@ -127,6 +66,7 @@ const showState = (stage: Stage, store: ReturnType<typeof usePageStore>): (() =>
     if (
       state.planned !== before?.planned ||
       state.settings !== before?.settings ||
+      state.view.lengthUnit !== before?.view.lengthUnit ||
       state.selected !== before?.selected ||
       state.noteBoxes !== before?.noteBoxes ||
       state.snapLines !== before.snapLines
@@ -188,6 +128,28 @@ const markerOf = (state: PageState): Marker | null => {
   const plotter = currentPlotter(state);
   if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
   return { xMm: plotter.xMm, yMm: plotter.yMm, penDown: plotter.penUp === false && !plotter.penMoving };
+};
+
+/** The drawing that is laid out: it can be pointed at, selected and placed by hand. */
+const PREPARED: SheetKind = {
+  desk: deskOfState,
+  look: lookOf,
+  belowPx: BELOW_PX,
+  show: showState,
+  hand: (stage, store, actions) => ({
+    grab: (at) => grabFrame(stage, store, actions, at),
+    nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
+    hover: (at) => {
+      const { planned, hover } = store.getState();
+      const found = at && planned ? hoverUnder(stage, planned, at) : null;
+      if (found !== hover) store.setState({ hover: found });
+    },
+    tap: (at) => {
+      const { planned } = store.getState();
+      const hover = planned && hoverUnder(stage, planned, at);
+      store.setState({ hover: null, selected: planned && hover ? { of: planned, hover } : null });
+    },
+  }),
 };
 
 /** What stands on the paper while the drawing does not: that it is being read, or what is wrong with it. */

@@ -21,14 +21,13 @@ export interface StageCanvases {
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
-/** The looks with their legend, and the tools, lie here. */
-const BELOW_PX = 88;
-/** On a low screen they may lie over the paper: the share of its height that is kept free for them. */
+/** On a low screen, what lies under the paper may lie over it: the share of the height that is kept free for it. */
 const MOST_BELOW = 0.18;
 const MAX_RATIO = 2;
 
 export class Stage {
   readonly #canvases: StageCanvases;
+  readonly #belowPx: number;
   readonly #observer: ResizeObserver;
   readonly #strokes: Strokes;
   #scene: Picture | null = null;
@@ -53,8 +52,9 @@ export class Stage {
   #areSheetsStale = true;
   #request = 0;
 
-  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook) {
+  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook, belowPx: number) {
     this.#canvases = canvases;
+    this.#belowPx = belowPx;
     this.#desk = desk;
     this.#look = look;
     this.#colors = deskColors(canvases.box);
@@ -157,7 +157,7 @@ export class Stage {
       top: RULER_PX + INSET_PX,
       left: RULER_PX + INSET_PX,
       right: INSET_PX,
-      bottom: INSET_PX + Math.min(BELOW_PX, MOST_BELOW * this.#size.height),
+      bottom: INSET_PX + Math.min(this.#belowPx, MOST_BELOW * this.#size.height),
     };
     this.#view = fitView(this.#desk.paperMm, this.#size, insets);
   }

@@ -1,5 +1,5 @@
 import { useMemo } from "react";
-import { activeJob, isReady, mayOperate, otherOperator, selectedStroke } from "../state/store.js";
+import { activeJob, isReady, mayOperate, selectedStroke } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
 import { IconButton } from "../ui/icon-button.js";
@@ -51,11 +51,7 @@ export const StrokeCard = () => {
 const PlotFromHere = ({ strokeIndex }: { strokeIndex: number }) => {
   const isOff = usePageState(
     (state) =>
-      !isReady(state) ||
-      !mayOperate(state) ||
-      otherOperator(state) !== null ||
-      activeJob(state) !== null ||
-      state.busyAction !== null,
+      !isReady(state) || !mayOperate(state) || activeJob(state) !== null || state.busyAction !== null,
   );
   const { plotDrawing } = useActions();
   return (

@@ -19,5 +19,5 @@ export const rowsOf = (jobs: readonly Job[]): readonly Copies[] => {
 };
 
 /** What copies have in common. */
-const likenessOf = ({ name, plotterId, settings, stats, message, speedPct }: Job): string =>
-  JSON.stringify([name, plotterId, settings, stats, message, speedPct]);
+const likenessOf = ({ name, plotterId, settings, stats, message, speedPct, place }: Job): string =>
+  JSON.stringify([name, plotterId, settings, stats, message, speedPct, place]);

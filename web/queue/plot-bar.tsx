@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
-import { activeJob, currentPlotter, mayOperate, otherOperator } from "../state/store.js";
+import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { CutOffNote } from "./cut-off-note.js";
@@ -20,7 +20,13 @@ export const PlotBar = () => {
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const drawingKey = usePageState((state) => state.drawing?.key);
   return (
-    <section className="card plot-bar" aria-label={words.plot} data-active={hasJob || undefined}>
+    <section
+      id="plot-bar"
+      tabIndex={-1}
+      className="card plot-bar"
+      aria-label={words.plot}
+      data-active={hasJob || undefined}
+    >
       <div className="plot-time">
         <span className="plot-time-value" data-stale={isPlanning || undefined}>
           {planned ? formatDuration(planned.stats.durationS) : "–"}
@@ -65,7 +71,7 @@ const Buttons = () => {
     (state) => state.drawing !== null && (state.planned?.strokeCount ?? 0) > 0 && state.fault === null,
   );
   const isLinked = usePageState((state) => state.link === "connected" && state.plotters.length > 0);
-  const isMine = usePageState((state) => mayOperate(state) && otherOperator(state) === null);
+  const isMine = usePageState(mayOperate);
   const isActive = usePageState((state) => activeJob(state) !== null);
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const busy = usePageState((state) => state.busyAction);

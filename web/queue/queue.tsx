@@ -67,10 +67,11 @@ const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   const nowMs = useNow();
   const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
   const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
+  const isSeen = usePageState((state) => state.link === "connected");
   const { totalS, isRunning } = queueTime(jobs, runsOn);
   const total = words.total(jobs.length, formatDuration(totalS));
   return (
-    <span className="note">{isRunning ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}</span>
+    <span className="note">{isRunning && isSeen ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}</span>
   );
 };
 
@@ -84,6 +85,7 @@ const BetweenJobs = () => {
   return (
     <Segments
       label={words.between}
+      isInline
       value={queue.runOn ? "run" : "wait"}
       options={[
         { value: "wait", label: words.wait },

@@ -56,6 +56,7 @@ export const queueText = {
   },
   start: "Start",
   about: (duration: string) => `estimated ${duration}`,
+  fromStroke: (number: string) => `from stroke ${number}`,
   atSpeed: (pct: number) => `at ${pct} %`,
   earlier: "Move earlier",
   earlierNamed: (name: string) => `Move earlier: ${name}`,

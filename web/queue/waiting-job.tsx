@@ -2,7 +2,7 @@ import type { RefObject } from "react";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { plotText, queueText } from "./text.js";
-import { formatDuration } from "../ui/format.js";
+import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { IconButton } from "../ui/icon-button.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
@@ -34,6 +34,7 @@ export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
           <JobName job={job} />
           <span className="note">
             {expectedS === null ? plotText.planning : formatDuration(expectedS)}
+            {job.place !== null && `, ${words.fromStroke(formatCount(job.place.strokeIndex + 1))}`}
             {job.speedPct !== 100 && `, ${words.atSpeed(job.speedPct)}`}
           </span>
         </div>

@@ -18,6 +18,7 @@ import type { Planner } from "../worker/planner.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { ExportFormat, PlanFault } from "../worker/protocol.js";
 import { forOtherDrawing } from "./other-drawing.js";
+import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, openedSettings, withMachine } from "./plotter-sync.js";
 import { fromPreset, withPreset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
@@ -25,7 +26,6 @@ import {
   activeJob,
   boardFirmware,
   currentPlotter,
-  otherOperator,
   type Notice,
   type OpenDrawing,
   type PageState,
@@ -79,28 +79,7 @@ export const createActions = (deps: ActionDeps) => {
   const clearErrors = (): void =>
     store.setState(({ notices }) => ({ notices: notices.filter(({ kind }) => kind !== "error") }));
 
-  const asksTakeOver = (): Promise<boolean> =>
-    new Promise((resolve) => {
-      const state = store.getState();
-      state.takeOverQuestion?.answer(false);
-      const answer = (takesOver: boolean): void => {
-        store.setState({ takeOverQuestion: null });
-        resolve(takesOver);
-      };
-      store.setState({ takeOverQuestion: { operator: otherOperator(state)?.name ?? null, answer } });
-    });
-
-  /** Where another browser operates, asks whether to take over, and then does it. Null: it stays as it is. */
-  const asOperator = async <T>(request: () => Promise<T>): Promise<T | null> => {
-    try {
-      return await request();
-    } catch (error) {
-      if (!(error instanceof BackendFault) || error.code !== "not-operator") throw error;
-      if (!(await asksTakeOver())) return null;
-      await backend.takeOver();
-      return request();
-    }
-  };
+  const asOperator = createAsOperator(store, backend);
 
   /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
   const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
@@ -159,6 +138,7 @@ export const createActions = (deps: ActionDeps) => {
   const sync = createPlotterSync({
     store,
     backend,
+    asOperator,
     after: deps.after,
     failed: (error) => notify("error", error instanceof Error ? error.message : String(error)),
     show: ({ settings, presets }, isStep) => {

@@ -24,6 +24,7 @@ import {
   type PageState,
   type PageStore,
 } from "./store.js";
+import type { AsOperator } from "./take-over.js";
 
 /** A slider's way is stored a few times a second. */
 const SAVE_MS = 250;
@@ -33,6 +34,7 @@ type Shown = Pick<PageState, "settings" | "presets">;
 interface SyncParts {
   readonly store: PageStore;
   readonly backend: Pick<Backend, "savePlotterSettings" | "setPlotterMachine">;
+  readonly asOperator: AsOperator;
   after(delayMs: number, callback: () => void): void;
   /** Tells the user what went wrong. */
   failed(error: unknown): void;
@@ -40,9 +42,13 @@ interface SyncParts {
   show(values: Shown, isStep: boolean): void;
 }
 
-export const createPlotterSync = ({ store, backend, after, failed, show }: SyncParts) => {
+export const createPlotterSync = ({ store, backend, asOperator, after, failed, show }: SyncParts) => {
   /** What the user has changed here and the server does not have yet. */
   let unsaved: { readonly id: string; readonly settings: PlotterSettings } | null = null;
+  /** As it was before the first change that the server does not have yet. */
+  let lastSaved: PlotterSettings | null = null;
+  /** Rises when the user leaves another browser operating: changes of before that are dropped. */
+  let refusals = 0;
   let isWaiting = false;
   let sendingCount = 0;
   let turn: Promise<void> = Promise.resolve();
@@ -50,28 +56,42 @@ export const createPlotterSync = ({ store, backend, after, failed, show }: SyncP
   let shownId: string | null = null;
 
   /** One after the other, so that the last change is the one that stays. */
-  const send = (request: () => Promise<void>): void => {
+  const send = (request: () => Promise<unknown>): void => {
     sendingCount++;
     turn = turn
-      .then(request)
+      .then(async () => {
+        await request();
+      })
       .catch(failed)
       .then(() => {
         sendingCount--;
-        // After a failure the plotter's values are shown again.
+        // After a failure, or where another browser goes on operating, the plotter's values are shown again.
         follow();
       });
   };
 
   const setMachine = async (id: string, machine: string): Promise<void> => {
-    const saved = await backend.setPlotterMachine(id, machine);
+    const saved = await asOperator(() => backend.setPlotterMachine(id, machine));
+    if (saved === null) return;
     store.setState(({ plotters }) => ({
       plotters: plotters.map((plotter) => (plotter.id === id ? saved : plotter)),
     }));
   };
 
-  const saveNow = async (id: string, settings: PlotterSettings): Promise<void> => {
-    const saved = await backend.savePlotterSettings(id, settings);
+  /** False where another browser goes on operating. */
+  const saveNow = async (id: string, settings: PlotterSettings): Promise<boolean> => {
+    const saved = await asOperator(() => backend.savePlotterSettings(id, settings));
+    if (saved === null) return false;
     store.setState(({ plotterSettings }) => ({ plotterSettings: { ...plotterSettings, [id]: saved } }));
+    return true;
+  };
+
+  const saveOrTakeBack = async (id: string, settings: PlotterSettings, turnOf: number): Promise<void> => {
+    if (turnOf !== refusals || (await saveNow(id, settings))) return;
+    refusals++;
+    unsaved = null;
+    const { settings: now } = store.getState();
+    if (lastSaved) show({ settings: withPlotterPart(now, lastSaved), presets: lastSaved.presets }, true);
   };
 
   const saveSoon = (): void => {
@@ -81,7 +101,8 @@ export const createPlotterSync = ({ store, backend, after, failed, show }: SyncP
       isWaiting = false;
       const wanted = unsaved;
       unsaved = null;
-      if (wanted) send(() => saveNow(wanted.id, wanted.settings));
+      const turnOf = refusals;
+      if (wanted) send(() => saveOrTakeBack(wanted.id, wanted.settings, turnOf));
     });
   };
 
@@ -102,6 +123,7 @@ export const createPlotterSync = ({ store, backend, after, failed, show }: SyncP
       pens: isSame(old.pens, now.pens) ? stored.pens : now.pens,
       presets: isSame(old.presets, now.presets) ? stored.presets : now.presets,
     };
+    if (!unsaved && sendingCount === 0) lastSaved = old;
     unsaved = { id: plotter.id, settings };
     saveSoon();
   };
@@ -133,7 +155,7 @@ export const createPlotterSync = ({ store, backend, after, failed, show }: SyncP
     try {
       for (const { id, machine } of state.plotters) {
         if (state.plotterSettings[id] !== undefined) continue;
-        await saveNow(id, kept.settings);
+        if (!(await saveNow(id, kept.settings))) return false;
         if (machine === null) await setMachine(id, kept.machine);
       }
       return true;

@@ -1,4 +1,5 @@
 import { useId, type ReactNode } from "react";
+import { useHint } from "./hint.js";
 
 export interface ChoiceOption<T extends string> {
   readonly value: T;
@@ -16,18 +17,36 @@ interface ChoiceProps<T extends string> {
   onChange(value: T): void;
 }
 
+interface SegmentsProps<T extends string> extends ChoiceProps<T> {
+  /** The label stands beside the choices, where there are two short ones. */
+  readonly isInline?: boolean;
+  /** Help on demand. */
+  readonly hint?: string;
+}
+
 /** One of a few, all in sight: a row of radio buttons that looks like one control. */
 export const Segments = <T extends string>({
   label,
   value,
   options,
   isLabelHidden,
+  isInline,
+  hint,
   onChange,
-}: ChoiceProps<T>) => {
+}: SegmentsProps<T>) => {
   const name = useId();
+  const help = useHint(label, `${name}-note`, hint !== undefined);
   return (
-    <fieldset className="field segments-field">
-      <legend className={isLabelHidden ? "visually-hidden" : undefined}>{label}</legend>
+    <div
+      role="group"
+      aria-labelledby={`${name}-label`}
+      className="field segments-field"
+      data-inline={isInline || undefined}
+    >
+      <span className={isLabelHidden ? "visually-hidden" : "field-label"}>
+        <span id={`${name}-label`}>{label}</span>
+        {help.button}
+      </span>
       <div className="segments">
         {options.map((option) => (
           <label key={option.value} className="segment">
@@ -45,16 +64,30 @@ export const Segments = <T extends string>({
           </label>
         ))}
       </div>
-    </fieldset>
+      {hint !== undefined && (
+        <p id={`${name}-note`} className="note" hidden={!help.isShown}>
+          {hint}
+        </p>
+      )}
+    </div>
   );
 };
 
+interface SelectProps<T extends string> extends ChoiceProps<T> {
+  /** Help on demand. */
+  readonly hint?: string;
+}
+
 /** One of many: the system's own list. */
-export const Select = <T extends string>({ label, value, options, onChange }: ChoiceProps<T>) => {
+export const Select = <T extends string>({ label, value, options, hint, onChange }: SelectProps<T>) => {
   const id = useId();
+  const help = useHint(label, `${id}-note`, hint !== undefined);
   return (
     <div className="field">
-      <label htmlFor={id}>{label}</label>
+      <span className="field-label">
+        <label htmlFor={id}>{label}</label>
+        {help.button}
+      </span>
       <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
         {options.map((option) => (
           <option key={option.value} value={option.value}>
@@ -62,6 +95,11 @@ export const Select = <T extends string>({ label, value, options, onChange }: Ch
           </option>
         ))}
       </select>
+      {hint !== undefined && (
+        <p id={`${id}-note`} className="note" hidden={!help.isShown}>
+          {hint}
+        </p>
+      )}
     </div>
   );
 };

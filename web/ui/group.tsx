@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { useHint } from "./hint.js";
 import { Icon } from "./icon.js";
 
 interface GroupProps {
@@ -6,29 +7,46 @@ interface GroupProps {
   readonly title: string;
   /** The group in a few words, shown beside the title. */
   readonly summary?: string;
+  /** Help on demand, while the group is open. */
+  readonly help?: string;
+  /** Stands inside another group. */
+  readonly isPart?: boolean;
   readonly isOpen: boolean;
   onToggle(isOpen: boolean): void;
   readonly children: ReactNode;
 }
 
 /** A group of settings that folds. */
-export const Group = ({ id, title, summary, isOpen, onToggle, children }: GroupProps) => (
-  <section className="group" data-open={isOpen || undefined}>
-    <h2>
-      <button
-        type="button"
-        className="group-head"
-        aria-expanded={isOpen}
-        aria-controls={`group-${id}`}
-        onClick={() => onToggle(!isOpen)}
-      >
-        <Icon name="chevron" />
-        <span className="group-title">{title}</span>
-        {summary && <span className="group-summary">{summary}</span>}
-      </button>
-    </h2>
-    <div id={`group-${id}`} className="group-body" hidden={!isOpen}>
-      {children}
-    </div>
-  </section>
-);
+export const Group = (props: GroupProps) => {
+  const { id, title, summary, help, isPart, isOpen, onToggle, children } = props;
+  const Heading = isPart ? "h3" : "h2";
+  const hint = useHint(title, `help-${id}`, help !== undefined && isOpen);
+  return (
+    <section className={isPart ? "group group-part" : "group"} data-open={isOpen || undefined}>
+      <div className="group-top">
+        <Heading>
+          <button
+            type="button"
+            className="group-head"
+            aria-expanded={isOpen}
+            aria-controls={`group-${id}`}
+            onClick={() => onToggle(!isOpen)}
+          >
+            <Icon name="chevron" />
+            <span className="group-title">{title}</span>
+            {summary && <span className="group-summary">{summary}</span>}
+          </button>
+        </Heading>
+        {hint.button}
+      </div>
+      <div id={`group-${id}`} className="group-body" hidden={!isOpen}>
+        {help !== undefined && (
+          <p id={`help-${id}`} className="note" hidden={!hint.isShown}>
+            {help}
+          </p>
+        )}
+        {children}
+      </div>
+    </section>
+  );
+};

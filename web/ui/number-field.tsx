@@ -1,9 +1,11 @@
 import { useId } from "react";
+import { useHint } from "./hint.js";
 import { NumberBox, useTypedNumber, type NumberLimits } from "./number-box.js";
 
 interface NumberFieldProps extends NumberLimits {
   readonly label: string;
   readonly value: number;
+  /** Help on demand. */
   readonly hint?: string;
   /** Ends of the slider, where the field has one: the range in everyday use, inside min … max. */
   readonly slider?: readonly [from: number, to: number];
@@ -18,10 +20,15 @@ export const NumberField = (props: NumberFieldProps) => {
   const { label, value, step, hint, slider, disabled, onChange, onSlide } = props;
   const id = useId();
   const typed = useTypedNumber(value, props, onChange);
+  const noteId = `${id}-note`;
+  const help = useHint(label, noteId, hint !== undefined);
   const note = typed.problem ?? hint;
   return (
     <div className={slider ? "field field-sliding" : "field"}>
-      <label htmlFor={id}>{label}</label>
+      <span className="field-label">
+        <label htmlFor={id}>{label}</label>
+        {help.button}
+      </span>
       {slider && (
         <input
           type="range"
@@ -40,9 +47,13 @@ export const NumberField = (props: NumberFieldProps) => {
           }}
         />
       )}
-      <NumberBox id={id} typed={typed} noteId={note ? `${id}-note` : undefined} disabled={disabled} />
+      <NumberBox id={id} typed={typed} noteId={note ? noteId : undefined} disabled={disabled} />
       {note && (
-        <p id={`${id}-note`} className={typed.problem ? "note note-error" : "note"}>
+        <p
+          id={noteId}
+          className={typed.problem ? "note note-error" : "note"}
+          hidden={typed.problem === null && !help.isShown}
+        >
           {note}
         </p>
       )}

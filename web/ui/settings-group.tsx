@@ -6,6 +6,8 @@ interface SettingsGroupProps {
   readonly id: string;
   readonly title: string;
   readonly summary?: string;
+  readonly help?: string;
+  readonly isPart?: boolean;
   readonly children: ReactNode;
 }
 

@@ -4,6 +4,10 @@ export const appName = "plotwright";
 /** In which the names of days and months are written. */
 export const language = "en-GB";
 
+export const hintText = {
+  about: (label: string) => `About: ${label}`,
+};
+
 export const fieldText = {
   between: (min: string, max: string, unit: string) => `Between ${min} and ${max} ${unit}`.trim(),
   notANumber: "Type a number",

@@ -73,11 +73,11 @@ const LiveChanges = ({ job }: { job: Job }) => {
     <div className="place">
       <Select
         label={words.speedPct}
+        hint={words.speedPctHint}
         value={String(job.speedPct)}
         options={percents.map((pct) => ({ value: String(pct), label: `${pct} %` }))}
         onChange={(pct) => void changeJob(job.id, { speedPct: Number(pct) })}
       />
-      <p className="note">{words.speedPctHint}</p>
       <button
         type="button"
         className="button button-small"

@@ -18,7 +18,13 @@ export const StatusCard = ({ job }: { job: Job }) => {
   const isActive = ACTIVE_STATES.includes(job.state);
   const wait = job.state === "paused" ? job.wait : null;
   return (
-    <section className="status-card" aria-label={words.status} data-state={job.state}>
+    <section
+      id="plot-status"
+      tabIndex={-1}
+      className="status-card"
+      aria-label={words.status}
+      data-state={job.state}
+    >
       <div className="status-words">
         <p className="status-name">
           <strong>{job.name}</strong>

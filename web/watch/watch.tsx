@@ -42,7 +42,7 @@ const NothingCard = () => {
   const { showView } = useActions();
   const isWatcher = usePageState((state) => state.me?.role === "watch");
   return (
-    <section className="status-card" aria-label={words.status}>
+    <section id="plot-status" tabIndex={-1} className="status-card" aria-label={words.status}>
       <div className="status-words">
         <p className="status-name">
           <strong>{words.nothing}</strong>

@@ -16,6 +16,7 @@ import {
 } from "../../src/index.js";
 import {
   boxOfPoints,
+  unreachedCount,
   textOfBytes,
   machineOf,
   penStopsOf,
@@ -123,6 +124,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       fileWarnings: drawing.warnings,
       layoutWarnings: [...ready.warnings, ...unusedSettings(settings, machineOf(settings))],
       cutOff,
+      unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),
       stats,

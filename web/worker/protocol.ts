@@ -77,6 +77,8 @@ export interface Planned {
   readonly layoutWarnings: readonly string[];
   /** What the margins cut off. */
   readonly cutOff: CutOffPicture | null;
+  /** Strokes that the machine does not reach, or only in part. */
+  readonly unreachedCount: number;
   readonly strokeCount: number;
   readonly pointCount: number;
   readonly stats: TrajectoryStats;

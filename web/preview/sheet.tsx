@@ -1,0 +1,78 @@
+import { useEffect, useRef, type ReactNode, type RefObject } from "react";
+import type { PageState, PageStore } from "../state/store.js";
+import { useActions, usePageStore } from "../state/use-store.js";
+import type { Actions } from "../state/actions.js";
+import type { Desk } from "./backdrop.js";
+import { listenForGestures, type GestureTarget } from "./gestures.js";
+import { Stage, type FrameLook } from "./stage.js";
+import { previewText } from "./text.js";
+
+/** What a sheet shows, and what a hand can do on it besides moving the view. The same object on every render. */
+export interface SheetKind {
+  desk(state: PageState): Desk;
+  look(state: PageState): FrameLook;
+  /** Room under the paper for what lies over the sheet there, px. */
+  readonly belowPx: number;
+  /** Shows each change of the state, until the returned function is called. */
+  show(stage: Stage, store: PageStore): () => void;
+  hand(stage: Stage, store: PageStore, actions: Actions): Omit<GestureTarget, "view" | "setView" | "fit">;
+}
+
+interface SheetProps {
+  readonly kind: SheetKind;
+  readonly label: string;
+  /** Name of the picture of the strokes. */
+  readonly pictureLabel: string;
+  /** What lies over the sheet. */
+  children(stage: RefObject<Stage | null>): ReactNode;
+}
+
+/** Paper with strokes on it, which can be moved and zoomed: in Prepare and in Watch. */
+export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
+  const box = useRef<HTMLDivElement>(null);
+  const desk = useRef<HTMLCanvasElement>(null);
+  const strokes = useRef<HTMLCanvasElement>(null);
+  const overlay = useRef<HTMLCanvasElement>(null);
+  const stage = useRef<Stage | null>(null);
+  const store = usePageStore();
+  const actions = useActions();
+  useEffect(() => {
+    if (!box.current || !desk.current || !strokes.current || !overlay.current) return;
+    const canvases = {
+      box: box.current,
+      desk: desk.current,
+      strokes: strokes.current,
+      overlay: overlay.current,
+    };
+    const state = store.getState();
+    const made = new Stage(canvases, kind.desk(state), kind.look(state), kind.belowPx);
+    const stopShowing = kind.show(made, store);
+    const stopGestures = listenForGestures(box.current, {
+      view: () => made.view,
+      setView: (view) => made.setView(view),
+      fit: () => made.fit(),
+      ...kind.hand(made, store, actions),
+    });
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    const recolor = (): void => made.recolor();
+    scheme.addEventListener("change", recolor);
+    stage.current = made;
+    return () => {
+      scheme.removeEventListener("change", recolor);
+      stopGestures();
+      stopShowing();
+      made.close();
+      stage.current = null;
+    };
+  }, [kind, store, actions]);
+  return (
+    <section className="preview" aria-label={label}>
+      <div className="stage" ref={box} tabIndex={0} role="group" aria-label={previewText.hint}>
+        <canvas ref={desk} aria-hidden="true" />
+        <canvas ref={strokes} role="img" aria-label={pictureLabel} />
+        <canvas ref={overlay} aria-hidden="true" />
+      </div>
+      {children(stage)}
+    </section>
+  );
+};
