@@ -12,7 +12,7 @@ import { pointCount, settingsIdOf, strokeCount, type StrokeSet } from "../drawin
 import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
-import type { Kernel } from "./filter.js";
+import type { Kernel } from "./impulse-filter.js";
 import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";

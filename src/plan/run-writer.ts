@@ -1,11 +1,12 @@
 /**
  * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged if the settings
- * ask for it (merge.ts). In `scurve` mode they are filtered over time (filter.ts); so they are with a shaper,
- * and then merged once more, because the filter makes several blocks of each.
+ * ask for it (merge.ts). In `scurve` mode they are filtered over time (filter.ts). With a shaper they are too
+ * (impulse-filter.ts), and then merged once more, because that filter makes several blocks of each.
  */
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
-import { writeFiltered, type Kernel } from "./filter.js";
+import { writeFiltered } from "./filter.js";
+import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
 import { writeJunctionRun } from "./junction.js";
 import { shapedLimits, type RunLimits } from "./limits.js";
 import { mergeBlocks, type MergeRules } from "./merge.js";
@@ -30,7 +31,7 @@ export class RunWriter implements WritesRuns {
   private readonly blend = new BlendPlanner();
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
-  private readonly filtered = new BlockColumns(0, false);
+  private readonly shaper: ImpulseFilter | null;
   private readonly straight = new RunPath();
   private readonly rules: MergeRules | null;
   private readonly shapedRules: MergeRules;
@@ -39,8 +40,9 @@ export class RunWriter implements WritesRuns {
   constructor(
     private readonly mode: MotionMode,
     fit: FitSettings | null,
-    private readonly shaper: Kernel | null,
+    shaper: Kernel | null,
   ) {
+    this.shaper = shaper && new ImpulseFilter(shaper);
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
       shortToleranceMm: fit.toleranceMm,
@@ -69,36 +71,28 @@ export class RunWriter implements WritesRuns {
   private writeShaped(
     path: RunPath,
     limits: RunLimits,
-    shaper: Kernel,
+    shaper: ImpulseFilter,
     out: BlockColumns,
     planned: BlockColumns,
   ): void {
-    const { unfiltered, filtered } = this;
     const first = out.count;
-    unfiltered.clear();
-    this.writeBlocks(path, shapedLimits(path, limits), unfiltered);
-    const plannedCount = unfiltered.count;
-    filtered.clear();
-    writeFiltered(unfiltered, path.end(), shaper, filtered);
-    // Along an axis whose impulses come later and end sooner, the carriage rests at both ends of the run.
-    let from = 0;
-    let end = filtered.count;
-    while (from < end && isRest(filtered, from)) from++;
-    while (end > from && isRest(filtered, end - 1)) end--;
-    planned.clockS = out.clockS - filtered.startS[from];
-    for (let k = 0; k < plannedCount; k++) planned.pushFrom(unfiltered, k);
-    for (let k = from; k < end; k++) out.pushFrom(filtered, k);
+    const plannedFirst = planned.count;
+    planned.clockS = out.clockS;
+    this.writeBlocks(path, shapedLimits(path, limits), planned);
+    const beginS = shaper.write(planned, plannedFirst, path.end(), out);
+    if (beginS > 0) planned.shift(plannedFirst, -beginS);
+    planned.addSegments(path.segmentCount);
     if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, this.shapedRules);
   }
 
   private writeFiltered(path: RunPath, runLimits: RunLimits, out: BlockColumns): void {
-    const { limits, kernel } = filteredPlan(path, runLimits);
+    const { limits, widthS } = filteredPlan(path, runLimits);
     const { unfiltered } = this;
     unfiltered.clear();
     this.writeBlocks(path, limits, unfiltered);
-    if (path.segmentCount > 1 && stopsAreFaster(path, runLimits, unfiltered.clockS + kernel.lengthS)) {
+    if (path.segmentCount > 1 && stopsAreFaster(path, runLimits, unfiltered.clockS + widthS)) {
       this.writeWithStops(path, runLimits, out);
-    } else writeFiltered(unfiltered, path.end(), kernel, out);
+    } else writeFiltered(unfiltered, path.end(), widthS, out);
   }
 
   private writeWithStops(path: RunPath, limits: RunLimits, out: BlockColumns): void {
@@ -121,6 +115,3 @@ export class RunWriter implements WritesRuns {
     }
   }
 }
-
-const isRest = ({ vx, vy, ax, ay }: BlockColumns, k: number): boolean =>
-  vx[k] === 0 && vy[k] === 0 && ax[k] === 0 && ay[k] === 0;

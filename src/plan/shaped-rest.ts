@@ -6,7 +6,7 @@
  *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
  */
 import { BlockColumns } from "./block-columns.js";
-import { writeFiltered, type Kernel } from "./filter.js";
+import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
 import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
@@ -42,13 +42,9 @@ export function shapeRest(
   const whole = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);
   if (recent.count === 0) return { planned: recent, shaped };
-  whole.clockS = recent.startS[0];
-  const blocks = recent.count;
-  writeFiltered(recent, { ...end, segmentCount: 0 }, kernel, whole);
-  // Without the rests that the filter adds.
-  recent.count = blocks;
+  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, whole);
   const exact = new BlockColumns(0, false);
-  addAfter(whole, exact);
+  addAfter(whole, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
   return { planned: recent, shaped };
 }
@@ -94,10 +90,10 @@ function addWindow(planned: Trajectory, run: number, fromS: number, toS: number,
   }
 }
 
-/** Appends the part of `from` after time 0. */
-function addAfter(from: BlockColumns, out: BlockColumns): void {
+/** Appends the part of `from` after `tS`. */
+function addAfter(from: BlockColumns, tS: number, out: BlockColumns): void {
   for (let k = 0; k < from.count; k++) {
-    const t = Math.max(0, -from.startS[k]);
+    const t = Math.max(0, tS - from.startS[k]);
     const rest = from.durationS[k] - t;
     if (rest <= NO_PIECE_S) continue;
     const [vx, vy, ax, ay] = [from.vx[k], from.vy[k], from.ax[k], from.ay[k]];

@@ -1,4 +1,4 @@
-import type { Kernel } from "./filter.js";
+import type { Kernel } from "./impulse-filter.js";
 
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.
