@@ -5,6 +5,7 @@
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import {
+  AXIS_TABLE,
   DRAW_TABLE,
   EASE_TABLE,
   FIT_TABLE,
@@ -46,6 +47,9 @@ export function checkSettings(
   if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);
   if (motion.ease) checkNumbers("slow-in", EASE_TABLE, motion.ease);
   checkNumber("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
+  for (const key of Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[]) {
+    checkNumber("the", AXIS_TABLE[key], motion[key]);
+  }
   checkPen("pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));

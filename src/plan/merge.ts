@@ -22,7 +22,7 @@
  * curves.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { canStep, SLACK, type RunLimits } from "./limits.js";
+import { canReach, SLACK, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 
 /** A pair may take longer than its blocks by this share. */
@@ -164,6 +164,7 @@ function isWithinLimits(
   pair: Pair,
 ): boolean {
   const { x, y, vx, vy } = blocks;
+  const { stretchX, stretchY } = limits;
   const vx0 = vx[i];
   const vy0 = vy[i];
   const vx1 = vx[m];
@@ -179,17 +180,15 @@ function isWithinLimits(
   return (
     isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
     isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
-    isShorter(wx, wy, limits.speed * SLACK, isShaped) &&
+    isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
     vx0 * wx + vy0 * wy >= 0 &&
     wx * vx1 + wy * vy1 >= 0 &&
-    canStep(limits, wx, wy)
+    canReach(limits, wx / stretchX, wy / stretchY)
   );
 }
 
 const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean): boolean =>
-  inEachAxis
-    ? Math.abs(x) <= maxLength && Math.abs(y) <= maxLength
-    : x * x + y * y <= maxLength * maxLength;
+  inEachAxis ? Math.abs(x) <= maxLength && Math.abs(y) <= maxLength : x * x + y * y <= maxLength * maxLength;
 
 /**
  * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.

@@ -3,12 +3,13 @@
  * ask for it (merge.ts). In `scurve` mode they are filtered over time (filter.ts). With a shaper they are too
  * (impulse-filter.ts), and then merged once more, because that filter makes several blocks of each.
  */
+import { AxisFrame } from "./axis-frame.js";
 import { BlendPlanner } from "./blend.js";
 import { BlockColumns } from "./block-columns.js";
 import { writeFiltered } from "./filter.js";
 import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
 import { writeJunctionRun } from "./junction.js";
-import { shapedLimits, type RunLimits } from "./limits.js";
+import { isStretched, shapedLimits, type RunLimits } from "./limits.js";
 import { mergeBlocks, type MergeRules } from "./merge.js";
 import { RunPath } from "./run-path.js";
 import { filteredPlan, stopsAreFaster } from "./scurve.js";
@@ -33,6 +34,7 @@ export class RunWriter implements WritesRuns {
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly shaper: ImpulseFilter | null;
   private readonly straight = new RunPath();
+  private readonly frame = new AxisFrame();
   private readonly rules: MergeRules | null;
   private readonly shapedRules: MergeRules;
 
@@ -62,10 +64,21 @@ export class RunWriter implements WritesRuns {
   /** @param planned gets the motion before the shaper, if there is one */
   write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void {
     if (path.segmentCount === 0) return;
+    if (!isStretched(limits)) this.writeRun(path, limits, out, planned);
+    else {
+      const [first, plannedFirst] = [out.count, planned.count];
+      this.writeRun(this.frame.of(path, limits), limits, out, planned);
+      this.frame.restore(out, first);
+      this.frame.restore(planned, plannedFirst);
+    }
+    out.addSegments(path.segmentCount);
+    planned.addSegments(path.segmentCount);
+  }
+
+  private writeRun(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void {
     if (this.shaper !== null) this.writeShaped(path, limits, this.shaper, out, planned);
     else if (this.mode === "scurve") this.writeFiltered(path, limits, out);
     else this.writeBlocks(path, limits, out);
-    out.addSegments(path.segmentCount);
   }
 
   private writeShaped(
@@ -81,7 +94,6 @@ export class RunWriter implements WritesRuns {
     this.writeBlocks(path, shapedLimits(path, limits), planned);
     const beginS = shaper.write(planned, plannedFirst, path.end(), out);
     if (beginS > 0) planned.shift(plannedFirst, -beginS);
-    planned.addSegments(path.segmentCount);
     if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, this.shapedRules);
   }
 

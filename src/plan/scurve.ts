@@ -12,7 +12,7 @@
  * drawings 3/4 takes the least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A'
  * to A, and the mode becomes `blend`.
  */
-import { capSegments, type RunLimits } from "./limits.js";
+import { capSegments, mmPerFrameMm, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 
 /** Share of δ for the box. */
@@ -60,7 +60,8 @@ function straightProfile(length: number, top: number, { accel: maxAccel, jerk }:
 function forStraight(path: RunPath, limits: RunLimits): FilteredPlan {
   capSegments(path, limits);
   const { width, accel, speed } = straightProfile(path.length[0], Math.sqrt(path.cap2[0]), limits);
-  return { limits: { ...limits, accel, speed }, widthS: width };
+  const mm = mmPerFrameMm(limits, path.ux[0], path.uy[0]);
+  return { limits: { ...limits, accel, speed: speed * mm }, widthS: width };
 }
 
 /**
