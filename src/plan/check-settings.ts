@@ -12,6 +12,7 @@ import {
   MOTION_MODES,
   MOTOR_ACCEL,
   SHAPERS,
+  SPEED_FACTOR,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -41,7 +42,8 @@ export function checkSettings(
   checkShaper(motion, machine);
   checkNumbers("draw", DRAW_TABLE, motion.draw);
   checkNumbers("travel", TRAVEL_TABLE, motion.travel);
-  for (const layer of Object.keys(motion.layers ?? {})) {
+  for (const [layer, own] of Object.entries(motion.layers ?? {})) {
+    checkNumber(`layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
     checkNumbers(`layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
   }
   if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);

@@ -67,6 +67,10 @@ export function runLimits(
   };
 }
 
+/** For a stroke that is drawn at a share of its layer's speed. */
+export const slower = (limits: RunLimits, factor: number): RunLimits =>
+  factor === 1 ? limits : { ...limits, speed: limits.speed * factor };
+
 /**
  * The limits for planning a line that is then shaped. Its shaped motion keeps V in each axis, so on a mixed machine a
  * motor may get 2 V. A straight keeps its direction, and with it the limit of `capSegments`.
@@ -81,7 +85,7 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
   const own: LayerMotion = motion.layers?.[layerId] ?? {};
   const { draw } = motion;
   return {
-    speedMmPerS: own.speedMmPerS ?? draw.speedMmPerS,
+    speedMmPerS: (own.speedMmPerS ?? draw.speedMmPerS) * (own.speedFactor ?? 1),
     accelMmPerS2: own.accelMmPerS2 ?? draw.accelMmPerS2,
     cornerMm: own.cornerMm ?? draw.cornerMm,
     jerkMmPerS3: own.jerkMmPerS3 ?? draw.jerkMmPerS3,

@@ -9,6 +9,7 @@ import {
   MOTION_TABLE,
   MOTOR_ACCEL,
   SHAPERS,
+  SPEED_FACTOR,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -97,7 +98,9 @@ export const motionSettingsSchema = z.object({
   speedYMmPerS: numberSchema(AXIS_TABLE.speedYMmPerS).nullable().optional(),
   accelXMmPerS2: numberSchema(AXIS_TABLE.accelXMmPerS2).nullable().optional(),
   accelYMmPerS2: numberSchema(AXIS_TABLE.accelYMmPerS2).nullable().optional(),
-  layers: byLayer(z.object(shapeOf(DRAW_TABLE)).partial()).optional(),
+  layers: byLayer(
+    z.object({ ...shapeOf(DRAW_TABLE), speedFactor: numberSchema(SPEED_FACTOR) }).partial(),
+  ).optional(),
 }) satisfies z.ZodType<MotionSettings>;
 
 const penShape = {

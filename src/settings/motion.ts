@@ -1,3 +1,4 @@
+import { MIN_SPEED_FACTOR } from "../drawing/speed-factor.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
 /** How the pen moves: one set of limits with the pen down (`draw`), one with the pen up (`travel`). */
@@ -225,8 +226,23 @@ export const MOTOR_ACCEL = {
   step: 1_000,
 } as const satisfies NumberSetting;
 
+/** Of the speed at which a layer or a stroke would be drawn: what is drawn slower. */
+export const SPEED_FACTOR = {
+  kind: "number",
+  label: "Share of the speed",
+  about: "share of the speed at which it would be drawn",
+  default: 1,
+  min: MIN_SPEED_FACTOR,
+  max: 1,
+  unit: "",
+  step: 0.05,
+} as const satisfies NumberSetting;
+
 /** Overrides for one layer; what is left out is as for all layers. */
-export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
+export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined } & {
+  /** The share of that speed at which the layer is drawn, from 0.01 to 1. */
+  readonly speedFactor?: number | undefined;
+};
 
 /** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
 export interface MotionSettings extends AxisLimits {
