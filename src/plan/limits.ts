@@ -28,6 +28,20 @@ export interface RunLimits {
   readonly easeSpeed: number;
 }
 
+export const NO_LIMITS: RunLimits = {
+  speed: Infinity,
+  accel: Infinity,
+  jerk: Infinity,
+  corner: Infinity,
+  speedX: Infinity,
+  speedY: Infinity,
+  stretchX: 1,
+  stretchY: 1,
+  motorSpeed: Infinity,
+  mixed: false,
+  easeSpeed: Infinity,
+};
+
 /** Merged blocks may exceed their limits by this factor. */
 export const SLACK = 1.0009;
 

@@ -54,6 +54,18 @@ export interface MergeRules {
 }
 
 /**
+ * For the blocks of a shaped motion: a jolt of the size of the tolerance swings too, unless it is too short for
+ * the gantry to follow. The floor is above the 5 ms that a command may take the board.
+ */
+export const SHAPED_RULES: MergeRules = {
+  toleranceMm: 0.005,
+  shortToleranceMm: 0.02,
+  floorS: 0.006,
+  isSmooth: false,
+  isShaped: true,
+};
+
+/**
  * Two blocks of `halfS` seconds each, with velocity (wx, wy) between them. They replace the blocks before
  * `end`.
  */

@@ -10,17 +10,10 @@ import { writeFiltered } from "./filter.js";
 import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
 import { writeJunctionRun } from "./junction.js";
 import { isStretched, shapedLimits, type RunLimits } from "./limits.js";
-import { mergeBlocks, type MergeRules } from "./merge.js";
+import { mergeBlocks, SHAPED_RULES, type MergeRules } from "./merge.js";
 import { RunPath } from "./run-path.js";
 import { filteredPlan, stopsAreFaster } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
-
-/** Merged blocks of a shaped motion deviate from it by at most this, mm: a jolt of that size swings too. */
-const SHAPED_TOLERANCE_MM = 0.005;
-/** By this if they are too short for the gantry to follow. */
-const SHAPED_SHORT_MM = 0.02;
-/** Shorter blocks are merged, s: a command takes the board up to 5 ms. */
-const SHAPED_FLOOR_S = 0.006;
 
 /** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
 export interface WritesRuns {
@@ -36,7 +29,6 @@ export class RunWriter implements WritesRuns {
   private readonly straight = new RunPath();
   private readonly frame = new AxisFrame();
   private readonly rules: MergeRules | null;
-  private readonly shapedRules: MergeRules;
 
   /** @param shaper null: none */
   constructor(
@@ -51,13 +43,6 @@ export class RunWriter implements WritesRuns {
       floorS: fit.floorMs / 1_000,
       isSmooth: mode !== "junction",
       isShaped: false,
-    };
-    this.shapedRules = {
-      toleranceMm: SHAPED_TOLERANCE_MM,
-      shortToleranceMm: SHAPED_SHORT_MM,
-      floorS: SHAPED_FLOOR_S,
-      isSmooth: false,
-      isShaped: true,
     };
   }
 
@@ -94,7 +79,7 @@ export class RunWriter implements WritesRuns {
     this.writeBlocks(path, shapedLimits(path, limits), planned);
     const beginS = shaper.write(planned, plannedFirst, path.end(), out);
     if (beginS > 0) planned.shift(plannedFirst, -beginS);
-    if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, this.shapedRules);
+    if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, SHAPED_RULES);
   }
 
   private writeFiltered(path: RunPath, runLimits: RunLimits, out: BlockColumns): void {

@@ -7,6 +7,8 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
+import { NO_LIMITS, type RunLimits } from "./limits.js";
+import { mergeBlocks, SHAPED_RULES } from "./merge.js";
 import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
@@ -46,6 +48,8 @@ export function shapeRest(
   const exact = new BlockColumns(0, false);
   addAfter(whole, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
+  const at = { x: end.x, y: end.y, alongMm: end.alongMm, segmentCount: 0 };
+  if (shaped.count > 0) mergeBlocks(shaped, 0, at, limitsOf(shaped), SHAPED_RULES);
   return { planned: recent, shaped };
 }
 
@@ -74,6 +78,17 @@ function joinFrom(
   const [mx, my] = [x + (half * (vx + wx)) / 2, y + (half * (vy + wy)) / 2];
   out.push(half, mx, my, wx, wy, (vx1 - wx) / half, (vy1 - wy) / half, 0);
   for (; k < exact.count; k++) out.pushFrom(exact, k);
+}
+
+/** Merged blocks stay within what the blocks need. */
+function limitsOf({ count, vx, vy, ax, ay }: BlockColumns): RunLimits {
+  let speed = 0;
+  let accel = 0;
+  for (let k = 0; k < count; k++) {
+    speed = Math.max(speed, Math.abs(vx[k]), Math.abs(vy[k]));
+    accel = Math.max(accel, Math.abs(ax[k]), Math.abs(ay[k]));
+  }
+  return { ...NO_LIMITS, speed, accel };
 }
 
 /** Appends what run `run` does from `fromS` to `toS`. Time 0 is `toS`. */
