@@ -1,6 +1,6 @@
 /** The plotter that the server stores: a plotter driver with an id, a name and a machine. */
 import { PlotwrightError } from "../../src/index.js";
-import { findMachine, machineOf, driverOf } from "../../src/internal.js";
+import { findMachine, machineOf, controllerOf } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -74,7 +74,7 @@ export async function openPlotter(choice: DeviceChoice, settings: PlotSettings):
   const { connection, message } = plotter.snapshot();
   if (connection === "idle") return plotter;
   await plotter.close();
-  if (connection === "absent" && device === "auto" && driverOf(machineOf(settings)).usbIds.length > 0) {
+  if (connection === "absent" && device === "auto" && controllerOf(machineOf(settings)).usbIds.length > 0) {
     throw new PlotwrightError(
       "no-board",
       "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",
