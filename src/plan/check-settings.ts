@@ -2,10 +2,12 @@
  * Rejects motion and pen settings that are outside the ranges of the settings tables or contradict each
  * other.
  */
+import { checkNames } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import {
   AXIS_TABLE,
+  DEFAULT_MOTION,
   DRAW_TABLE,
   EASE_TABLE,
   FIT_TABLE,
@@ -17,6 +19,7 @@ import {
   type MotionSettings,
 } from "../settings/motion.js";
 import {
+  DEFAULT_PEN,
   DROP_RATE,
   LAYER_WAIT,
   LIFT_RATE,
@@ -36,6 +39,7 @@ export function checkSettings(
   pen: PenSettings,
   machine: MachineProfile | undefined,
 ): void {
+  checkSettingNames(motion, pen);
   if (!MOTION_MODES.includes(motion.mode)) {
     throw bad(`motion mode is "${String(motion.mode)}": choose one of ${MOTION_MODES.join(", ")}`);
   }
@@ -59,6 +63,27 @@ export function checkSettings(
   }
 }
 
+const PEN_NAMES = [...Object.keys(DEFAULT_PEN), "liftPctPerS", "dropPctPerS", "layers"];
+const MOTION_NAMES = [
+  ...Object.keys(DEFAULT_MOTION),
+  ...Object.keys(AXIS_TABLE),
+  "ease",
+  "motorAccelStepsPerS2",
+  "layers",
+];
+
+/** @throws PlotwrightError "bad-setting" for settings that are not there, or that have other names */
+export function checkSettingNames(motion: MotionSettings, pen: PenSettings): void {
+  checkNames("motion", motion, MOTION_NAMES);
+  for (const name of ["mode", "draw", "travel"] as const) {
+    if ((motion[name] as unknown) !== undefined) continue;
+    throw bad(`motion ${name} is missing: begin with { ...DEFAULT_MOTION } and change what differs`);
+  }
+  checkNames("draw", motion.draw, Object.keys(DRAW_TABLE));
+  checkNames("travel", motion.travel, Object.keys(TRAVEL_TABLE));
+  checkNames("pen", pen, PEN_NAMES);
+}
+
 function checkShaper({ shaper = "none", mode }: MotionSettings, machine: MachineProfile | undefined): void {
   if (!SHAPERS.includes(shaper)) {
     throw bad(`shaper is "${String(shaper)}": choose one of ${SHAPERS.join(", ")}`);
@@ -78,7 +103,8 @@ function checkShaper({ shaper = "none", mode }: MotionSettings, machine: Machine
   }
 }
 
-function checkPen(name: string, pen: PenSettings): void {
+/** @throws PlotwrightError "bad-setting" */
+export function checkPen(name: string, pen: PenSettings): void {
   checkNumbers(name, PEN_TABLE, pen);
   if (pen.upPct <= pen.downPct) {
     throw bad(
@@ -112,7 +138,8 @@ function check(name: string, row: NumberSetting, value: number): void {
   // The planner has no upper limit for speeds and lengths; percentages and waits have one.
   const range = row.minExcluded ? { ...row, max: Infinity } : row;
   if (isAllowed(range, value)) return;
-  throw bad(`${name} ${row.label.toLowerCase()} is ${value} ${row.unit}: it must be ${rangeInWords(range)}`);
+  const is = typeof value === "number" ? `${value} ${row.unit}` : (JSON.stringify(value) ?? "missing");
+  throw bad(`${name} ${row.label.toLowerCase()} is ${is}: it must be ${rangeInWords(range)}`);
 }
 
 const bad = (message: string): PlotwrightError => new PlotwrightError("bad-setting", message);
