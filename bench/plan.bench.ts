@@ -17,13 +17,14 @@ import {
   DEFAULT_PEN,
   DEFAULT_PREPARE,
   importSvg,
+  machineById,
   plan,
   prepare,
   type MotionSettings,
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
-import { DEFAULT_FIT, MOTION_MODES } from "../src/internal.js";
+import { DEFAULT_FIT, MOTION_MODES, motionOfQuality, type Shaper } from "../src/internal.js";
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 
@@ -72,9 +73,14 @@ export default function planBench(report: Report): void {
     }),
   ]);
   report("Growth with the number of segments, blend", growth());
+  report("Shaped (quality fast, 15 and 25 Hz) against the same limits unshaped, warm", shaped());
 }
 
 const SAMPLES = path.join(import.meta.dirname, "..", "samples");
+
+const sampleStrokes = (file: string): StrokeSet =>
+  prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), DEFAULT_PREPARE).strokes;
+
 /** Number of warm-up rounds, and of timed rounds. */
 const WARM_UP = 30;
 const SAMPLE_ROUNDS = 31;
@@ -85,7 +91,7 @@ const POINTS_A_ROUND = 15_000;
 function samples(): Record<string, string | number>[] {
   const files = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
   return files.map((file) => {
-    const { strokes } = prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), DEFAULT_PREPARE);
+    const strokes = sampleStrokes(file);
     const repeats = Math.ceil((2 * POINTS_A_ROUND) / strokes.xy.length);
     const planned = (fit: MotionSettings["fit"]) => plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
     const timed = (fit: MotionSettings["fit"]): number =>
@@ -131,6 +137,51 @@ function growth(): Record<string, string | number>[] {
     "ns/segment": Math.round((1e6 * times[i]!) / most),
   }));
 }
+
+const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
+/** Rounds of shaped and unshaped planning in turns; the first ones are not counted. */
+const SHAPED_ROUNDS = 9;
+const SHAPED_WARM_UP = 3;
+
+/** Medians of processor ms and of the rounds' ratios; bytes of a plan and the planned motion in it. */
+function shaped(): Record<string, string | number>[] {
+  const lines = [100_000, 1_000_000].map(
+    (segments) => [`${segments} segments, lines of 1000`, scribble(segments, segments / 1000)] as const,
+  );
+  const files = readdirSync(SAMPLES)
+    .filter((name) => name.endsWith(".svg"))
+    .map((file) => [file, sampleStrokes(file)] as const);
+  return [...lines, ...files].map(([what, strokes]) => {
+    const motion = { ...DEFAULT_MOTION, ...motionOfQuality("fast", SPRINGS) };
+    const machine = { ...machineById("axidraw-v3"), springs: SPRINGS };
+    const repeats = Math.ceil(POINTS_A_ROUND / (strokes.xy.length / 2));
+    let t: Trajectory | null = null;
+    const timed = (shaper: Shaper): number =>
+      processorMs(() => {
+        for (let i = 0; i < repeats; i++) {
+          t = plan(strokes, { ...motion, shaper }, DEFAULT_PEN, { machine });
+        }
+      }) / repeats;
+    const rounds = Array.from({ length: SHAPED_WARM_UP + SHAPED_ROUNDS }, () => {
+      const plainMs = timed("none");
+      const bytes = planBytes(t!);
+      const shapedMs = timed(motion.shaper ?? "none");
+      return { plainMs, shapedMs, ratio: shapedMs / plainMs, bytes, shapedBytes: planBytes(t!) };
+    }).slice(SHAPED_WARM_UP);
+    const strokeCount = strokes.offsets.length - 1;
+    return {
+      what,
+      strokes: strokeCount,
+      "plain, ms": Number(median(rounds.map(({ plainMs }) => plainMs)).toFixed(2)),
+      "shaped, ms": Number(median(rounds.map(({ shapedMs }) => shapedMs)).toFixed(2)),
+      ratio: Number(median(rounds.map(({ ratio }) => ratio)).toFixed(2)),
+      "plain bytes/stroke": Math.round(rounds[0]!.bytes / strokeCount),
+      "shaped bytes/stroke": Math.round(rounds[0]!.shapedBytes / strokeCount),
+    };
+  });
+}
+
+const planBytes = (t: Trajectory): number => bytesOf(t) + (t.planned ? bytesOf(t.planned.trajectory) : 0);
 
 function bytesOf(t: Trajectory): number {
   const columns = [t.durationS, t.x, t.y, t.vx, t.vy, t.ax, t.ay, t.startS, t.alongMm, t.jx, t.jy];

@@ -1,6 +1,6 @@
 /**
- * npm run compare:shaping: what keeps the swinging of a machine out of the line, and what a step of quality is worth.
- * Prints the tables of docs/motion.md. All samples; time without pen waits and the simulated pen's distance from the
+ * npm run compare:shaping [rules|shapers|steps]: what keeps the swinging of a machine out of the line, and what a step of quality is worth.
+ * Prints the tables of docs/motion.md, and of the corner rules in docs/comparison.md. All samples; time without pen waits and the simulated pen's distance from the
  * drawing, as shares of the default's (A = 500, V = 50, δ = 0.025, not shaped); medians.
  */
 import { readdirSync, readFileSync } from "node:fs";
@@ -17,7 +17,14 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../src/index.js";
-import { motionOfQuality, penError, QUALITIES, SHAPERS, type Springs } from "../src/internal.js";
+import {
+  MOTION_MODES,
+  motionOfQuality,
+  penError,
+  QUALITIES,
+  SHAPERS,
+  type Springs,
+} from "../src/internal.js";
 import { inverseMotion } from "../test/support/inverse-motion.js";
 import { markdownTable } from "./settings-table.js";
 
@@ -88,17 +95,38 @@ const ways: readonly Way[] = [
   ...SHAPERS.map((shaper): Way => ({ name: shaper, motion: { ...fast, shaper } })),
   ...[10_000, 40_000, 160_000].map(inverse),
 ];
-console.log("At the limits of quality fast:\n");
-console.log(markdownTable([HEAD, ...ways.map((way) => rowOf(springs, way))]));
+/** Each corner rule at the limits of quality fast, shaped and not; scurve is a filter itself. */
+const rules: readonly Way[] = [
+  ...MOTION_MODES.map((mode): Way => ({ name: mode, motion: { ...fast, mode, shaper: "none" } })),
+  ...(["junction", "blend"] as const).map((mode): Way => ({
+    name: `${mode}, shaped`,
+    motion: { ...fast, mode },
+  })),
+];
 
-console.log("\nThe steps of quality:\n");
-const steps = SPRINGS.flatMap((one) =>
-  QUALITIES.map((quality) => {
-    const motion = { ...DEFAULT_MOTION, ...motionOfQuality(quality, one) };
-    return rowOf(one, { name: quality, motion });
-  }),
+const steps: readonly (readonly [Springs, Way])[] = SPRINGS.flatMap((one) =>
+  QUALITIES.map((quality): readonly [Springs, Way] => [
+    one,
+    { name: quality, motion: { ...DEFAULT_MOTION, ...motionOfQuality(quality, one) } },
+  ]),
 );
-console.log(markdownTable([HEAD, ...steps]));
+
+const TABLES = {
+  rules: {
+    title: "Corner rules at the limits of quality fast",
+    rows: rules.map((way) => [springs, way] as const),
+  },
+  shapers: {
+    title: "Shapers at the limits of quality fast",
+    rows: ways.map((way) => [springs, way] as const),
+  },
+  steps: { title: "The steps of quality", rows: steps },
+};
+for (const [name, { title, rows }] of Object.entries(TABLES)) {
+  if (process.argv[2] !== undefined && process.argv[2] !== name) continue;
+  console.log(`${title}:\n`);
+  console.log(`${markdownTable([HEAD, ...rows.map(([one, way]) => rowOf(one, way))])}\n`);
+}
 
 function motionS({ durationS, blockCount }: Trajectory): number {
   return durationS.subarray(0, blockCount).reduce((sum, s) => sum + s, 0);

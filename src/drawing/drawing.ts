@@ -48,6 +48,8 @@ export interface DrawingPaths {
   readonly dash: Int32Array;
   /** Index into `Drawing.clips`; −1 if nothing clips it. */
   readonly clip: Int32Array;
+  /** The share of the usual speed at which it is drawn; left out: 1 for all. */
+  readonly speedFactor?: Float64Array | undefined;
 }
 
 /** A layer of the file: a top-level group, or a child of a single outer group. */

@@ -16,6 +16,8 @@ export interface StrokeSet {
   readonly offsets: Uint32Array;
   /** By stroke: index into `layers`. Strokes of a layer are contiguous, layers in order. */
   readonly layer: Uint16Array;
+  /** By stroke: the share of its layer's speed at which it is drawn; left out: 1 for all. */
+  readonly speedFactor?: Float64Array | undefined;
   /** The layers that `layer` refers to. */
   readonly layers: readonly StrokeLayer[];
 }

@@ -11,8 +11,8 @@ import type { SvgOptions } from "./strokes-to-svg.js";
 type Settings = PenSetup & { readonly motion: MotionSettings; readonly pen: PenSettings };
 
 /**
- * A name for each layer of `strokes`: "!" if the plot pauses before it; "+h", "+s" and "+d" if it has its own
- * height, speed or wait. Heights and speeds are whole percents.
+ * A name for each layer of `strokes`: "!" if the plot pauses before it; "+h", "+s", "+v" and "+d" if it has its own
+ * height, speed, share of the speed or wait. Heights and speeds are whole percents.
  */
 export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[] {
   const stops = new Set(penStopsOf(strokes, settings).map(({ strokeIndex }) => strokes.layer[strokeIndex]));
@@ -20,7 +20,7 @@ export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[
   const nameOf = (layer: StrokeLayer, index: number): string => {
     const { number, text } = parseLayerName(layer.name);
     const id = settingsIdOf(layer);
-    const speedMmPerS = motion.layers?.[id]?.speedMmPerS;
+    const { speedMmPerS, speedFactor } = motion.layers?.[id] ?? {};
     const { downPct, beforeMs = 0 } = pen.layers?.[id] ?? {};
     return formatLayerName({
       skip: false,
@@ -28,6 +28,7 @@ export function codedLayerNames(strokes: StrokeSet, settings: Settings): string[
       number,
       penDownPct: downPct === undefined ? null : Math.round(downPct),
       drawSpeedPct: speedMmPerS === undefined ? null : codeOfSpeed(speedMmPerS),
+      speedSharePct: speedFactor === undefined ? null : Math.max(1, Math.round(100 * speedFactor)),
       delayMs: beforeMs >= 1 && layer.partOf === undefined ? Math.round(beforeMs) : null,
       text,
     });

@@ -14,6 +14,8 @@ export interface StrokesJson {
     readonly color: string | null;
     /** Each stroke as x, y, x, y … mm; two numbers are a dot. */
     readonly strokesMm: readonly (readonly number[])[];
+    /** By stroke: the share of the usual speed at which it is drawn; left out: 1 for all. */
+    readonly speedFactors?: readonly number[];
   }[];
 }
 
@@ -25,10 +27,12 @@ export function toJson(strokes: StrokeSet, paper: { widthMm: number; heightMm: n
     name,
     color,
     strokesMm: [] as number[][],
+    ...(strokes.speedFactor ? { speedFactors: [] as number[] } : {}),
   }));
   for (let i = 0; i < strokeCount(strokes); i++) {
     const points = xy.subarray(2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
     layers[strokes.layer[i]].strokesMm.push(Array.from(points, (v) => Math.round(v * 1000) / 1000));
+    if (strokes.speedFactor) layers[strokes.layer[i]].speedFactors?.push(strokes.speedFactor[i]);
   }
   return {
     format: "plotwright-strokes",

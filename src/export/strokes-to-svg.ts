@@ -41,7 +41,9 @@ export function toSvg(strokes: StrokeSet, options: SvgOptions): string {
     const layer = strokes.layer[i];
     parts.push(layerOpening(strokes, layer, options));
     for (next = i; next < count && strokes.layer[next] === layer; next++) {
-      parts.push(`<path d="${pathData(xy, strokes.offsets[next], strokes.offsets[next + 1])}"/>\n`);
+      const factor = strokes.speedFactor?.[next] ?? 1;
+      const speed = factor === 1 ? "" : ` data-plotwright-speed="${factor}"`;
+      parts.push(`<path${speed} d="${pathData(xy, strokes.offsets[next], strokes.offsets[next + 1])}"/>\n`);
     }
     parts.push("</g>\n");
   }

@@ -36,6 +36,8 @@ export interface Look {
   readonly evenOdd: boolean;
   readonly strokeWidth: number;
   readonly dash: DashPattern | null;
+  /** Left out: 1. */
+  readonly speedFactor?: number;
 }
 
 export class DrawingBuilder {
@@ -57,6 +59,8 @@ export class DrawingBuilder {
   private readonly strokeWidth = new ColumnBuffer(Float32Array);
   private readonly dash = new ColumnBuffer(Int32Array);
   private readonly clip = new ColumnBuffer(Int32Array);
+  /** Of the shapes that are drawn slower. */
+  private readonly speedFactors = new Map<number, number>();
   /**
    * How much of the file has been drawn, 0 … 1. Coordinates are most of a large drawing, so memory for the
    * likely total is reserved at once: growing step by step would hold them twice.
@@ -111,6 +115,8 @@ export class DrawingBuilder {
     coords.length += shape.coords.length;
     for (let i = 0; i < shape.verbs.length; i++) verbs.push(shape.verbs.data[i]);
     if (look !== this.look) this.takeLook(look);
+    const { speedFactor = 1 } = look;
+    if (speedFactor !== 1) this.speedFactors.set(this.shapeCount, speedFactor);
     this.verbOffsets.push(verbs.length);
     this.coordOffsets.push(coords.length);
     this.group.push(group);
@@ -180,9 +186,16 @@ export class DrawingBuilder {
         strokeWidth: this.strokeWidth.view(),
         dash: this.dash.view(),
         clip: this.clip.view(),
+        ...(this.speedFactors.size === 0 ? {} : { speedFactor: this.speedFactorsOf(count) }),
       },
       warnings: this.warnings.toArray(),
     };
+  }
+
+  private speedFactorsOf(count: number): Float64Array {
+    const factors = new Float64Array(count).fill(1);
+    for (const [shape, factor] of this.speedFactors) factors[shape] = factor;
+    return factors;
   }
 
   private reserveCoords(count: number): void {

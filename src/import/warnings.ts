@@ -49,6 +49,8 @@ const WORDS = {
     `${many(n, "path has", "paths have")} an error and ${n === 1 ? "is" : "are"} drawn only up to it${details}. Check ${n === 1 ? "it" : "them"} in your drawing program.`,
   "attribute-fault": (n: number, details: string) =>
     `${many(n, "attribute is", "attributes are")} malformed and ignored${details}.`,
+  "speed-factor": (n: number, details: string) =>
+    `${many(n, "speed is", "speeds are")} ignored${details}. Give a number from 0.01 to 1: 0.5 is half the usual speed.`,
   "coordinates-out-of-range": (n: number, details: string) =>
     `${many(n, "shape has", "shapes have")} coordinates beyond a kilometre and ${n === 1 ? "is" : "are"} left out${details}.`,
   "single-point": (n: number) =>

@@ -58,8 +58,9 @@ export function planJob(
 /** The first `count` strokes; they keep their indices. */
 function firstStrokes(strokes: StrokeSet, count: number | null): StrokeSet {
   if (count === null) return strokes;
-  const { xy, offsets, layer, layers } = strokes;
+  const { xy, offsets, layer, layers, speedFactor } = strokes;
   return {
+    ...(speedFactor && { speedFactor: speedFactor.subarray(0, count) }),
     xy: xy.subarray(0, 2 * (offsets[count] ?? 0)),
     offsets: offsets.subarray(0, count + 1),
     layer: layer.subarray(0, count),

@@ -89,6 +89,12 @@ export class BlockColumns {
     this.jy[this.count - 1] = jy;
   }
 
+  /** Moves the blocks from `first` on in time. */
+  shift(first: number, byS: number): void {
+    for (let k = first; k < this.count; k++) this.startS[k] += byS;
+    this.clockS += byS;
+  }
+
   /** Removes all blocks; the arrays stay allocated. */
   clear(): void {
     this.count = 0;

@@ -6,6 +6,7 @@ import { checkNames } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import {
+  AXIS_TABLE,
   DEFAULT_MOTION,
   DRAW_TABLE,
   EASE_TABLE,
@@ -13,6 +14,7 @@ import {
   MOTION_MODES,
   MOTOR_ACCEL,
   SHAPERS,
+  SPEED_FACTOR,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -44,12 +46,16 @@ export function checkSettings(
   checkShaper(motion, machine);
   checkNumbers("draw", DRAW_TABLE, motion.draw);
   checkNumbers("travel", TRAVEL_TABLE, motion.travel);
-  for (const layer of Object.keys(motion.layers ?? {})) {
+  for (const [layer, own] of Object.entries(motion.layers ?? {})) {
+    checkNumber(`layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
     checkNumbers(`layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
   }
   if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);
   if (motion.ease) checkNumbers("slow-in", EASE_TABLE, motion.ease);
   checkNumber("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
+  for (const key of Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[]) {
+    checkNumber("the", AXIS_TABLE[key], motion[key]);
+  }
   checkPen("pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
@@ -58,7 +64,13 @@ export function checkSettings(
 }
 
 const PEN_NAMES = [...Object.keys(DEFAULT_PEN), "liftPctPerS", "dropPctPerS", "layers"];
-const MOTION_NAMES = [...Object.keys(DEFAULT_MOTION), "ease", "motorAccelStepsPerS2", "layers"];
+const MOTION_NAMES = [
+  ...Object.keys(DEFAULT_MOTION),
+  ...Object.keys(AXIS_TABLE),
+  "ease",
+  "motorAccelStepsPerS2",
+  "layers",
+];
 
 /** @throws PlotwrightError "bad-setting" for settings that are not there, or that have other names */
 export function checkSettingNames(motion: MotionSettings, pen: PenSettings): void {

@@ -4,6 +4,7 @@
  *
  *   +h40   pen-down height 40 %            ignored unless it is below the up height
  *   +s25   pen-down speed, percent         on the AxiDraw scale: 110 is 8.6979 inches per second
+ *   +v50   half the speed                  of the layer, or of all layers
  *   +d500  wait 500 ms before the layer
  *
  * Scale of +s: speed_lim_xy_hr and its use in AxiDraw's axidraw_conf.py and axidraw.py.
@@ -34,8 +35,14 @@ export function withLayerCodes<S extends { readonly motion: MotionSettings; read
   for (const layer of layers) {
     const codes = parseLayerName(layer.name);
     const id = settingsIdOf(layer);
-    const speedMmPerS = codes.drawSpeedPct === null ? undefined : speedOfCode(codes.drawSpeedPct);
-    if (speedMmPerS !== undefined) motionLayers[id] = { speedMmPerS, ...settings.motion.layers?.[id] };
+    const { drawSpeedPct, speedSharePct } = codes;
+    if (drawSpeedPct !== null || speedSharePct !== null) {
+      motionLayers[id] = {
+        ...(drawSpeedPct === null ? {} : { speedMmPerS: speedOfCode(drawSpeedPct) }),
+        ...(speedSharePct === null ? {} : { speedFactor: speedSharePct / 100 }),
+        ...settings.motion.layers?.[id],
+      };
+    }
     const pen = penOfCodes(settings.pen, id, codes);
     if (pen !== null) penLayers[id] = { ...pen, ...settings.pen.layers?.[id] };
   }

@@ -15,7 +15,7 @@
  * blocks; on curved ones the error is a fraction of a micrometre.
  */
 import { BlockColumns } from "./block-columns.js";
-import type { Kernel } from "./filter.js";
+import type { Kernel } from "./impulse-filter.js";
 import { isPenUpBefore, liftedTo, penMoveColumns } from "./pen-moves.js";
 import { liftTiming } from "./pen-times.js";
 import type { PenSettings } from "../settings/pen.js";

@@ -11,12 +11,36 @@ export interface RunLimits {
   readonly jerk: number;
   /** δ, mm. */
   readonly corner: number;
+  /** Max speed along x and along y, mm/s. */
+  readonly speedX: number;
+  readonly speedY: number;
+  /**
+   * The frame in which runs are planned is stretched by these: there |a| ≤ `accel` is the limit of both axes. 1
+   * unless an axis has a limit of its own (axis-frame.ts). `speed`, `speedX`, `speedY` and `motorSpeed` are the
+   * machine's.
+   */
+  readonly stretchX: number;
+  readonly stretchY: number;
   /** Max speed of one motor, mm/s along its own axis. */
   readonly motorSpeed: number;
   readonly mixed: boolean;
   /** mm/s, on the parts of the path that are marked for easing. */
   readonly easeSpeed: number;
 }
+
+export const NO_LIMITS: RunLimits = {
+  speed: Infinity,
+  accel: Infinity,
+  jerk: Infinity,
+  corner: Infinity,
+  speedX: Infinity,
+  speedY: Infinity,
+  stretchX: 1,
+  stretchY: 1,
+  motorSpeed: Infinity,
+  mixed: false,
+  easeSpeed: Infinity,
+};
 
 /** Merged blocks may exceed their limits by this factor. */
 export const SLACK = 1.0009;
@@ -38,9 +62,17 @@ export function runLimits(
   const mixed = machine?.motors === "mixed";
   const perMotor = !mixed ? 1 : (motion.shaper ?? "none") === "none" ? Math.SQRT2 : 2;
   const motorAccel = machine && motorAccelStepsPerS2 ? motorAccelStepsPerS2 / machine.stepsPerMm : Infinity;
+  const whole = Math.min(limits.accelMmPerS2, motorAccel / perMotor);
+  const accelX = Math.min(whole, motion.accelXMmPerS2 ?? Infinity);
+  const accelY = Math.min(whole, motion.accelYMmPerS2 ?? Infinity);
+  const accel = Math.max(accelX, accelY);
   return {
     speed: limits.speedMmPerS,
-    accel: Math.min(limits.accelMmPerS2, motorAccel / perMotor),
+    accel,
+    speedX: motion.speedXMmPerS ?? Infinity,
+    speedY: motion.speedYMmPerS ?? Infinity,
+    stretchX: accel / accelX,
+    stretchY: accel / accelY,
     jerk: limits.jerkMmPerS3,
     corner: limits.cornerMm,
     motorSpeed: machine ? (STEP_RATE_SHARE * TICKS_PER_S) / machine.stepsPerMm : Infinity,
@@ -48,6 +80,10 @@ export function runLimits(
     easeSpeed: ease ? ease.speedMmPerS : Infinity,
   };
 }
+
+/** For a stroke that is drawn at a share of its layer's speed. */
+export const slower = (limits: RunLimits, factor: number): RunLimits =>
+  factor === 1 ? limits : { ...limits, speed: limits.speed * factor };
 
 /**
  * The limits for planning a line that is then shaped. Its shaped motion keeps V in each axis, so on a mixed machine a
@@ -63,7 +99,7 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
   const own: LayerMotion = motion.layers?.[layerId] ?? {};
   const { draw } = motion;
   return {
-    speedMmPerS: own.speedMmPerS ?? draw.speedMmPerS,
+    speedMmPerS: (own.speedMmPerS ?? draw.speedMmPerS) * (own.speedFactor ?? 1),
     accelMmPerS2: own.accelMmPerS2 ?? draw.accelMmPerS2,
     cornerMm: own.cornerMm ?? draw.cornerMm,
     jerkMmPerS3: own.jerkMmPerS3 ?? draw.jerkMmPerS3,
@@ -71,36 +107,57 @@ export function drawLimitsOf(motion: MotionSettings, layerId: string): MotionLim
 }
 
 /**
- * Whether the motors can reach V in every direction. In the worst direction a motor runs at √2 (mixed) or 1
- * (direct) times the carriage's speed.
+ * Acceleration that is allowed in every direction, mm/s²: for a stop, which brakes along the path.
+ *
+ * @param accel that of the whole motion
  */
-export const isWithinMotors = ({ speed, motorSpeed, mixed }: RunLimits): boolean =>
-  speed <= motorSpeed / (mixed ? Math.SQRT2 : 1);
+export const accelEverywhere = (motion: MotionSettings, accel: number): number =>
+  Math.min(accel, motion.accelXMmPerS2 ?? Infinity, motion.accelYMmPerS2 ?? Infinity);
 
-/** Whether the motors can reach (vx, vy), with the slack of a merged block. */
-export function canStep({ motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
-  const ax = Math.abs(vx);
-  const ay = Math.abs(vy);
-  return (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK;
-}
+export const isStretched = ({ stretchX, stretchY }: RunLimits): boolean => stretchX !== 1 || stretchY !== 1;
 
 /**
- * Fills `path.cap2` with the max speed² of each segment: V, the easing speed, and the motors' limit in its
- * direction.
+ * Whether V holds in every direction: the frame is not stretched, no axis is slower, and no motor. In the worst
+ * direction a motor runs at √2 (mixed) or 1 (direct) times the carriage's speed.
+ */
+const isSameEverywhere = (limits: RunLimits): boolean =>
+  !isStretched(limits) &&
+  limits.speed <= Math.min(limits.speedX, limits.speedY) &&
+  limits.speed <= limits.motorSpeed / (limits.mixed ? Math.SQRT2 : 1);
+
+/** Whether each axis and the motors can reach (vx, vy) of the machine, with the slack of a merged block. */
+export function canReach({ speedX, speedY, motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
+  const ax = Math.abs(vx);
+  const ay = Math.abs(vy);
+  return (
+    (mixed ? ax + ay : Math.max(ax, ay)) <= motorSpeed * SLACK && ax <= speedX * SLACK && ay <= speedY * SLACK
+  );
+}
+
+/** mm of the machine for each mm of the planning frame, in direction (ux, uy) of that frame. */
+export const mmPerFrameMm = ({ stretchX, stretchY }: RunLimits, ux: number, uy: number): number =>
+  stretchX === 1 && stretchY === 1 ? 1 : Math.hypot(ux / stretchX, uy / stretchY);
+
+/**
+ * Fills `path.cap2` with the max speed² of each segment: V, the easing speed, and the limits of axes and
+ * motors in its direction.
  */
 export function capSegments(path: RunPath, limits: RunLimits): void {
   const { segmentCount: n, cap2, ux, uy } = path;
+  const { speedX, speedY, stretchX, stretchY } = limits;
   const max2 = limits.speed * limits.speed;
   cap2.fill(max2, 0, n);
   if (limits.easeSpeed < limits.speed) {
     cap2.fill(limits.easeSpeed ** 2, 0, Math.min(path.easeUntil, n));
     if (path.easeFrom < n) cap2.fill(limits.easeSpeed ** 2, path.easeFrom, n);
   }
-  if (isWithinMotors(limits)) return;
+  if (isSameEverywhere(limits)) return;
   for (let i = 0; i < n; i++) {
-    const ax = Math.abs(ux[i]);
-    const ay = Math.abs(uy[i]);
+    const ax = Math.abs(ux[i]) / stretchX;
+    const ay = Math.abs(uy[i]) / stretchY;
+    cap2[i] /= mmPerFrameMm(limits, ux[i], uy[i]) ** 2;
     const motor = limits.motorSpeed / (limits.mixed ? ax + ay : Math.max(ax, ay));
-    if (motor * motor < cap2[i]) cap2[i] = motor * motor;
+    const max = Math.min(motor, speedX / ax, speedY / ay);
+    if (max * max < cap2[i]) cap2[i] = max * max;
   }
 }

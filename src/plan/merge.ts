@@ -22,7 +22,7 @@
  * curves.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { canStep, SLACK, type RunLimits } from "./limits.js";
+import { canReach, SLACK, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 
 /** A pair may take longer than its blocks by this share. */
@@ -54,14 +54,33 @@ export interface MergeRules {
 }
 
 /**
+ * For the blocks of a shaped motion: a jolt of the size of the tolerance swings too, unless it is too short for
+ * the gantry to follow. The floor is above the 5 ms that a command may take the board.
+ */
+export const SHAPED_RULES: MergeRules = {
+  toleranceMm: 0.005,
+  shortToleranceMm: 0.02,
+  floorS: 0.006,
+  isSmooth: false,
+  isShaped: true,
+};
+
+/**
  * Two blocks of `halfS` seconds each, with velocity (wx, wy) between them. They replace the blocks before
  * `end`.
  */
-interface Pair {
-  readonly end: number;
-  readonly halfS: number;
-  readonly wx: number;
-  readonly wy: number;
+class Pair {
+  end = 0;
+  halfS = 0;
+  wx = 0;
+  wy = 0;
+
+  copy({ end, halfS, wx, wy }: Pair): void {
+    this.end = end;
+    this.halfS = halfS;
+    this.wx = wx;
+    this.wy = wy;
+  }
 }
 
 /** Merges the blocks of one run, from `first` to the last one, in place. The run ends at rest at `at`. */
@@ -77,18 +96,19 @@ export function mergeBlocks(
   blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
   blocks.count = first;
   blocks.clockS = blocks.startS[first]!;
+  const pair = new Pair();
+  const trial = new Pair();
   let size = FIRST_GROUP;
   let i = first;
   while (i < last) {
-    const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
-    if (pair === null) {
-      blocks.pushFrom(blocks, i);
-      size = Math.max(MIN_GROUP, size >> 1);
-      i += 1;
-    } else {
+    if (findLongest(blocks, i, Math.min(i + size, last), last, limits, rules, pair, trial)) {
       writePair(blocks, i, pair);
       size = pair.end - i;
       i = pair.end;
+    } else {
+      blocks.pushFrom(blocks, i);
+      size = Math.max(MIN_GROUP, size >> 1);
+      i += 1;
     }
   }
 }
@@ -97,62 +117,66 @@ export function mergeBlocks(
 const MIN_GROUP = 3;
 
 /**
- * The longest pair starting at block i that is found by growing or shrinking from `guess`; null if there is
- * none.
+ * Sets `pair` to the longest one starting at block i that is found by growing or shrinking from `guess`; false
+ * if there is none. `trial` is for use here.
  */
-function longestPair(
+function findLongest(
   blocks: BlockColumns,
   i: number,
   guess: number,
   last: number,
   limits: RunLimits,
   rules: MergeRules,
-): Pair | null {
+  pair: Pair,
+  trial: Pair,
+): boolean {
   let end = guess;
-  let longest = pairOver(blocks, i, end, limits, rules);
-  while (longest === null && end > i + 2) {
+  let isFound = isPair(blocks, i, end, limits, rules, pair);
+  while (!isFound && end > i + 2) {
     end = i + Math.floor((end - i) / GROWTH);
-    longest = pairOver(blocks, i, end, limits, rules);
+    isFound = isPair(blocks, i, end, limits, rules, pair);
   }
-  if (end < guess) return longest;
-  while (longest !== null && longest.end < last) {
-    end = Math.min(i + Math.ceil(GROWTH * (longest.end - i)), last);
-    const longer = pairOver(blocks, i, end, limits, rules);
-    if (longer === null) break;
-    longest = longer;
+  if (end < guess) return isFound;
+  while (isFound && pair.end < last) {
+    end = Math.min(i + Math.ceil(GROWTH * (pair.end - i)), last);
+    if (!isPair(blocks, i, end, limits, rules, trial)) break;
+    pair.copy(trial);
   }
-  return longest;
+  return isFound;
 }
 
-/** The pair that replaces blocks [i, m); null if it saves nothing or breaks a limit. */
-function pairOver(
+/** Sets `pair` to the one that replaces blocks [i, m); false if it saves nothing or breaks a limit. */
+function isPair(
   blocks: BlockColumns,
   i: number,
   m: number,
   limits: RunLimits,
   rules: MergeRules,
-): Pair | null {
-  if (!isWorth(blocks, i, m, rules.floorS)) return null;
+  pair: Pair,
+): boolean {
+  if (!isWorth(blocks, i, m, rules.floorS)) return false;
   const plannedS = blocks.startS[m] - blocks.startS[i];
-  const pair =
-    pairIn(plannedS, blocks, i, m, limits, rules) ??
-    (rules.isShaped ? null : pairIn(plannedS * (1 + STRETCH), blocks, i, m, limits, rules));
-  return pair !== null && isNear(blocks, i, pair, limits, rules) ? pair : null;
+  const isWithin =
+    isWithinLimits(plannedS, blocks, i, m, limits, rules, pair) ||
+    (!rules.isShaped && isWithinLimits(plannedS * (1 + STRETCH), blocks, i, m, limits, rules, pair));
+  return isWithin && isNear(blocks, i, pair, limits, rules);
 }
 
 /**
- * The pair that takes `wholeS` seconds. Null if V, A or a motor limit is broken, or if a half reverses
- * direction (the position along the drawing is interpolated by speed).
+ * Sets `pair` to the one that takes `wholeS` seconds. False if V, A or a motor limit is broken, or if a half
+ * reverses direction (the position along the drawing is interpolated by speed).
  */
-function pairIn(
+function isWithinLimits(
   wholeS: number,
   blocks: BlockColumns,
   i: number,
   m: number,
   limits: RunLimits,
   { isShaped }: MergeRules,
-): Pair | null {
+  pair: Pair,
+): boolean {
   const { x, y, vx, vy } = blocks;
+  const { stretchX, stretchY } = limits;
   const vx0 = vx[i];
   const vy0 = vy[i];
   const vx1 = vx[m];
@@ -161,22 +185,22 @@ function pairIn(
   const wy = (2 * (y[m] - y[i])) / wholeS - (vy0 + vy1) / 2;
   const halfS = wholeS / 2;
   const maxChange = limits.accel * SLACK * halfS;
-  const isShorter = isShaped ? areShorter : isVectorShorter;
-  const isWithin =
-    isShorter(wx - vx0, wy - vy0, maxChange) &&
-    isShorter(vx1 - wx, vy1 - wy, maxChange) &&
-    isShorter(wx, wy, limits.speed * SLACK) &&
+  pair.end = m;
+  pair.halfS = halfS;
+  pair.wx = wx;
+  pair.wy = wy;
+  return (
+    isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
+    isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
+    isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
     vx0 * wx + vy0 * wy >= 0 &&
     wx * vx1 + wy * vy1 >= 0 &&
-    canStep(limits, wx, wy);
-  return isWithin ? { end: m, halfS, wx, wy } : null;
+    canReach(limits, wx / stretchX, wy / stretchY)
+  );
 }
 
-const isVectorShorter = (x: number, y: number, maxLength: number): boolean =>
-  x * x + y * y <= maxLength * maxLength;
-
-const areShorter = (x: number, y: number, maxLength: number): boolean =>
-  Math.abs(x) <= maxLength && Math.abs(y) <= maxLength;
+const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean): boolean =>
+  inEachAxis ? Math.abs(x) <= maxLength && Math.abs(y) <= maxLength : x * x + y * y <= maxLength * maxLength;
 
 /**
  * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.

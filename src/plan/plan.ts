@@ -18,8 +18,8 @@ import {
 import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
-import type { Kernel } from "./filter.js";
-import { drawLimitsOf, runLimits, type RunLimits } from "./limits.js";
+import type { Kernel } from "./impulse-filter.js";
+import { drawLimitsOf, runLimits, slower, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
 import { dropTiming, liftTiming, penOfLayer } from "./pen-times.js";
@@ -210,7 +210,8 @@ class PlanBuilder {
     this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
-    this.writer.write(path, this.drawLimits[layer], this.blocks, this.planned);
+    const limits = slower(this.drawLimits[layer], strokes.speedFactor?.[stroke] ?? 1);
+    this.writer.write(path, limits, this.blocks, this.planned);
     this.x = path.x[path.segmentCount]!;
     this.y = path.y[path.segmentCount]!;
   }

@@ -12,17 +12,16 @@
  * drawings 3/4 takes the least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A'
  * to A, and the mode becomes `blend`.
  */
-import { boxKernel, type Kernel } from "./filter.js";
-import { capSegments, type RunLimits } from "./limits.js";
+import { capSegments, mmPerFrameMm, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 
 /** Share of δ for the box. */
 const BOX_SHARE = 3 / 4;
 
-/** The limits for planning the blocks of constant acceleration, and the filter for them. */
+/** The limits for planning the blocks of constant acceleration, and the width of the box that filters them, s. */
 export interface FilteredPlan {
   readonly limits: RunLimits;
-  readonly kernel: Kernel;
+  readonly widthS: number;
 }
 
 export function filteredPlan(path: RunPath, limits: RunLimits): FilteredPlan {
@@ -35,11 +34,11 @@ function forLine(limits: RunLimits): FilteredPlan {
   const width = (2 * accel) / jerk;
   return {
     limits: { ...limits, accel, corner: corner - (accel * width * width) / 24 },
-    kernel: boxKernel(width),
+    widthS: width,
   };
 }
 
-/** Kernel length in s, acceleration and speed of the fastest profile of a straight under |j| ≤ J. */
+/** Width of the box in s, acceleration and speed of the fastest profile of a straight under |j| ≤ J. */
 interface StraightProfile {
   readonly width: number;
   readonly accel: number;
@@ -61,7 +60,8 @@ function straightProfile(length: number, top: number, { accel: maxAccel, jerk }:
 function forStraight(path: RunPath, limits: RunLimits): FilteredPlan {
   capSegments(path, limits);
   const { width, accel, speed } = straightProfile(path.length[0], Math.sqrt(path.cap2[0]), limits);
-  return { limits: { ...limits, accel, speed }, kernel: boxKernel(width) };
+  const mm = mmPerFrameMm(limits, path.ux[0], path.uy[0]);
+  return { limits: { ...limits, accel, speed: speed * mm }, widthS: width };
 }
 
 /**

@@ -6,7 +6,9 @@
  *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
  */
 import { BlockColumns } from "./block-columns.js";
-import { writeFiltered, type Kernel } from "./filter.js";
+import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
+import { NO_LIMITS, type RunLimits } from "./limits.js";
+import { mergeBlocks, SHAPED_RULES } from "./merge.js";
 import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
@@ -42,14 +44,12 @@ export function shapeRest(
   const whole = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);
   if (recent.count === 0) return { planned: recent, shaped };
-  whole.clockS = recent.startS[0];
-  const blocks = recent.count;
-  writeFiltered(recent, { ...end, segmentCount: 0 }, kernel, whole);
-  // Without the rests that the filter adds.
-  recent.count = blocks;
+  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, whole);
   const exact = new BlockColumns(0, false);
-  addAfter(whole, exact);
+  addAfter(whole, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
+  const at = { x: end.x, y: end.y, alongMm: end.alongMm, segmentCount: 0 };
+  if (shaped.count > 0) mergeBlocks(shaped, 0, at, limitsOf(shaped), SHAPED_RULES);
   return { planned: recent, shaped };
 }
 
@@ -80,6 +80,17 @@ function joinFrom(
   for (; k < exact.count; k++) out.pushFrom(exact, k);
 }
 
+/** Merged blocks stay within what the blocks need. */
+function limitsOf({ count, vx, vy, ax, ay }: BlockColumns): RunLimits {
+  let speed = 0;
+  let accel = 0;
+  for (let k = 0; k < count; k++) {
+    speed = Math.max(speed, Math.abs(vx[k]), Math.abs(vy[k]));
+    accel = Math.max(accel, Math.abs(ax[k]), Math.abs(ay[k]));
+  }
+  return { ...NO_LIMITS, speed, accel };
+}
+
 /** Appends what run `run` does from `fromS` to `toS`. Time 0 is `toS`. */
 function addWindow(planned: Trajectory, run: number, fromS: number, toS: number, out: BlockColumns): void {
   const { runs, startS, durationS } = planned;
@@ -94,10 +105,10 @@ function addWindow(planned: Trajectory, run: number, fromS: number, toS: number,
   }
 }
 
-/** Appends the part of `from` after time 0. */
-function addAfter(from: BlockColumns, out: BlockColumns): void {
+/** Appends the part of `from` after `tS`. */
+function addAfter(from: BlockColumns, tS: number, out: BlockColumns): void {
   for (let k = 0; k < from.count; k++) {
-    const t = Math.max(0, -from.startS[k]);
+    const t = Math.max(0, tS - from.startS[k]);
     const rest = from.durationS[k] - t;
     if (rest <= NO_PIECE_S) continue;
     const [vx, vy, ax, ay] = [from.vx[k], from.vy[k], from.ax[k], from.ay[k]];

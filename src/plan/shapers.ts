@@ -15,7 +15,7 @@
  */
 import type { MotionSettings, Shaper } from "../settings/motion.js";
 import type { Springs } from "../machines/profile.js";
-import { impulseKernel, type Impulse, type Kernel } from "./filter.js";
+import { impulseKernel, type Impulse, type Kernel } from "./impulse-filter.js";
 
 /** Share of the swing that ei leaves at f. */
 const EI_REST = 0.05;

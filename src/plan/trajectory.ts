@@ -1,4 +1,4 @@
-import type { Kernel } from "./filter.js";
+import type { Kernel } from "./impulse-filter.js";
 
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.
@@ -140,12 +140,13 @@ export function stateAt(
   const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]);
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k];
+  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
   // The end of a block belongs to that block, unless another block or a wait follows immediately.
   if (t >= trajectory.durationS[k] && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
     blockState(trajectory, k, trajectory.durationS[k], out);
+    if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
     return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
   }
-  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
   out.stroke = runs.stroke[run]!;
   blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
   if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);

@@ -8,6 +8,7 @@ import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyli
 import type { FileLayer, LayerTable } from "./layers.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { setFor } from "./set-for.js";
+import { speedFactorsOf, type SpeedParts } from "./speed-parts.js";
 import { inkPortions } from "./spread.js";
 
 /** A layer of the file, visible or hidden, with figures about its lines on this paper. */
@@ -18,16 +19,16 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Sorts lines by layer, keeping the file's order within each; from here on their tag is the layer. */
-export function byLayer(lines: Lines, table: LayerTable): Lines {
+/** Sorts lines by part of a layer, keeping the file's order within each; from here on their tag is the part. */
+export function byLayer(lines: Lines, parts: SpeedParts): Lines {
   const layer = new Uint32Array(lines.tag.length);
   const tagged = { ...lines, tag: layer };
-  if (table.layers.length === 1) return tagged;
-  for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
+  if (parts.count === 1) return tagged;
+  for (let i = 0; i < layer.length; i++) layer[i] = parts.ofShape[lines.tag[i]];
   if (isSorted(layer)) return tagged;
-  const next = new Uint32Array(table.layers.length + 1);
+  const next = new Uint32Array(parts.count + 1);
   for (const k of layer) next[k + 1]++;
-  for (let k = 0; k < table.layers.length; k++) next[k + 1] += next[k];
+  for (let k = 0; k < parts.count; k++) next[k + 1] += next[k];
   const order = new Uint32Array(layer.length);
   layer.forEach((k, i) => (order[next[k]++] = i));
   return pickLines(tagged, order);
@@ -46,14 +47,20 @@ export function dropShort(lines: Lines, shorterThan: number): Lines {
   return pickLines(lines, kept);
 }
 
-export function countLayers(lines: Lines, table: LayerTable, isVisible: readonly boolean[]): PreparedLayer[] {
+export function countLayers(
+  lines: Lines,
+  table: LayerTable,
+  parts: SpeedParts,
+  isVisible: readonly boolean[],
+): PreparedLayer[] {
   const strokes = new Float64Array(table.layers.length);
   const points = new Float64Array(table.layers.length);
   const length = new Float64Array(table.layers.length);
   for (let i = 0; i < lineCount(lines); i++) {
-    strokes[lines.tag[i]]++;
-    points[lines.tag[i]] += lines.offsets[i + 1] - lines.offsets[i];
-    length[lines.tag[i]] += lineLength(lines, i);
+    const k = parts.layer[lines.tag[i]];
+    strokes[k]++;
+    points[k] += lines.offsets[i + 1] - lines.offsets[i];
+    length[k] += lineLength(lines, i);
   }
   return table.layers.map((layer, k) => ({
     ...layer,
@@ -64,10 +71,10 @@ export function countLayers(lines: Lines, table: LayerTable, isVisible: readonly
   }));
 }
 
-export function visibleOnly(lines: Lines, isVisible: readonly boolean[]): Lines {
+export function visibleOnly(lines: Lines, parts: SpeedParts, isVisible: readonly boolean[]): Lines {
   if (isVisible.every(Boolean)) return lines;
   const kept: number[] = [];
-  for (let i = 0; i < lineCount(lines); i++) if (isVisible[lines.tag[i]]) kept.push(i);
+  for (let i = 0; i < lineCount(lines); i++) if (isVisible[parts.layer[lines.tag[i]]]) kept.push(i);
   return pickLines(lines, kept);
 }
 
@@ -84,12 +91,13 @@ export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): s
  */
 export function strokeSetOf(
   lines: Lines,
+  parts: SpeedParts,
   layers: readonly StrokeLayer[],
   isVisible: readonly boolean[],
   reinkMm: number,
   shifts: PrepareSettings["layerShifts"] = {},
 ): StrokeSet {
-  const strokes = unshifted(lines, layers, isVisible, reinkMm);
+  const strokes = unshifted(lines, parts, layers, isVisible, reinkMm);
   const shiftsMm = strokes.layers.map((layer) => setFor(shifts, settingsIdOf(layer)));
   if (shiftsMm.every((shift) => shift === undefined)) return strokes;
   const { offsets, layer } = strokes;
@@ -111,21 +119,30 @@ export function strokeSetOf(
 
 function unshifted(
   lines: Lines,
+  parts: SpeedParts,
   layers: readonly StrokeLayer[],
   isVisible: readonly boolean[],
   reinkMm: number,
 ): StrokeSet {
-  if (reinkMm > 0) return inkedStrokeSet(lines, layers, isVisible, reinkMm);
+  if (reinkMm > 0) return inkedStrokeSet(lines, parts, layers, isVisible, reinkMm);
   let next = 0;
   const renumbered = layers.map((_, k) => (isVisible[k] ? next++ : 0));
   const layer = new Uint16Array(lineCount(lines));
-  if (layers.length > 1) for (let i = 0; i < layer.length; i++) layer[i] = renumbered[lines.tag[i]];
+  if (layers.length > 1) {
+    for (let i = 0; i < layer.length; i++) layer[i] = renumbered[parts.layer[lines.tag[i]]];
+  }
   return {
     xy: lines.xy,
     offsets: lines.offsets,
     layer,
+    ...slower(lines, parts),
     layers: layers.filter((_, k) => isVisible[k]).map(plainLayer),
   };
+}
+
+function slower(lines: Lines, parts: SpeedParts): Pick<StrokeSet, "speedFactor"> {
+  const speedFactor = speedFactorsOf(lines, parts);
+  return speedFactor === undefined ? {} : { speedFactor };
 }
 
 const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, name, color });
@@ -133,8 +150,10 @@ const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, nam
 /** A stroke stores its layer as a 16-bit index. */
 const MAX_PORTIONS = 65_536;
 
+/** The portions of a layer's parts follow each other: a part that is drawn slower begins a new one. */
 function inkedStrokeSet(
   given: Lines,
+  parts: SpeedParts,
   layers: readonly StrokeLayer[],
   isVisible: readonly boolean[],
   reinkMm: number,
@@ -147,14 +166,16 @@ function inkedStrokeSet(
     if (!isVisible[k]) continue;
     // A layer without strokes is kept, as it is without portions.
     out.push(plainLayer(layers[k]));
-    for (let part = 0; i < layer.length && lines.tag[i] === k; i++) {
-      if (portion[i] > part && out.length < MAX_PORTIONS) {
-        part = portion[i];
+    let number = 1;
+    for (const first = i; i < layer.length && parts.layer[lines.tag[i]] === k; i++) {
+      const isNew = i > first && (portion[i] !== portion[i - 1] || lines.tag[i] !== lines.tag[i - 1]);
+      if (isNew && out.length < MAX_PORTIONS) {
+        number++;
         const { id, name, color } = layers[k];
-        out.push({ id: `${id}~${part + 1}`, name: `${name} (${part + 1})`, color, partOf: id });
+        out.push({ id: `${id}~${number}`, name: `${name} (${number})`, color, partOf: id });
       }
       layer[i] = out.length - 1;
     }
   }
-  return { xy: lines.xy, offsets: lines.offsets, layer, layers: out };
+  return { xy: lines.xy, offsets: lines.offsets, layer, ...slower(lines, parts), layers: out };
 }

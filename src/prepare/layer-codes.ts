@@ -7,6 +7,7 @@
  *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; of several valid ones
  *          | "+s" 1…110   pen-down speed, percent      the last one applies; codes out of range are ignored
  *          | "+d" 1…      wait before the layer, ms
+ *          | "+v" 1…100   percent of the speed at which the layer would be drawn; a code of plotwright
  *   number = digits: the N of "plot layer N"
  *   text   = the rest, the readable name
  *
@@ -18,6 +19,7 @@ export interface LayerCodes {
   readonly number: number | null;
   readonly penDownPct: number | null;
   readonly drawSpeedPct: number | null;
+  readonly speedSharePct: number | null;
   readonly delayMs: number | null;
   readonly text: string;
 }
@@ -29,17 +31,19 @@ export function parseLayerName(name: string): LayerCodes {
   let rest = (pause ? name.slice(1) : name).slice(head[0].length);
   let penDownPct: number | null = null;
   let drawSpeedPct: number | null = null;
+  let speedSharePct: number | null = null;
   let delayMs: number | null = null;
   for (let code = CODE.exec(rest); code !== null; code = CODE.exec(rest)) {
     const value = code[2] === "" ? NaN : Number(code[2]);
     const letter = code[1].toLowerCase();
     if (letter === "h" && value <= 100) penDownPct = value;
     if (letter === "s" && value >= 1 && value <= 110) drawSpeedPct = value;
+    if (letter === "v" && value >= 1 && value <= 100) speedSharePct = value;
     if (letter === "d" && value > 0) delayMs = value;
     rest = rest.slice(code[0].length);
   }
   const number = head[0] === "" ? null : Number(head[0]);
-  return { skip: false, pause, number, penDownPct, drawSpeedPct, delayMs, text: rest };
+  return { skip: false, pause, number, penDownPct, drawSpeedPct, speedSharePct, delayMs, text: rest };
 }
 
 /**
@@ -53,6 +57,7 @@ export function formatLayerName(codes: LayerCodes): string {
     codes.delayMs === null ? "" : `+d${codes.delayMs}`,
     codes.penDownPct === null ? "" : `+h${codes.penDownPct}`,
     codes.drawSpeedPct === null ? "" : `+s${codes.drawSpeedPct}`,
+    codes.speedSharePct === null ? "" : `+v${codes.speedSharePct}`,
   ].join("");
   const taken = parseLayerName(head + codes.text);
   return taken.text === codes.text && taken.skip === codes.skip && taken.number === codes.number
@@ -72,9 +77,10 @@ export const NO_CODES: LayerCodes = {
   number: null,
   penDownPct: null,
   drawSpeedPct: null,
+  speedSharePct: null,
   delayMs: null,
   text: "",
 };
 
 /** A code counts only if something follows its letter, as in the AxiDraw software. */
-const CODE = /^\+([hsd])(?=.)(\d*)/is;
+const CODE = /^\+([hsdv])(?=.)(\d*)/is;

@@ -1,7 +1,8 @@
 /**
  * From the file's drawing to pen strokes: the steps below, in that order.
  *
- * The tag of a line is its shape until lines are sorted by layer, and its layer from then on. Hidden layers
+ * The tag of a line is its shape until lines are sorted by layer, and its part of a layer (speed-parts.ts)
+ * from then on. Hidden layers
  * are processed up to the counts, so that the page can show what showing them would add; they are dropped
  * only then. They hide nothing, and nothing hides them.
  */
@@ -45,6 +46,7 @@ import {
 } from "./shapes.js";
 import { simplifyLines } from "./simplify.js";
 import { reloopLines, smoothLines } from "./smooth.js";
+import { speedPartsOf } from "./speed-parts.js";
 import { spreadLines } from "./spread.js";
 import { linesOfTour, travelAsDrawn } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
@@ -128,7 +130,8 @@ export function prepare(
   }
 
   progress(0.45, "joining");
-  lines = byLayer(lines, table);
+  const parts = speedPartsOf(drawing, table);
+  lines = byLayer(lines, parts);
   lines = dropRepeats(lines, settings.dropRepeatsMm, options);
   if (settings.joinMm > 0) lines = joinLines(lines, settings.joinMm);
   lines = dropShort(lines, settings.dropShorterMm);
@@ -137,10 +140,11 @@ export function prepare(
   if (settings.reloop) lines = reloopLines(lines);
 
   progress(0.55, "ordering");
-  const layers = countLayers(lines, table, isVisible);
-  lines = visibleOnly(lines, isVisible);
+  const layers = countLayers(lines, table, parts, isVisible);
+  lines = visibleOnly(lines, parts, isVisible);
   if (lineCount(lines) === 0) warnings.push(emptyWarning(drawing, isVisible));
-  const passesOf = (layer: number): number => setFor(settings.layerRepeats, table.layers[layer].id) ?? 1;
+  const passesOf = (part: number): number =>
+    setFor(settings.layerRepeats, table.layers[parts.layer[part]].id) ?? 1;
   const asInFile = repeatLines(lines, passesOf);
   const unordered = travelAsDrawn(asInFile);
   const asDrawnMm = asInFile === lines ? unordered : travelAsDrawn(lines);
@@ -154,7 +158,7 @@ export function prepare(
     lines = asInFile;
     travelMm = unordered;
   }
-  const strokes = strokeSetOf(lines, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
+  const strokes = strokeSetOf(lines, parts, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
 
   progress(1, "done");
   return {

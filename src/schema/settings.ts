@@ -1,6 +1,7 @@
 /** Settings as sent, stored or written to a file: parsed here, with the types that the library takes. */
 import { z } from "zod";
 import {
+  AXIS_TABLE,
   DEFAULT_MOTION,
   DRAW_TABLE,
   EASE_TABLE,
@@ -8,6 +9,7 @@ import {
   MOTION_TABLE,
   MOTOR_ACCEL,
   SHAPERS,
+  SPEED_FACTOR,
   TRAVEL_TABLE,
   type MotionSettings,
 } from "../settings/motion.js";
@@ -92,7 +94,13 @@ export const motionSettingsSchema = z.object({
   fit: z.object(shapeWithDefaults(FIT_TABLE)).nullable().optional(),
   ease: z.object(shapeOf(EASE_TABLE)).nullable().optional(),
   motorAccelStepsPerS2: numberSchema(MOTOR_ACCEL).nullable().optional(),
-  layers: byLayer(z.object(shapeOf(DRAW_TABLE)).partial()).optional(),
+  speedXMmPerS: numberSchema(AXIS_TABLE.speedXMmPerS).nullable().optional(),
+  speedYMmPerS: numberSchema(AXIS_TABLE.speedYMmPerS).nullable().optional(),
+  accelXMmPerS2: numberSchema(AXIS_TABLE.accelXMmPerS2).nullable().optional(),
+  accelYMmPerS2: numberSchema(AXIS_TABLE.accelYMmPerS2).nullable().optional(),
+  layers: byLayer(
+    z.object({ ...shapeOf(DRAW_TABLE), speedFactor: numberSchema(SPEED_FACTOR) }).partial(),
+  ).optional(),
 }) satisfies z.ZodType<MotionSettings>;
 
 const penShape = {

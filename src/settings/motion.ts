@@ -1,3 +1,4 @@
+import { MIN_SPEED_FACTOR } from "../drawing/speed-factor.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
 /**
@@ -146,6 +147,45 @@ export const MOTION_TABLE = {
   },
 } as const satisfies SettingsTable;
 
+/** Limits of one axis, pen down and up, for machines that are heavier along one of them. None unless set. */
+export const AXIS_TABLE = {
+  speedXMmPerS: {
+    ...speed,
+    label: "Speed along x",
+    about: "maximum speed along x, pen down and up",
+    flag: "--speed-x",
+    default: 100,
+    slider: [5, 400],
+  },
+  speedYMmPerS: {
+    ...speed,
+    label: "Speed along y",
+    about: "maximum speed along y, pen down and up",
+    flag: "--speed-y",
+    default: 100,
+    slider: [5, 400],
+  },
+  accelXMmPerS2: {
+    ...accel,
+    label: "Acceleration along x",
+    about: "maximum acceleration along x, pen down and up",
+    flag: "--accel-x",
+    default: 1_000,
+    slider: [50, 5_000],
+  },
+  accelYMmPerS2: {
+    ...accel,
+    label: "Acceleration along y",
+    about: "maximum acceleration along y, pen down and up",
+    flag: "--accel-y",
+    default: 1_000,
+    slider: [50, 5_000],
+  },
+} as const satisfies SettingsTable;
+
+/** Limits of single axes; null or left out: none but those of the whole motion. */
+export type AxisLimits = { readonly [K in keyof typeof AXIS_TABLE]?: number | null | undefined };
+
 export const FIT_TABLE = {
   toleranceMm: {
     kind: "number",
@@ -204,11 +244,26 @@ export const MOTOR_ACCEL = {
   step: 1_000,
 } as const satisfies NumberSetting;
 
+/** Of the speed at which a layer or a stroke would be drawn: what is drawn slower. */
+export const SPEED_FACTOR = {
+  kind: "number",
+  label: "Share of the speed",
+  about: "share of the speed at which it would be drawn",
+  default: 1,
+  min: MIN_SPEED_FACTOR,
+  max: 1,
+  unit: "",
+  step: 0.05,
+} as const satisfies NumberSetting;
+
 /** Overrides for one layer; what is left out is as for all layers. */
-export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined };
+export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined } & {
+  /** The share of that speed at which the layer is drawn, from 0.01 to 1. */
+  readonly speedFactor?: number | undefined;
+};
 
 /** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
-export interface MotionSettings {
+export interface MotionSettings extends AxisLimits {
   /** How corners are taken. */
   readonly mode: MotionMode;
   /** How the machine's swinging is kept out of the line; default none. Another one needs the machine's springs. */

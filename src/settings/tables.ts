@@ -1,5 +1,5 @@
 /** All settings tables, by their path in a job's settings ("": top level). */
-import { DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
+import { AXIS_TABLE, DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
 import { OVERLAP_TABLE, PEN_TABLE } from "./pen.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
 import { QUALITY_TABLE } from "./quality.js";
@@ -17,10 +17,14 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   "": STREAM_TABLE,
 };
 
-/** What is not in a job's settings: the machine's springs, and the choice that sets several settings. */
+/**
+ * Rows without a default of their own: limits that only apply if they are set; and what is not in a job's
+ * settings, which is the machine's springs and the choice that sets several settings.
+ */
 export const SPRINGS_PATH = "springs";
 export const QUALITY_PATH = "quality";
 const OTHER_TABLES: Readonly<Record<string, { table: SettingsTable; otherwise: string }>> = {
+  motion: { table: AXIS_TABLE, otherwise: "none" },
   [SPRINGS_PATH]: { table: SPRINGS_TABLE, otherwise: "as measured" },
   "": { table: QUALITY_TABLE, otherwise: "each setting by itself" },
 };

@@ -54,6 +54,15 @@ describe("the settings' options", () => {
     );
   });
 
+  it("limit single axes, beside a step of quality too", () => {
+    const axes = ["--speed-x", "60", "--speed-y", "40", "--accel-x", "900", "--accel-y", "300"];
+    const limits = { speedXMmPerS: 60, speedYMmPerS: 40, accelXMmPerS2: 900, accelYMmPerS2: 300 };
+    expect(settingsOf(...axes).motion).toEqual({ ...DEFAULT_PLOT_SETTINGS.motion, ...limits });
+    const shaped = settingsOf(...axes, "--quality", "fast", "--spring-x", "15", "--spring-y", "25");
+    expect(shaped.motion).toMatchObject({ shaper: "zv", ...limits });
+    expect(() => settingsOf("--accel-y", "0")).toThrow(/^--accel-y: it must be more than 0/);
+  });
+
   it("put each value in its place", () => {
     const settings = settingsOf(
       ...["--machine", "axidraw-se-a3", "--paper", "a3", "--margin", "0", "--no-fit", "--rotate", "-90"],

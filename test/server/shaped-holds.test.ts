@@ -7,6 +7,7 @@ import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { comeToRest } from "../../src/plan/come-to-rest.js";
 import { DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { cases } from "../support/full-run.js";
 import { DRAWING, seamsMm, seeded } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
@@ -15,6 +16,9 @@ import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /** A gap, a doubled stretch or a swing that is invisible, mm. */
 const UNSEEN_MM = 0.05;
+/** Plots with up to ten holds each, and emergency stops: in the full run 200 and 100 on each firmware. */
+const PLOTS = cases(25, 3);
+const EMERGENCY_STOPS = cases(100, 10);
 const [springs] = SPRINGS;
 const machine = swinging(springs);
 const MOTION = inQuality("fast", springs);
@@ -78,7 +82,8 @@ describe("a hold in shaped motion", () => {
     "leaves no gap and no doubled stretch, and ends exactly, on firmware %s",
     async (firmware) => {
       const random = seeded(5);
-      for (let i = 0; i < 10; i++) {
+      let held = 0;
+      for (let i = 0; i < PLOTS; i++) {
         const { world, board, run } = await plotting(firmware);
         const holds: Place[] = [];
         let done = false;
@@ -93,10 +98,11 @@ describe("a hold in shaped motion", () => {
         }
         expect(await world.run(run.finished)).toEqual({ kind: "done" });
         expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
-        expect(holds.length).toBeGreaterThan(3);
+        held += holds.length;
         expect(Math.max(0, ...seamsMm(board))).toBeLessThan(UNSEEN_MM);
-        expect(board.statistics().longestUnderrunS).toBeLessThan(0.005);
+        expect(board.statistics().longestUnderrunS).toBeLessThan(0.001);
       }
+      expect(held).toBeGreaterThanOrEqual(8 * PLOTS);
     },
     120_000,
   );
@@ -108,7 +114,7 @@ describe("an emergency stop in shaped motion", () => {
     async (firmware) => {
       const random = seeded(17);
       const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);
-      for (let i = 0; i < 50; i++) {
+      for (let i = 0; i < EMERGENCY_STOPS; i++) {
         const { world, board, run, planner } = await plotting(firmware);
         await world.advance(0.1);
         const [plot] = planner.plots;

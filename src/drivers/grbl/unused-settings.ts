@@ -1,5 +1,12 @@
 /** The settings that do not change a plot on a Grbl, by path, in words: it plans its motion by itself, and its Z axis moves the pen. */
-import { DRAW_TABLE, FIT_TABLE, MOTION_TABLE, MOTOR_ACCEL, TRAVEL_TABLE } from "../../settings/motion.js";
+import {
+  AXIS_TABLE,
+  DRAW_TABLE,
+  FIT_TABLE,
+  MOTION_TABLE,
+  MOTOR_ACCEL,
+  TRAVEL_TABLE,
+} from "../../settings/motion.js";
 import { DROP_RATE, LIFT_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../settings/pen.js";
 
 export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
@@ -15,6 +22,8 @@ export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
   "motion.layers.*.cornerMm": `${DRAW_TABLE.cornerMm.label} of a layer`,
   "motion.layers.*.jerkMmPerS3": `${DRAW_TABLE.jerkMmPerS3.label} of a layer`,
   "motion.fit.toleranceMm": `${FIT_TABLE.toleranceMm.label} of merged commands`,
+  "motion.accelXMmPerS2": AXIS_TABLE.accelXMmPerS2.label,
+  "motion.accelYMmPerS2": AXIS_TABLE.accelYMmPerS2.label,
   "motion.motorAccelStepsPerS2": MOTOR_ACCEL.label,
   "pen.upPct": PEN_TABLE.upPct.label,
   "pen.downPct": PEN_TABLE.downPct.label,

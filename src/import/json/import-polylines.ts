@@ -5,13 +5,15 @@
  *     "layers": [ { "name": "Ink", "color": "#ff0000", "strokes": [ [x0, y0, x1, y1, …], … ] } ] }
  *
  * mm, origin top left, y down. Points may also be pairs: [[x0, y0], [x1, y1], …]. A stroke of one point is a
- * dot. `toJson` writes this format, with "strokesMm" for "strokes".
+ * dot. A layer may have "speedFactors": a number for each stroke, 0.5 for one at half the usual speed. `toJson`
+ * writes this format, with "strokesMm" for "strokes".
  */
 import type { Drawing } from "../../drawing/drawing.js";
+import { isSpeedFactor } from "../../drawing/speed-factor.js";
 import { PlotwrightError } from "../../errors.js";
 import { IDENTITY } from "../../geometry/affine.js";
 import { parseColor } from "../color.js";
-import { DrawingBuilder } from "../drawing-builder.js";
+import { DrawingBuilder, type Look } from "../drawing-builder.js";
 import { finishAroundDrawing } from "../finish-around-drawing.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { Warnings } from "../warnings.js";
@@ -30,7 +32,7 @@ export function importPolylines(text: string): Drawing {
   const warnings = new Warnings();
   const builder = new DrawingBuilder(warnings);
   if (!Array.isArray(file["layers"])) throw bad("it has no list of layers");
-  file["layers"].forEach((layer: unknown, index) => addLayer(builder, layer, index));
+  file["layers"].forEach((layer: unknown, index) => addLayer(builder, layer, index, warnings));
   const { widthMm, heightMm } = file;
   if (widthMm === undefined && heightMm === undefined) {
     warnings.add("page-size", undefined, "taken from the drawing");
@@ -60,7 +62,7 @@ function pageSide(value: unknown, name: string): number {
   throw bad(`${name} must be a number of mm above 0`);
 }
 
-function addLayer(builder: DrawingBuilder, value: unknown, index: number): void {
+function addLayer(builder: DrawingBuilder, value: unknown, index: number, warnings: Warnings): void {
   const layer = objectOf(value, `layer ${index + 1}`);
   const name = typeof layer["name"] === "string" ? layer["name"] : `Layer ${index + 1}`;
   const id = typeof layer["id"] === "string" ? layer["id"] : `layer-${index + 1}`;
@@ -69,14 +71,26 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number): void 
   if (color === null) throw bad(`the colour of layer ${index + 1} is not a CSS colour`);
   const strokes = layer["strokes"] ?? layer["strokesMm"];
   if (!Array.isArray(strokes)) throw bad(`layer ${index + 1} has no list of strokes`);
+  const factors = layer["speedFactors"];
+  if (factors !== undefined && !Array.isArray(factors)) {
+    throw bad(`the speedFactors of layer ${index + 1} are not a list`);
+  }
   const group = builder.addGroup(id, name, false);
-  const look = { stroke: color, fill: null, evenOdd: false, strokeWidth: 0, dash: null };
+  const look: Look = { stroke: color, fill: null, evenOdd: false, strokeWidth: 0, dash: null };
   const shape = new ShapeBuffer();
   strokes.forEach((stroke: unknown, strokeIndex) => {
     const where = `stroke ${strokeIndex + 1} of layer ${index + 1}`;
     drawStroke(shape, stroke, where);
-    if (!shape.isEmpty) builder.addShape(shape, IDENTITY, look, group, null, () => where);
+    const own = slower(look, factors?.[strokeIndex], where, warnings);
+    if (!shape.isEmpty) builder.addShape(shape, IDENTITY, own, group, null, () => where);
   });
+}
+
+function slower(look: Look, given: unknown, where: string, warnings: Warnings): Look {
+  if (given === undefined || given === 1) return look;
+  if (isSpeedFactor(given)) return { ...look, speedFactor: given };
+  warnings.add("speed-factor", undefined, `"${String(given).slice(0, 40)}" of ${where}`);
+  return look;
 }
 
 function drawStroke(shape: ShapeBuffer, stroke: unknown, where: string): void {

@@ -129,6 +129,7 @@ function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context 
     uses: null,
     contextFill: { kind: "none" },
     contextStroke: { kind: "none" },
+    speedFactor: 1,
   };
 }
 

@@ -13,6 +13,8 @@ export interface Context {
   /** Index into the drawing's groups. */
   readonly group: number;
   readonly clip: ClipNode | null;
+  /** The share of the usual speed at which it is drawn. */
+  readonly speedFactor: number;
   /** The enclosing `use` elements. */
   readonly uses: UseChain | null;
   /** The values of context-fill and context-stroke inside a marker. */

@@ -150,6 +150,7 @@ export class SvgPainter {
       evenOdd: false,
       strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
       dash: null,
+      speedFactor: context.speedFactor,
     };
     this.builder.addShape(shape, mapOf(letter, context), look, context.group, context.clip, this.where);
   }
@@ -184,6 +185,7 @@ export class SvgPainter {
       strokeWidth: stroke === null ? 0 : style.strokeWidth * scale,
       dash:
         stroke === null || style.dashes === null ? null : this.dashOf(element, context, scale, isNonScaling),
+      speedFactor: context.speedFactor,
     };
   }
 

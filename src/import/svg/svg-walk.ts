@@ -5,6 +5,7 @@
  * as a frame with one child. The chain of enclosing targets stops cycles, and a limit on visits stops copies
  * of copies from growing without end.
  */
+import { isSpeedFactor } from "../../drawing/speed-factor.js";
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
@@ -36,6 +37,9 @@ import type { DrawingBuilder } from "../drawing-builder.js";
  */
 const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
+
+/** How fast an element is drawn, as a share of the usual speed; what is inside it inherits that. */
+const SPEED_ATTRIBUTE = "data-plotwright-speed";
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
 /** Elements that draw nothing where they stand. All others that are not drawn here are reported. */
@@ -72,6 +76,7 @@ export class SvgWalk {
   private copiedCoords = 0;
   private readonly markers: SvgMarkers;
   private readonly layerGroups: LayerGroups;
+  private readonly hasSpeeds: boolean;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -87,6 +92,7 @@ export class SvgWalk {
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
     this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
+    this.hasSpeeds = tree.names.includes(SPEED_ATTRIBUTE);
   }
 
   /** Draws everything below the root. */
@@ -107,8 +113,9 @@ export class SvgWalk {
     }
   }
 
-  /** The root element may have a clip and effects, too. */
-  private enterRoot(context: Context): void {
+  /** The root element may have a clip, effects and a speed, too. */
+  private enterRoot(outer: Context): void {
+    const context = this.withSpeed(0, outer);
     const { declared } = this;
     this.cascade.collect(0, declared);
     const value = declaredValue(context.style, declared, "clip-path");
@@ -165,6 +172,7 @@ export class SvgWalk {
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
+    context = this.withSpeed(element, context);
     if (!isContainer) this.visitLeaf(element, tag, context, effects);
     else this.enter(element, tag, context, effects);
   }
@@ -340,6 +348,20 @@ export class SvgWalk {
       if (isKnown && this.conditions.areMet(child)) return child;
     }
     return -1;
+  }
+
+  /** With the element's own speed, if it has one. */
+  private withSpeed(element: number, context: Context): Context {
+    const text = this.hasSpeeds ? attribute(this.tree, element, SPEED_ATTRIBUTE)?.trim() : undefined;
+    if (text === undefined) return context;
+    const speedFactor = text === "" ? NaN : Number(text);
+    if (isSpeedFactor(speedFactor)) return { ...context, speedFactor };
+    this.warnings.add(
+      "speed-factor",
+      undefined,
+      `"${text.slice(0, 40)}" at line ${this.tree.lines[element]}`,
+    );
+    return context;
   }
 
   private spendCopy(context: Context): void {

@@ -15,6 +15,7 @@ const CHANGED: SvgSettings = {
     ...DEFAULT_MOTION,
     mode: "scurve",
     draw: { ...DEFAULT_MOTION.draw, accelMmPerS2: 700 },
+    accelYMmPerS2: 300,
     layers: { ink: { speedMmPerS: 20, cornerMm: 0.1 } },
   },
   pen: { ...DEFAULT_PEN, overlap: "safe", liftPctPerS: 100 },
@@ -31,7 +32,7 @@ describe("a plan for a Grbl", () => {
   it("names all other settings that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(CHANGED);
     expect(warnings).toEqual([
-      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Rises at, Move while the pen lifts.`,
+      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Rises at, Move while the pen lifts.`,
     ]);
     expect(job.lines()).toEqual(planned({}).lines());
   });

@@ -38,6 +38,8 @@ describe("parseLayerName", () => {
     ["pen +h30", { text: "pen +h30" }],
     [" %notes", { text: " %notes" }],
     ["+x5", { text: "+x5" }],
+    ["2+v50 slow", { number: 2, speedSharePct: 50, text: " slow" }],
+    ["+v0+v101", {}],
   ])("reads %j", (name, expected) => {
     expect(read(name)).toEqual(expected);
   });
@@ -67,6 +69,7 @@ describe("formatLayerName", () => {
       number: maybe(0, 1000),
       penDownPct: maybe(0, 100),
       drawSpeedPct: maybe(1, 110),
+      speedSharePct: maybe(1, 100),
       delayMs: maybe(1, 5000),
       text: fc.oneof(fc.string(), fc.constantFrom("%x", "!x", "7", "+h5", "+s", "+S9 a", " 8")),
     });

@@ -1,7 +1,7 @@
 /** The settings with which a stop brakes and lifts. */
 import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { withLayerCodes } from "../../../plan/coded-layers.js";
-import { drawLimitsOf } from "../../../plan/limits.js";
+import { accelEverywhere, drawLimitsOf } from "../../../plan/limits.js";
 import { penOfLayer } from "../../../plan/pen-times.js";
 import type { Place } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -18,11 +18,12 @@ export function brakingAt(
   const { motion: coded, pen } = withLayerCodes(settings, layers);
   const motion = motionForFirmware(coded, firmware);
   const own = place ? layers[layer[place.stroke]] : undefined;
-  const travelAccel = motion.travel.accelMmPerS2;
-  if (!own) return { limits: { drawAccel: motion.draw.accelMmPerS2, travelAccel }, pen };
+  const travelAccel = accelEverywhere(motion, motion.travel.accelMmPerS2);
+  if (!own)
+    return { limits: { drawAccel: accelEverywhere(motion, motion.draw.accelMmPerS2), travelAccel }, pen };
   const id = settingsIdOf(own);
   return {
-    limits: { drawAccel: drawLimitsOf(motion, id).accelMmPerS2, travelAccel },
+    limits: { drawAccel: accelEverywhere(motion, drawLimitsOf(motion, id).accelMmPerS2), travelAccel },
     pen: penOfLayer(pen, id),
   };
 }

@@ -41,7 +41,8 @@ export class GrblRuns implements WritesRuns {
   }
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-    capSegments(path, limits);
+    // The controller has its own accelerations, so the path is not planned in a stretched frame.
+    capSegments(path, { ...limits, stretchX: 1, stretchY: 1 });
     const sent: SentMove[] = [];
     this.runs.push(sent);
     const points = [this.pointAt(path, 0, path.startAlong)];

@@ -1,0 +1,65 @@
+/**
+ * Axes with different limits of acceleration. The planner knows one limit, |a| ≤ A. So a run is planned in a
+ * frame that is stretched along the weaker axis until both axes have the same limit:
+ *
+ *   x' = x A/Ax      y' = y A/Ay      A = max(Ax, Ay)
+ *
+ *   |a'| ≤ A   means   (ax/Ax)² + (ay/Ay)² ≤ 1        so |ax| ≤ Ax, |ay| ≤ Ay, |a| ≤ A
+ *
+ * Straight lines stay straight, and every rule for corners, merging and filters holds there as it is. What is
+ * within δ of the line in the frame is within δ of it on paper, since the frame is nowhere shorter. Limits of
+ * speed are the machine's, converted for each direction (`capSegments`).
+ */
+import type { BlockColumns } from "./block-columns.js";
+import type { RunLimits } from "./limits.js";
+import { RunPath } from "./run-path.js";
+
+export class AxisFrame {
+  private readonly stretched = new RunPath();
+  private path: RunPath | null = null;
+  private stretchX = 1;
+  private stretchY = 1;
+
+  /** The path in the stretched frame. Valid until the next call. */
+  of(path: RunPath, { stretchX, stretchY }: RunLimits): RunPath {
+    const { stretched } = this;
+    this.path = path;
+    this.stretchX = stretchX;
+    this.stretchY = stretchY;
+    stretched.beLike(path);
+    stretched.startAlong = 0;
+    for (let i = 0; i <= path.segmentCount; i++) {
+      stretched.x[i] = path.x[i] * stretchX;
+      stretched.y[i] = path.y[i] * stretchY;
+    }
+    stretched.measure();
+    return stretched;
+  }
+
+  /** Brings the blocks from `first` on, planned on that path, back to the machine's frame. */
+  restore(blocks: BlockColumns, first: number): void {
+    const { path, stretched, stretchX, stretchY } = this;
+    if (path === null) return;
+    const { x, y, vx, vy, ax, ay, jx, jy, alongMm } = blocks;
+    let i = 0;
+    let frameMm = 0;
+    let mm = path.startAlong;
+    for (let k = first; k < blocks.count; k++) {
+      x[k] /= stretchX;
+      y[k] /= stretchY;
+      vx[k] /= stretchX;
+      vy[k] /= stretchY;
+      ax[k] /= stretchX;
+      ay[k] /= stretchY;
+      if (jx !== null && jy !== null) {
+        jx[k] /= stretchX;
+        jy[k] /= stretchY;
+      }
+      while (i < path.segmentCount - 1 && frameMm + stretched.length[i] <= alongMm[k]) {
+        frameMm += stretched.length[i];
+        mm += path.length[i++];
+      }
+      alongMm[k] = mm + (alongMm[k] - frameMm) * (path.length[i] / stretched.length[i]);
+    }
+  }
+}

@@ -1,0 +1,187 @@
+/**
+ * The filter of input shapers (shapers.ts): the output is the planned motion q several times, each time later
+ * and weighted. x and y have impulses of their own.
+ *
+ *   u(t) = Σ Aᵢ q(t − tᵢ)      Σ Aᵢ = 1
+ *
+ * If q has constant acceleration per block, so has u between any two instants at which an impulse passes the
+ * end of a block. So the output consists of blocks again, exactly. It is longer than the input by the delay
+ * of the last impulse. With weights Aᵢ ≥ 0 each axis keeps the input's limits of speed and acceleration.
+ *
+ * Method: each axis alone is a sequence of pieces of constant acceleration. A block ends wherever a piece of
+ * either axis does.
+ */
+import type { BlockColumns } from "./block-columns.js";
+
+/** A copy of the motion of one axis. */
+export interface Impulse {
+  readonly delayS: number;
+  readonly weight: number;
+}
+
+export interface Kernel {
+  /** Sorted by delay. */
+  readonly x: readonly Impulse[];
+  readonly y: readonly Impulse[];
+  /** Mean delay of the output, s; the same in both axes. */
+  readonly meanDelayS: number;
+  /** Delay of the last impulse, s: how much longer the output is than the input. */
+  readonly lengthS: number;
+}
+
+/**
+ * The axis with the shorter mean delay is delayed further, so that both have the same mean delay: otherwise
+ * straight lines would bend.
+ */
+export function impulseKernel(x: readonly Impulse[], y: readonly Impulse[]): Kernel {
+  const [meanX, meanY] = [meanDelayOf(x), meanDelayOf(y)];
+  const meanDelayS = Math.max(meanX, meanY);
+  const delayedX = delayed(x, meanDelayS - meanX);
+  const delayedY = delayed(y, meanDelayS - meanY);
+  const lengthS = Math.max(...[...delayedX, ...delayedY].map(({ delayS }) => delayS));
+  return { x: delayedX, y: delayedY, meanDelayS, lengthS };
+}
+
+const meanDelayOf = (impulses: readonly Impulse[]): number =>
+  impulses.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
+
+const delayed = (impulses: readonly Impulse[], byS: number): readonly Impulse[] =>
+  impulses.map(({ delayS, weight }) => ({ delayS: delayS + byS, weight }));
+
+/** Ends of blocks closer in time than this are treated as one, s. */
+const SAME_S = 1e-11;
+
+/** One coordinate of the output: the piece of constant acceleration that the walk has come to. */
+class Axis {
+  /** When it begins and ends, s after the start of the input. */
+  startS = 0;
+  endS = 0;
+  /** Position, velocity and acceleration at its start. */
+  p = 0;
+  v = 0;
+  a = 0;
+  private readonly delayS: Float64Array;
+  private readonly weight: Float64Array;
+  /** For each impulse: the block that it is in, and when it leaves that. */
+  private readonly block: Int32Array;
+  private readonly leavesS: Float64Array;
+
+  constructor(impulses: readonly Impulse[]) {
+    this.delayS = Float64Array.from(impulses, ({ delayS }) => delayS);
+    this.weight = Float64Array.from(impulses, ({ weight }) => weight);
+    this.block = new Int32Array(impulses.length);
+    this.leavesS = new Float64Array(impulses.length);
+  }
+
+  /** Goes to the first piece: the rest before the start. */
+  begin(first: number, p: number): void {
+    for (let i = 0; i < this.block.length; i++) {
+      this.block[i] = first - 1;
+      this.leavesS[i] = this.delayS[i]!;
+    }
+    this.startS = this.v = this.a = 0;
+    this.p = p;
+    this.endS = this.delayS[0]!;
+  }
+
+  /**
+   * Goes to the next piece. Row `end` of the input's columns is the rest after its last block.
+   */
+  next(
+    first: number,
+    end: number,
+    startS: Float64Array,
+    p: Float64Array,
+    v: Float64Array,
+    a: Float64Array,
+  ): void {
+    const { delayS, weight, block, leavesS } = this;
+    const tS = this.endS;
+    let endS = Infinity;
+    let p1 = 0;
+    let v1 = 0;
+    let a1 = 0;
+    for (let i = 0; i < weight.length; i++) {
+      if (leavesS[i] <= tS + SAME_S) {
+        const k = ++block[i];
+        leavesS[i] = k < end ? delayS[i] + startS[k + 1] - startS[first] : Infinity;
+      }
+      if (leavesS[i] < endS) endS = leavesS[i]!;
+      const w = weight[i];
+      const k = block[i];
+      if (k < first) p1 += w * p[first];
+      else if (k === end) p1 += w * p[end];
+      else {
+        const s = tS - delayS[i] - (startS[k] - startS[first]);
+        p1 += w * (p[k] + s * (v[k] + (s * a[k]) / 2));
+        v1 += w * (v[k] + s * a[k]);
+        a1 += w * a[k];
+      }
+    }
+    this.startS = tS;
+    this.endS = endS;
+    this.p = p1;
+    this.v = v1;
+    this.a = a1;
+  }
+}
+
+export class ImpulseFilter {
+  private readonly x: Axis;
+  private readonly y: Axis;
+
+  constructor(kernel: Kernel) {
+    this.x = new Axis(kernel.x);
+    this.y = new Axis(kernel.y);
+  }
+
+  /**
+   * Appends the filtered run to `out`, without rests at its beginning and end. The place along the drawing is
+   * set later (shaped-along.ts).
+   *
+   * @param from its blocks from `first` on are the run
+   * @param end where the run comes to rest
+   * @returns how much later than the input the output begins to move, s
+   */
+  write(
+    from: BlockColumns,
+    first: number,
+    end: { readonly x: number; readonly y: number },
+    out: BlockColumns,
+  ): number {
+    const { x, y } = this;
+    const { count } = from;
+    // A row for the rest after the last block.
+    from.push(0, end.x, end.y, 0, 0, 0, 0, 0);
+    from.count = count;
+    const { startS } = from;
+    const firstOut = out.count;
+    let beginS = 0;
+    x.begin(first, from.x[first]);
+    y.begin(first, from.y[first]);
+    let tS = 0;
+    for (;;) {
+      if (x.endS <= tS + SAME_S) x.next(first, count, startS, from.x, from.vx, from.ax);
+      if (y.endS <= tS + SAME_S) y.next(first, count, startS, from.y, from.vy, from.ay);
+      const nextS = x.endS < y.endS ? x.endS : y.endS;
+      if (nextS === Infinity) break;
+      const sx = tS - x.startS;
+      const sy = tS - y.startS;
+      const vx = x.v + sx * x.a;
+      const vy = y.v + sy * y.a;
+      // An axis whose impulses come later waits at the beginning.
+      if (out.count === firstOut && vx === 0 && vy === 0 && x.a === 0 && y.a === 0) beginS = nextS;
+      else {
+        const px = x.p + (sx * (x.v + vx)) / 2;
+        const py = y.p + (sy * (y.v + vy)) / 2;
+        out.push(nextS - tS, px, py, vx, vy, x.a, y.a, 0);
+      }
+      tS = nextS;
+    }
+    while (out.count > firstOut && isRest(out, out.count - 1)) out.clockS = out.startS[--out.count]!;
+    return beginS;
+  }
+}
+
+const isRest = ({ vx, vy, ax, ay }: BlockColumns, k: number): boolean =>
+  vx[k] === 0 && vy[k] === 0 && ax[k] === 0 && ay[k] === 0;
