@@ -20,17 +20,17 @@ export default tseslint.config(
     },
   },
   {
-    files: ["{src,server,web,test,scripts,bench}/**/*.{ts,tsx}"],
+    files: ["{src,host,server,web,test,scripts,bench}/**/*.{ts,tsx}"],
     plugins: { plotwright: { rules: { "plain-words": plainWords } } },
     rules: { "plotwright/plain-words": "error" },
   },
   {
-    files: ["{src,server,web,test,scripts}/**/*.{ts,tsx}"],
+    files: ["{src,host,server,web,test,scripts}/**/*.{ts,tsx}"],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: { "@typescript-eslint/no-unnecessary-type-assertion": "error" },
   },
   {
-    files: ["src/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
+    files: ["src/**/*.ts", "host/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: {
       "@typescript-eslint/no-floating-promises": "error",
@@ -69,6 +69,24 @@ export default tseslint.config(
         "console",
         "setTimeout",
         "performance",
+      ],
+    },
+  },
+  {
+    files: ["host/**/*.ts"],
+    rules: {
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            onlyEntryPoints("host"),
+            {
+              group: ["node:*", "**/server/**", "**/web/**", "**/test/**"],
+              message:
+                "host runs in Node and in a browser's worker: take what you need as an interface argument.",
+            },
+          ],
+        },
       ],
     },
   },

@@ -15,7 +15,7 @@ import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import type { JournalEntry } from "../plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/types.js";
 
 const plotSchema = z.object({
   name: z.string(),

@@ -1,7 +1,7 @@
 /** Messages between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+import type { PlanRequest, PlannedPlot } from "../../host/planning/plot-planner.js";
 
 /** Passed to the worker when it starts. It prepares the drawing at once and answers "ready". */
 export interface WorkerInput {

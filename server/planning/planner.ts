@@ -5,8 +5,8 @@
  * A drawing that needs too much time or memory ends the worker, not the server.
  */
 import { PlotwrightError, type StrokeSet } from "../../src/index.js";
-import type { JobStats } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot, PlotPlanner } from "./plot-planner.js";
+import type { PlanRequest, PlannedPlot, PlotPlanner } from "../../host/planning/plot-planner.js";
+import type { Measured } from "../../host/planning/planning.js";
 import { BoundedThread } from "./bounded-thread.js";
 import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
 import {
@@ -20,11 +20,6 @@ import {
 export interface PlannerInput extends WorkerInput {
   /** Default PLANNING_LIMITS. */
   readonly limits?: PlanningLimits;
-}
-
-export interface Measured {
-  readonly stats: JobStats;
-  readonly warnings: readonly string[];
 }
 
 interface Waiting {

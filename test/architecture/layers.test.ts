@@ -181,7 +181,7 @@ describe("the layers of src", () => {
 });
 
 describe("server and web", () => {
-  it.each(["server", "web"])("%s uses src only through its three entries", (folder) => {
+  it.each(["host", "server", "web"])("%s uses src only through its three entries", (folder) => {
     const wrong = importsIn(folder).filter(
       ({ to }) => to.startsWith("src/") && !["src/index", "src/internal", "src/schema/index"].includes(to),
     );
@@ -196,6 +196,33 @@ describe("server and web", () => {
       return to.startsWith(other) || to.startsWith("test/") || to.startsWith("scripts/");
     });
     expect(wrong.map(write)).toEqual([]);
+  });
+});
+
+describe("host", () => {
+  const inside = importsIn("host").filter(({ to }) => to.startsWith("host/"));
+
+  it("imports only src, itself and zod, so it runs in Node and in a browser's worker", () => {
+    const wrong = importsIn("host").filter(({ to }) => !/^(src|host)\//.test(to) && to !== "zod");
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("is used by server and web only", () => {
+    const wrong = importsIn("src").filter(({ to }) => to.startsWith("host/"));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("has folders that are layers: planning, plotter, queue", () => {
+    const level = (file: string): number =>
+      ["host", "host/planning", "host/plotter", "host/queue"].indexOf(path.posix.dirname(file));
+    expect(inside.filter(({ from, to }) => level(from) < level(to)).map(write)).toEqual([]);
+    expect(findCycle(inside)).toEqual([]);
+  });
+
+  it("keeps zod out of what the planner's thread loads", () => {
+    const files = ["stages", "plot-planner", "planning", "lane"].map((name) => `host/planning/${name}.ts`);
+    const loaded = files.flatMap(staticImportsOf).filter(({ to }) => to === "zod");
+    expect(loaded.map(write)).toEqual([]);
   });
 });
 
@@ -282,7 +309,7 @@ describe("the folders of web", () => {
 });
 
 describe("the seams", () => {
-  const PRODUCT = ["src", "server", "web"].flatMap(sourceFiles);
+  const PRODUCT = ["src", "host", "server", "web"].flatMap(sourceFiles);
   const EBB_COMMAND =
     /^(EM|SC|SP|S2|SM|XM|LM|LT|L3|T3|TD|TR|HM|ES|QS|QM|QG|QB|QC|QU|QE|QP|QL|SL|CS|CU|PI|PD)(,[\d-]|,$|$)/;
 
@@ -323,7 +350,7 @@ describe("the seams", () => {
   });
 
   it("leave planning and compiling to planJob and the drivers", () => {
-    const wrong = ["server", "web"].flatMap(sourceFiles).filter((file) => {
+    const wrong = ["host", "server", "web"].flatMap(sourceFiles).filter((file) => {
       const text = readFileSync(path.join(ROOT, file), "utf8");
       return /import [^;]*\b(plan|compile|motionForFirmware)\b[^;]* from "[./]+src\/(index|internal)\.js"/.test(
         text,

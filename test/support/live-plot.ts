@@ -1,8 +1,8 @@
 /** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
 import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
-import type { LivePlotRun } from "../../server/plotter/types.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { LivePlotRun } from "../../host/plotter/types.js";
 import type { StrokeSet, VirtualBoard } from "../../src/index.js";
 import type { MotionMode } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";

@@ -1,9 +1,8 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
 import type { Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import type { Planning } from "../planning/planning.js";
-import type { DrawingFiles, StoredDrawing } from "../storage/drawing-files.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-import type { Store, WatchedFile } from "../storage/store.js";
+import type { DrawingStore, JobStore, StoredDrawing, WatchedFile } from "../storage.js";
 
 export interface Claims {
   /**
@@ -26,8 +25,8 @@ export interface JobHooks {
 }
 
 export interface QueueParts extends JobHooks {
-  readonly store: Store;
-  readonly files: DrawingFiles;
+  readonly store: JobStore;
+  readonly files: DrawingStore;
   readonly planning: Planning;
   /** By id, in order; plotters may be added and removed while the queue runs. */
   readonly plotters: ReadonlyMap<string, PlotterPort>;

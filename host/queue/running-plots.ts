@@ -13,7 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
-import { isDiskFault } from "../storage/disk-fault.js";
+import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";

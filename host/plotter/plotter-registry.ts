@@ -1,5 +1,5 @@
 /**
- * The plotters of a server, stored in its database. They can be added, changed and removed while it runs.
+ * The plotters, as stored. They can be added, changed and removed while it runs.
  * Every change is stored before it is announced.
  */
 import { PlotwrightError } from "../../src/index.js";
@@ -13,14 +13,11 @@ import {
   type ServerEvent,
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
-import type { PlotterRow, Store } from "../storage/store.js";
-import type { FoundBoard } from "../serial/find-boards.js";
+import type { PlotterRow, PlotterStore } from "../storage.js";
+import type { FoundBoard } from "./devices.js";
 
 export interface RegistryParts {
-  readonly store: Pick<
-    Store,
-    "plotters" | "savePlotter" | "removePlotter" | "plotterSettings" | "savePlotterSettings"
-  >;
+  readonly store: PlotterStore;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
   /** Throws `bad-setting` for an unknown machine id. */
