@@ -127,7 +127,7 @@ export default tseslint.config(
           patterns: [
             onlyEntryPoints("web"),
             {
-              group: ["**/server/**", "!**/backend/server/**", "**/test/**", "node:*"],
+              group: ["**/server/**", "!**/backend/server/**", "!./server/**", "**/test/**", "node:*"],
               message: "server and web never import each other; what they exchange is in src/schema.",
             },
           ],

@@ -5,8 +5,33 @@
 import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "../../src/index.js";
 import { pointCount, strokeCount } from "../../src/internal.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import { faultOf, type FromWorker, type ToWorker } from "./messages.js";
 import type { Measured } from "./planning.js";
 import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+
+/** What the planner's thread was started with. */
+export interface ThreadInput {
+  readonly settings: PlotSettings;
+  readonly machine: MachineProfile;
+}
+
+/** The answer of the planner's thread to a message. Never throws. */
+export function answerOf(
+  prepared: Prepared,
+  warnings: readonly string[],
+  input: ThreadInput,
+  message: ToWorker,
+): FromWorker {
+  const { id } = message;
+  try {
+    if (message.type === "plan") {
+      return { type: "planned", id, plot: planAndCompile(prepared, message.request, input.machine) };
+    }
+    return { type: "measured", id, ...measurePrepared(prepared, warnings, input, message.firmware) };
+  } catch (error) {
+    return { type: "failed", id, ...faultOf(error) };
+  }
+}
 
 /** The trajectory and commands for a request, in a form that can be sent between threads. */
 export function planAndCompile(
@@ -22,10 +47,10 @@ export function planAndCompile(
  * Compiles too, although only the figures are needed: so anything the board can't do shows now, not during
  * the plot.
  */
-export function measurePrepared(
+function measurePrepared(
   prepared: Prepared,
   warnings: readonly string[],
-  { settings, machine }: { readonly settings: PlotSettings; readonly machine: MachineProfile },
+  { settings, machine }: ThreadInput,
   firmware: string | null,
 ): Measured {
   const job = planJob(prepared, settings, machine, { firmware });

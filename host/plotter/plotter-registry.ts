@@ -143,6 +143,25 @@ export class PlotterRegistry {
     return this.#find(id).port.snapshot();
   }
 
+  /** The plotter as it is stored. */
+  stored(id: string): PlotterRow | undefined {
+    return this.#rows.get(id);
+  }
+
+  /** Closes the plotter and connects it again. Throws `busy` while a job is being plotted. */
+  reconnect(id: string, use: PlotterUse): Promise<Plotter> {
+    return this.#inTurn(async () => {
+      const { row, port } = this.#find(id);
+      if (use.isBusy(id)) {
+        throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
+      }
+      await port.close();
+      if (!this.#isClosed) this.#open(row);
+      this.#announce();
+      return this.#find(id).port.snapshot();
+    });
+  }
+
   /** Throws `conflict` while it has jobs that have not ended, and for the last plotter. */
   remove(id: string, use: PlotterUse): Promise<void> {
     return this.#inTurn(() => this.#remove(id, use));

@@ -32,6 +32,8 @@ export interface QueueParts extends JobHooks {
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
+  /** Why a job that was being plotted when the program ended is interrupted. Default: SERVER_STOPPED. */
+  readonly stoppedMessage?: string | undefined;
   /** Logs problems that can't be reported otherwise, such as a full disk during a plot. */
   readonly log?: ((line: string) => void) | undefined;
 }

@@ -3,12 +3,13 @@
  * starts fast.
  */
 import { parentPort, workerData, type TransferListItem } from "node:worker_threads";
-import { importDrawing, type Prepared } from "../../src/index.js";
+import { importDrawing } from "../../src/index.js";
 import { prepareJob } from "../../src/internal.js";
-import { faultOf, type FromWorker, type ToWorker, type WorkerInput } from "./messages.js";
+import { faultOf, type FromWorker, type ToWorker } from "../../host/planning/messages.js";
+import { answerOf, buffersOf } from "../../host/planning/stages.js";
 import { withOnlyLayers } from "./only-layers.js";
 import { readDrawing } from "./read-drawing.js";
-import { buffersOf, measurePrepared, planAndCompile } from "../../host/planning/stages.js";
+import type { WorkerInput } from "./planner.js";
 
 const input = workerData as WorkerInput;
 const port = parentPort;
@@ -23,25 +24,11 @@ try {
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);
   const { prepared, warnings } = prepareJob(drawing, settings, input.machine);
-  port.on("message", (message: ToWorker) => answer(prepared, warnings, message));
+  port.on("message", (message: ToWorker) => {
+    const answer = answerOf(prepared, warnings, input, message);
+    post(answer, answer.type === "planned" ? buffersOf(answer.plot) : []);
+  });
   post({ type: "ready", strokes: prepared.strokes, warnings });
 } catch (error) {
   post({ type: "failed", id: null, ...faultOf(error) });
-}
-
-function answer(prepared: Prepared, warnings: readonly string[], message: ToWorker): void {
-  try {
-    if (message.type === "plan") {
-      const plot = planAndCompile(prepared, message.request, input.machine);
-      post({ type: "planned", id: message.id, plot }, buffersOf(plot));
-    } else {
-      post({
-        type: "measured",
-        id: message.id,
-        ...measurePrepared(prepared, warnings, input, message.firmware),
-      });
-    }
-  } catch (error) {
-    post({ type: "failed", id: message.id, ...faultOf(error) });
-  }
 }

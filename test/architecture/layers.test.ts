@@ -274,6 +274,13 @@ describe("the folders of web", () => {
     expect(findCycle(inside)).toEqual([]);
   });
 
+  it("use host only in the backend without a server", () => {
+    const wrong = importsIn("web").filter(
+      ({ from, to }) => to.startsWith("host/") && !from.startsWith("web/backend/browser/"),
+    );
+    expect(wrong.map(write)).toEqual([]);
+  });
+
   it("have no cycles among themselves", () => {
     const between = inside
       .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
@@ -281,11 +288,11 @@ describe("the folders of web", () => {
     expect(findCycle(between)).toEqual([]);
   });
 
-  it("leave requests to the server's implementation of the backend", () => {
+  it("leave requests to the implementations of the backend", () => {
     // The service worker and its helpers fetch the page's own files; the build configuration is not part of
     // the page.
     const others = sourceFiles("web").filter(
-      (file) => !/^web\/(backend\/server|pwa)\//.test(file) && file !== "web/vite.config.ts",
+      (file) => !/^web\/(backend\/(server|browser)|pwa)\//.test(file) && file !== "web/vite.config.ts",
     );
     const wrong = others.filter((file) => {
       const text = readFileSync(path.join(ROOT, file), "utf8");
@@ -297,12 +304,12 @@ describe("the folders of web", () => {
     expect(wrong).toEqual([]);
   });
 
-  it("know the backend by its interface; only main.tsx chooses the implementation", () => {
+  it("know the backend by its interface; only page-backend.ts chooses the implementation", () => {
     const wrong = inside.filter(
       ({ from, to }) =>
-        to.startsWith("web/backend/server/") &&
-        !from.startsWith("web/backend/server/") &&
-        from !== "web/app/main.tsx",
+        /^web\/backend\/(server|browser)\//.test(to) &&
+        path.posix.dirname(from) !== path.posix.dirname(to) &&
+        from !== "web/backend/page-backend.ts",
     );
     expect(wrong.map(write)).toEqual([]);
   });

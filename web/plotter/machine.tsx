@@ -8,6 +8,7 @@ import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
 import { lampOf, plotterWords } from "./machine-words.js";
+import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
 const words = plotterText;
@@ -17,10 +18,20 @@ export const MachinePanel = () => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
+  const { attempt, connectPlotter } = useActions();
+  const saveLog = async (id: string): Promise<void> => {
+    const log = await attempt("log", () => backend.log(id));
+    if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
+  };
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
+      {isMine && plotter?.kind === "virtual" && backend.features.asksForPort && (
+        <button type="button" className="button" onClick={() => void connectPlotter(plotter.id)}>
+          {words.connect}
+        </button>
+      )}
       {isMine && <PenAtHand />}
       <div className="group-in-card">
         {isMine && <MoreMoves />}
@@ -35,9 +46,9 @@ export const MachinePanel = () => {
         {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
         {isMine && <DialogLink name="console">{words.console}</DialogLink>}
         {plotter && (
-          <a className="link" href={backend.logHref(plotter.id)} download>
+          <button type="button" className="link" onClick={() => void saveLog(plotter.id)}>
             {words.log}
-          </a>
+          </button>
         )}
       </p>
     </section>
@@ -93,6 +104,7 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
 };
 
 const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: Plotter }) => {
+  const { features } = useBackend();
   if (message && (connection === "fault" || connection === "absent")) {
     return (
       <p className="note health" role="alert">
@@ -100,7 +112,9 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
       </p>
     );
   }
-  if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
+  if (kind === "virtual") {
+    return <p className="note">{features.asksForPort ? words.connectHint : words.virtualHint}</p>;
+  }
   return message ? <p className="note">{message}</p> : null;
 };
 

@@ -21,6 +21,8 @@ export const plotterText = {
   setUp: "Set up a plotter…",
   profiles: "Machines…",
   console: "Console",
+  connect: "Connect a plotter…",
+  connectHint: "Plots run on a model of the board until you connect a plotter by USB.",
   log: "Save the log of the connection",
   held: "Paused",
   interrupted: "Interrupted",
