@@ -39,11 +39,12 @@ export async function plotting(
   strokes = DRAWING,
   firmware = "2.8.1",
   pen = DEFAULT_PLOT_SETTINGS.pen,
+  settings: PlotSettings = { ...settingsOf(mode), pen },
 ): Promise<LivePlot> {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
-  const run = await world.run(driver.plot(new LocalPlanner(strokes), { ...settingsOf(mode), pen }));
+  const run = await world.run(driver.plot(new LocalPlanner(strokes), settings));
   return { world, driver, board: virtualBoardOf(driver), run };
 }
 
