@@ -8,6 +8,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { importDrawing, type StrokeSet } from "../../src/index.js";
 import { machineOf, prepareJob } from "../../src/internal.js";
 import { jobSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
+import { crash } from "../support/backends.js";
 import { launchBrowser } from "../support/browser.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { FAKE_SERIAL_SCRIPT } from "../support/fake-serial-script.js";
@@ -195,8 +196,7 @@ describe("the page without a server", () => {
       await plotComb(page, 3);
       const atS = 1 + 5 * random();
       await expect.poll(() => app.serial.board.statistics().movingS, { interval: 20 }).toBeGreaterThan(atS);
-      const session = await context.newCDPSession(page);
-      await session.send("Page.crash").catch(() => undefined);
+      await crash(page);
       const next = await openPage(1);
       await recover(next);
       const { gapMm, overlapMm } = await offMm(next, 3);
