@@ -161,22 +161,28 @@ describe("the page without a server", () => {
     expect(app.serial.board.drawn()).toEqual(board.drawn());
   });
 
-  it("plots in a hidden tab without an underrun", { timeout: (HIDDEN_S + 200) * 1_000 }, async () => {
-    const page = await start(1);
-    await plotComb(page, 20);
-    await state(page, /^Plotting/);
-    await expect.poll(() => app.serial.board.statistics().movingS).toBeGreaterThan(1);
-    const front = await context.newPage();
-    await front.goto("about:blank");
-    await front.bringToFront();
-    const session = await context.newCDPSession(page);
-    await session.send("Emulation.setFocusEmulationEnabled", { enabled: false });
-    const before = app.serial.board.statistics();
-    await front.waitForTimeout(HIDDEN_S * 1_000);
-    const after = app.serial.board.statistics();
-    expect(after.movingS - before.movingS).toBeGreaterThan(0.5 * HIDDEN_S);
-    expect(after.underrunCount).toBe(0);
-  });
+  // Headless Chromium shows every tab as visible. A hidden tab slows the timers of its page, not of its workers; here the
+  // page's thread stands still altogether, and another tab is in front.
+  it(
+    "plots without an underrun while the page's own thread stands still",
+    { timeout: (HIDDEN_S + 200) * 1_000 },
+    async () => {
+      const page = await start(1);
+      await plotComb(page, HIDDEN_S > 20 ? 100 : 20);
+      await expect.poll(() => app.serial.board.statistics().movingS).toBeGreaterThan(1);
+      const before = app.serial.board.statistics();
+      const front = await context.newPage();
+      await front.bringToFront();
+      await page.evaluate((s) => {
+        const request = new XMLHttpRequest();
+        request.open("GET", `/wait?s=${s}`, false);
+        request.send();
+      }, HIDDEN_S);
+      const after = app.serial.board.statistics();
+      expect(after.movingS - before.movingS).toBeGreaterThan(0.5 * HIDDEN_S);
+      expect(after.underrunCount).toBe(0);
+    },
+  );
 
   it("recovers after a reload in the middle of a plot", { timeout: 300_000 }, async () => {
     const page = await start(1);

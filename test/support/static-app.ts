@@ -38,9 +38,14 @@ export function buildStaticApp(): { readonly path: string; readonly remove: () =
 export async function startStaticApp(folder: string, boardSpeed = 1): Promise<StaticApp> {
   const serial = new FakeSerial(boardSpeed);
   const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url ?? "/", "http://localhost");
+    const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
     if (pathname.startsWith("/fake-serial/")) {
       void serial.handle(pathname.slice("/fake-serial/".length), request, response);
+      return;
+    }
+    // Answers late, to hold up a page's thread by a synchronous request.
+    if (pathname === "/wait") {
+      setTimeout(() => response.end(), 1_000 * Number(searchParams.get("s")));
       return;
     }
     const file = path.join(folder, pathname === "/" ? "index.html" : pathname);

@@ -79,6 +79,8 @@ export class HostClient {
       case "event":
         if (message.tab !== undefined && message.tab !== this.tab) return;
         if (message.event.type === "snapshot") this.#hostIs(message.host);
+        // A host that has handed over still closes its plotters.
+        if (message.host !== this.#host) return;
         for (const listener of this.#listeners) {
           if (message.event.type === "snapshot") listener.onLink(true);
           listener.onEvent(message.event);
