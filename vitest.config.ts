@@ -6,7 +6,7 @@ const REAL_TIME = ["test/serial/**/*.test.ts"];
 /** Keeps a server as busy as it may be while a board plots: nothing else runs then. */
 const LOAD = ["test/serial/load.test.ts"];
 
-/** Tests of functions. They leave nothing behind, so they share workers that have loaded the product once. */
+/** Tests of functions. */
 const FUNCTIONS = ["test/unit/**/*.test.ts", "test/property/**/*.test.ts", "test/architecture/**/*.test.ts"];
 
 /** Tests of the built product, in processes of their own, and in a browser. */
@@ -21,6 +21,12 @@ const limits = (limitMs: number) => ({
 
 const COMMON = { pool: "forks" as const, setupFiles: ["test/support/fixed-seed.ts"] };
 
+/** These tests leave nothing behind, so they share workers that have loaded the product once. */
+const SHARED = { isolate: false };
+
+/** Tests that also wait (for a board, a browser, a process) keep two cores busy only with a third worker. */
+const WAITING = { maxWorkers: 3 };
+
 export default defineConfig({
   test: {
     maxWorkers: 2,
@@ -32,21 +38,24 @@ export default defineConfig({
           include: FUNCTIONS,
           exclude: PROCESSES,
           ...limits(60_000),
-          isolate: false,
+          ...SHARED,
         },
       },
       {
         test: {
           ...COMMON,
+          ...WAITING,
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
           exclude: [...FUNCTIONS, ...PROCESSES, ...REAL_TIME],
           ...limits(60_000),
+          ...SHARED,
         },
       },
       {
         test: {
           ...COMMON,
+          ...WAITING,
           name: "processes",
           include: PROCESSES,
           globalSetup: ["test/support/built.ts", "test/support/shared-browser.ts"],
@@ -56,6 +65,7 @@ export default defineConfig({
       {
         test: {
           ...COMMON,
+          ...WAITING,
           name: "real-time",
           include: REAL_TIME,
           exclude: LOAD,

@@ -34,6 +34,7 @@ export {
 } from "./settings/prepare.js";
 export {
   DEFAULT_FIT,
+  CORNER_RULES,
   MOTION_MODES,
   SHAPERS,
   type Shaper,
@@ -111,7 +112,6 @@ export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";
-export type { EbbController, GrblController } from "./machines/controllers.js";
 export { findMachine, machineOf } from "./machines/profiles.js";
 export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
@@ -119,6 +119,7 @@ export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-h
 
 // job
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
+export { unusedSettings } from "./job/unused-settings.js";
 
 // drivers
 export type { BoardState } from "./drivers/ebb/compile/command-stream.js";
@@ -129,7 +130,9 @@ export type { BoardStatistics, VirtualBoardState } from "./drivers/ebb/virtual/v
 export type { StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
-export { driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
+export { controllerOf, driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
+export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
+export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
 export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine } from "./drivers/driver.js";
 export { powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";

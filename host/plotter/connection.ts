@@ -1,11 +1,13 @@
 /** Finds and opens a plotter, real or virtual, and lets its driver identify it. */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
-import type { Driver, Machine, MachineEvents, VirtualMachine } from "../../src/internal.js";
+import type { Driver, Machine, MachineEvents, UsbId, VirtualMachine } from "../../src/internal.js";
 import type { Devices } from "./devices.js";
 
 export interface ConnectOptions {
   readonly driver: Driver;
-  /** "auto": the first board on USB that is certainly the driver's, else the virtual one. "virtual", or a serial port's path. */
+  /** Devices that are certainly the driver's. */
+  readonly usbIds: readonly UsbId[];
+  /** "auto": the first board on USB with one of `usbIds`, else the virtual one. "virtual", or a serial port's path. */
   readonly device: string;
   readonly devices: Devices;
   /** Ports that "auto" skips. */
@@ -33,7 +35,7 @@ export interface Connection {
  */
 export async function connect(options: ConnectOptions): Promise<Connection> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
-  if (path === null && !options.virtualIfNone) throw notFound(options.driver);
+  if (path === null && !options.virtualIfNone) throw notFound(options);
   if (path === null || path === "virtual") {
     const machine = await identified(options.virtualMachine().transport(), options);
     return { machine, kind: "virtual", device: null };
@@ -46,11 +48,11 @@ export async function connect(options: ConnectOptions): Promise<Connection> {
 }
 
 async function firstBoard({
-  driver,
+  usbIds,
   devices,
   isTaken = () => false,
 }: ConnectOptions): Promise<string | null> {
-  const boards = await devices.find(driver.usbIds);
+  const boards = await devices.find(usbIds);
   return boards.find(({ path }) => !isTaken(path))?.path ?? null;
 }
 
@@ -77,7 +79,7 @@ function atDevice(error: unknown, device: string): unknown {
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 
-const notFound = ({ usbIds }: Driver): PlotwrightError =>
+const notFound = ({ usbIds }: ConnectOptions): PlotwrightError =>
   new PlotwrightError(
     "no-board",
     usbIds.length === 0

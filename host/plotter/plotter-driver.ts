@@ -8,6 +8,7 @@
  */
 import { PlotwrightError, type Clock } from "../../src/index.js";
 import {
+  controllerOf,
   driverOf,
   powerLost,
   powerLow,
@@ -288,6 +289,7 @@ export class PlotterDriver {
         clock: this.#clock,
         speed: this.#options.virtualSpeed ?? 1,
         driver: driverOf(machineOf(this.#settings)),
+        usbIds: controllerOf(machineOf(this.#settings)).usbIds,
         virtualMachine: () => this.#makeVirtual(),
         events: {
           changed: () => this.#machineChanged(),

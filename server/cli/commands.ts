@@ -30,7 +30,7 @@ export const COMMANDS: readonly CliCommand[] = [
     examples: [
       "plotwright plan drawing.svg --paper A4 --margin 1cm",
       "plotwright plan drawing.svg --json",
-      "plotwright plan - --ebb -",
+      "plotwright plan - --commands -",
     ],
     load: async () => (await import("./plan-command.js")).declarePlan,
   },

@@ -1,3 +1,4 @@
+import { Option } from "commander";
 import { withDrawingFile } from "./files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
@@ -9,7 +10,9 @@ export const declarePlan: Declare = (command, { io }) => {
     .option("--only <layer...>", "draw these layers only, by name or id")
     .option("--json", "print one JSON object")
     .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
-    .option("--ebb <out>", "write the board's commands, one per line, to a file or - for stdout")
+    .option("--commands <out>", "write the machine's commands, one per line, to a file or - for stdout")
+    // The option's name while the EiBotBoard was the only controller.
+    .addOption(new Option("--ebb <out>").hideHelp())
     .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
     .option("--preview <out.svg>", "write a picture coloured by speed, to a file or -")
     .option(
@@ -17,9 +20,10 @@ export const declarePlan: Declare = (command, { io }) => {
       "write the prepared drawing, its layers' settings as codes in their names, to a file or -",
     )
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
-    .action((file: string, options: PlanCommandOptions & OptionValues) =>
-      withDrawingFile(file, (path) =>
+    .action((file: string, { ebb, ...given }: PlanCommandOptions & OptionValues & { ebb?: string }) => {
+      const options = ebb === undefined ? given : { commands: ebb, ...given };
+      return withDrawingFile(file, (path) =>
         runPlanInThread({ file: path, settings: settingsFromOptions(options), options }, io),
-      ),
-    );
+      );
+    });
 };

@@ -28,7 +28,8 @@ import { writeOut } from "./files.js";
 export interface PlanCommandOptions {
   readonly json?: boolean;
   readonly penError?: boolean;
-  readonly ebb?: string;
+  /** The machine's commands. */
+  readonly commands?: string;
   readonly firmware: string;
   readonly preview?: string;
   /** The prepared drawing, as SVG and as JSON of polylines. */
@@ -81,7 +82,7 @@ export type PlanStep = "prepare" | "plan";
 export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
   const toStdout = [
     ...(options.json === true ? ["--json"] : []),
-    ...(["ebb", "preview", "svg", "strokes"] as const)
+    ...(["commands", "preview", "svg", "strokes"] as const)
       .filter((name) => options[name] === "-")
       .map((name) => `--${name} -`),
   ];
@@ -94,7 +95,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   const { report, settings, job, trajectory, lines } = planFile(file, base, options, io);
   const { prepared } = job;
   const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
-  if (options.ebb !== undefined) writeOut(options.ebb, `${lines.join("\n")}\n`, io);
+  if (options.commands !== undefined) writeOut(options.commands, `${lines.join("\n")}\n`, io);
   if (options.preview !== undefined) writeOut(options.preview, trajectoryToSvg(trajectory, paper), io);
   if (options.svg !== undefined) {
     writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, settings)), io);

@@ -1,6 +1,6 @@
 /** Connects one plotter for a command. */
 import { PlotwrightError } from "../../src/index.js";
-import { driverOf, machineOf } from "../../src/internal.js";
+import { controllerOf, machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { FIRST_PLOTTER, NamedPlotter } from "../../host/plotter/named-plotter.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
@@ -26,7 +26,7 @@ export async function openPlotter(choice: DeviceChoice, settings: PlotSettings):
   const { connection, message } = plotter.snapshot();
   if (connection === "idle") return plotter;
   await plotter.close();
-  if (connection === "absent" && device === "auto" && driverOf(machineOf(settings)).usbIds.length > 0) {
+  if (connection === "absent" && device === "auto" && controllerOf(machineOf(settings)).usbIds.length > 0) {
     throw new PlotwrightError(
       "no-board",
       "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",

@@ -1,7 +1,8 @@
 /**
- * What plotwright needs from a controller. A driver is a folder beside this file and a line in `registry.ts`;
+ * What plotwright needs from a controller. A driver is a folder beside this file and its names in `registry.ts`;
  * nothing outside its folder knows its commands.
  *
+ *   ControllerDescription    the fields in a machine's profile, USB ids, versions
  *   PlanForMachine ──────> MachineJob   the motion and its commands, without a machine
  *   Driver ──identify──> Machine      a connected one: pen, moves by hand, supply, console
  *                          └──startRun──> MachineRun   one plot: play, hold, stop, switch to another plan
@@ -11,9 +12,10 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
+import type { Controller, ControllerFields } from "../machines/controller.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { Place } from "../plan/trajectory.js";
-import type { MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
+import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PlotProgress, RunProgress } from "./run-progress.js";
 import type { Clock, Transport } from "./transport.js";
 
@@ -23,9 +25,22 @@ export interface UsbId {
   readonly productId: string;
 }
 
-export interface Driver {
+/** What is known about a controller without planning for it or talking to it. */
+export interface ControllerDescription {
+  /** Its fields in a machine's profile. */
+  readonly fields: ControllerFields;
+  /** A contradiction between valid fields, and the field to change; left out: there is none. */
+  readonly contradictionOf?: (controller: Controller) => { field: string; message: string } | null;
   /** Devices that are certainly this controller: "auto" takes the first. Empty: the user names the port. */
   readonly usbIds: readonly UsbId[];
+  readonly firmware: FirmwareRules;
+  /**
+   * Settings that do not change its plots: their labels by path, such as "motion.layers.*.cornerMm". Left out: none.
+   */
+  readonly unusedSettings?: Readonly<Record<string, string>>;
+}
+
+export interface Driver {
   /** Finds out what is connected. Closes the connection and rejects if this driver does not know it. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** A simulated controller, to plot without hardware. */

@@ -1,46 +1,57 @@
 /**
- * The drivers, by the `kind` of a machine's controller. Planning and versions have their own tables, so that
- * a page that only plans does not load the code that talks to a machine.
+ * The drivers, by the `kind` of a machine's controller. There are three tables and not one, because a bundler
+ * keeps or drops a table as a whole: the page loads the descriptions (2 kB), its worker the planners (26 kB),
+ * and only the server the code that talks to a machine (64 kB).
  */
 import { PlotwrightError } from "../errors.js";
-import type { Controller } from "../machines/controllers.js";
+import { checkController, checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
-import type { Driver, UsbId } from "./driver.js";
-import { planEbbJob } from "./ebb/compile/ebb-job.js";
-import { ebbDriver } from "./ebb/ebb-driver.js";
-import { ebbFirmware } from "./ebb/protocol/firmware-motion.js";
-import { grblFirmware, planGrblJob } from "./grbl/grbl-job.js";
-import { grblDriver } from "./grbl/grbl-driver.js";
-import type { FirmwareRules, PlanForMachine } from "./machine-job.js";
+import type { ControllerDescription, Driver, UsbId } from "./driver.js";
+import * as ebb from "./ebb/controller.js";
+import * as grbl from "./grbl/controller.js";
+import type { PlanForMachine } from "./machine-job.js";
 
-type ByController<T> = Readonly<Record<Controller["kind"], T>>;
+const DESCRIPTIONS = { ebb: ebb.description, grbl: grbl.description };
+const PLANNERS: ByKind<PlanForMachine> = { ebb: ebb.planJob, grbl: grbl.planJob };
+const DRIVERS: ByKind<Driver> = { ebb: ebb.driver, grbl: grbl.driver };
 
-const PLANNERS: ByController<PlanForMachine> = { ebb: planEbbJob, grbl: planGrblJob };
-const FIRMWARES: ByController<FirmwareRules> = { ebb: ebbFirmware, grbl: grblFirmware };
-const DRIVERS: ByController<Driver> = { ebb: ebbDriver, grbl: grblDriver };
+type ByKind<T> = Readonly<Record<keyof typeof DESCRIPTIONS, T>>;
 
-/** Plans jobs for a machine. Throws `bad-setting` for a profile with an unknown controller. */
-export const plannerOf = (machine: MachineProfile): PlanForMachine => ofController(PLANNERS, machine);
+/** All controllers, by their `kind`. */
+export const CONTROLLERS: ByKind<ControllerDescription> = DESCRIPTIONS;
 
-/** Connects machines. Throws `bad-setting` for a profile with an unknown controller. */
-export const driverOf = (machine: MachineProfile): Driver => ofController(DRIVERS, machine);
+/** Throws `bad-setting` for a profile with an unknown controller, as do the functions below. */
+export const controllerOf = (machine: MachineProfile): ControllerDescription => ofKind(CONTROLLERS, machine);
+
+/** Plans jobs for a machine. */
+export const plannerOf = (machine: MachineProfile): PlanForMachine => ofKind(PLANNERS, machine);
+
+/** Connects machines. */
+export const driverOf = (machine: MachineProfile): Driver => ofKind(DRIVERS, machine);
 
 /** The USB devices of all drivers. */
-export const usbIds = (): readonly UsbId[] => Object.values(DRIVERS).flatMap((driver) => driver.usbIds);
+export const usbIds = (): readonly UsbId[] => Object.values(CONTROLLERS).flatMap((one) => one.usbIds);
+
+/** @throws PlotwrightError "bad-setting" for the first field of the profile that is missing or invalid */
+export function checkMachine(machine: MachineProfile): void {
+  checkProfile(machine);
+  checkController(machine, controllerOf(machine).fields);
+}
 
 /** The version to plan for: null if it belongs to a different controller. */
 export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
-  return firmware !== null && ofController(FIRMWARES, machine).isOwn(firmware) ? firmware : null;
+  return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;
 }
 
 /** Whether a machine moves in the same way with both versions. */
 export function isPlannedAlike(machine: MachineProfile, a: string | null, b: string | null): boolean {
-  const { limitsMotion } = ofController(FIRMWARES, machine);
+  const { limitsMotion } = controllerOf(machine).firmware;
   return limitsMotion(firmwareFor(machine, a)) === limitsMotion(firmwareFor(machine, b));
 }
 
-function ofController<T>(table: ByController<T>, { name, controller }: MachineProfile): T {
-  if (Object.hasOwn(table, controller.kind)) return table[controller.kind];
+function ofKind<T>(table: ByKind<T>, { name, controller }: MachineProfile): T {
+  const all: Readonly<Record<string, T>> = table;
+  if (Object.hasOwn(all, controller.kind)) return all[controller.kind];
   const known = Object.keys(table).join(", ");
   throw new PlotwrightError(
     "bad-setting",

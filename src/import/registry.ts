@@ -10,7 +10,7 @@ import { importDxf } from "./dxf/import-dxf.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import type { ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
-import { importSvgSteps } from "./svg/import-svg.js";
+import { importSvg } from "./svg/import-svg.js";
 
 export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
@@ -45,24 +45,15 @@ export const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
 };
 
-/**
- * Reads in steps of a few milliseconds; the generator returns the drawing. Throws
- * PlotwrightError("bad-file").
- */
-type Reader = (text: string, options: ImportOptions) => Generator<void, Drawing>;
+/** Throws PlotwrightError("bad-file"). */
+type Reader = (text: string, options: ImportOptions) => Drawing;
 
 const READERS: Readonly<Record<DrawingFormat, Reader>> = {
-  svg: importSvgSteps,
-  dxf: inOneStep(importDxf),
-  hpgl: inOneStep(importHpgl),
-  json: inOneStep(importPolylines),
+  svg: importSvg,
+  dxf: importDxf,
+  hpgl: importHpgl,
+  json: importPolylines,
 };
-
-function inOneStep(read: (text: string, options: ImportOptions) => Drawing): Reader {
-  return function* (text, options) {
-    return read(text, options);
-  };
-}
 
 export const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
 /** The extensions of all formats, without the dot. */
@@ -96,11 +87,7 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
  * const drawing = importDrawing("box.dxf", text);
  */
 export function importDrawing(name: string, text: string, options: ImportOptions = {}): Drawing {
-  const steps = readerOf(name, text)(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-  }
+  return readerOf(name, text)(text, options);
 }
 
 function readerOf(name: string, text: string): Reader {

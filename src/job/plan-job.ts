@@ -6,8 +6,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
-import { plannerOf } from "../drivers/registry.js";
-import { checkProfile } from "../machines/check-profile.js";
+import { checkMachine, plannerOf } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 
@@ -32,7 +31,7 @@ export function planJob(
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
 ): MachineJob {
-  checkProfile(machine);
+  checkMachine(machine);
   const coded = withLayerCodes(settings, strokes.layers);
   return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);
 }

@@ -1,6 +1,7 @@
 /** From a drawing to strokes within the machine's reach, or an error with the reason if there are none. */
 import type { Drawing } from "../drawing/drawing.js";
 import { strokeCount } from "../drawing/stroke-set.js";
+import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { checkBounds } from "../prepare/check-bounds.js";
@@ -8,10 +9,11 @@ import { prepareSettingsOf, type PenSetup } from "../prepare/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
 import type { Work } from "../prepare/work.js";
 import type { PrepareSettings } from "../settings/prepare.js";
+import { unusedSettings } from "./unused-settings.js";
 
 export interface PreparedJob {
   readonly prepared: Prepared;
-  /** Warnings about the file and the paper. Plain text. */
+  /** Warnings about the file, the paper, and settings that the machine does not use. Plain text. */
   readonly warnings: readonly string[];
 }
 
@@ -23,7 +25,7 @@ export interface PreparedJob {
  */
 export function prepareJob(
   drawing: Drawing,
-  settings: Pick<PenSetup, "pens" | "layerPens"> & { readonly prepare: PrepareSettings },
+  settings: JobSettings & Pick<PenSetup, "pens" | "layerPens"> & { readonly prepare: PrepareSettings },
   machine: MachineProfile,
   work: Work = {},
 ): PreparedJob {
@@ -37,5 +39,5 @@ export function prepareJob(
     throw new PlotwrightError("bad-file", why.join(" "));
   }
   checkBounds(prepared.strokes, machine);
-  return { prepared, warnings };
+  return { prepared, warnings: [...warnings, ...unusedSettings(settings, machine)] };
 }

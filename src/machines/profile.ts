@@ -1,4 +1,4 @@
-import type { Controller } from "./controllers.js";
+import type { Controller } from "./controller.js";
 
 /** A plotter as data: what the compiler and the page need to know about it. */
 export interface MachineProfile<C extends Controller = Controller> {

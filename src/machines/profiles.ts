@@ -6,19 +6,16 @@
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
  */
 import { PlotwrightError } from "../errors.js";
-import type { EbbController } from "./controllers.js";
 import type { MachineProfile } from "./profile.js";
 
-type EbbMachine = MachineProfile<EbbController>;
-
-const STANDARD_SERVO: EbbController = {
+const STANDARD_SERVO = {
   kind: "ebb",
   microstepMode: 1,
   servoPosAt0Pct: 7_500,
   servoPosAt100Pct: 28_000,
   servoPin: 4,
 };
-const BRUSHLESS_SERVO: EbbController = {
+const BRUSHLESS_SERVO = {
   kind: "ebb",
   microstepMode: 1,
   servoPosAt0Pct: 5_400,
@@ -27,7 +24,7 @@ const BRUSHLESS_SERVO: EbbController = {
 };
 const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed" } as const;
 
-const axidraw = (id: string, name: string, widthMm: number, heightMm: number): EbbMachine => ({
+const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
   id,
   name,
   widthMm,
@@ -35,7 +32,7 @@ const axidraw = (id: string, name: string, widthMm: number, heightMm: number): E
   ...BELT_DRIVE,
   controller: STANDARD_SERVO,
 });
-const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): EbbMachine => ({
+const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
   id,
   name,
   widthMm,
@@ -49,7 +46,7 @@ const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
 /** The built-in plotters. */
-export const MACHINES: readonly EbbMachine[] = [
+export const MACHINES: readonly MachineProfile[] = [
   axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
   axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
   axidraw("axidraw-se-a4", "AxiDraw SE/A4", 300, 218),
@@ -87,7 +84,7 @@ export const MACHINES: readonly EbbMachine[] = [
  *
  * @throws PlotwrightError "bad-setting" for an unknown id, with the list of known ids
  */
-export function machineById(id: string): EbbMachine {
+export function machineById(id: string): MachineProfile {
   const machine = MACHINES.find((candidate) => candidate.id === id);
   if (machine === undefined) {
     const known = MACHINES.map((candidate) => candidate.id).join(", ");

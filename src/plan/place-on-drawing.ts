@@ -59,10 +59,10 @@ interface Moving {
 }
 
 /**
- * The place on the same stroke that is nearest to a point, found by following the stroke as long as it comes nearer, not
- * further than `withinMm`: where the plan rounds a corner or fits a curve, mm along it and mm along the drawing are not
- * quite the same. The other side of a narrow tip may be nearer still, and is another place; one that the stroke passes the
- * other way than `vx`, `vy` is not where the pen is, and the given place stays.
+ * The place on the same stroke that is nearest to a point: mm along the plan and mm along the drawing differ slightly
+ * where the plan rounds a corner. The search follows the stroke as long as it comes nearer, up to `withinMm`, because the
+ * other side of a narrow tip may be nearer but is another place. If the stroke runs against `vx`, `vy` there, the pen is
+ * not on it, and the result is the given place.
  */
 export function snappedPlace(
   { xy, offsets }: StrokeSet,
@@ -78,21 +78,21 @@ export function snappedPlace(
   let i = first;
   let fromMm = 0;
   while (i + 1 < end && fromMm + lengthOf(i) < alongMm) fromMm += lengthOf(i++);
-  for (let way = 0; ;) {
+  for (let step = 0; ;) {
     const lengthMm = lengthOf(i);
     const [dx, dy] = [xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]];
     const dot = (x - xy[2 * i]) * dx + (y - xy[2 * i + 1]) * dy;
-    const footMm = lengthMm > 0 ? dot / lengthMm : way;
+    const footMm = lengthMm > 0 ? dot / lengthMm : step;
     const next = footMm > lengthMm ? 1 : footMm < 0 ? -1 : 0;
     const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));
-    const isThere = next === 0 || next === -way || i + next < first || i + next >= end;
+    const isThere = next === 0 || next === -step || i + next < first || i + next >= end;
     if (isThere || Math.abs(nearestMm - alongMm) >= withinMm) {
       if (dx * vx + dy * vy < 0) return place;
       const byMm = Math.min(withinMm, Math.max(-withinMm, nearestMm - alongMm));
       return { stroke, alongMm: alongMm + byMm };
     }
-    way = next;
-    fromMm += way > 0 ? lengthMm : -lengthOf(i - 1);
-    i += way;
+    step = next;
+    fromMm += step > 0 ? lengthMm : -lengthOf(i - 1);
+    i += step;
   }
 }

@@ -26,8 +26,20 @@ export interface WritesRuns {
   write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void;
 }
 
+/** Writes the blocks of one run with corners, before any filter. */
+interface WritesBlocks {
+  write(path: RunPath, limits: RunLimits, out: BlockColumns): void;
+}
+
+/** A planner for each corner rule. `scurve` filters the blocks of `blend`. */
+const CORNERS: Readonly<Record<MotionMode, () => WritesBlocks>> = {
+  junction: () => ({ write: writeJunctionRun }),
+  blend: () => new BlendPlanner(),
+  scurve: () => new BlendPlanner(),
+};
+
 export class RunWriter implements WritesRuns {
-  private readonly blend = new BlendPlanner();
+  private readonly corners: WritesBlocks;
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly filtered = new BlockColumns(0, false);
@@ -41,6 +53,7 @@ export class RunWriter implements WritesRuns {
     fit: FitSettings | null,
     private readonly shaper: Kernel | null,
   ) {
+    this.corners = CORNERS[mode]();
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
       shortToleranceMm: fit.toleranceMm,
@@ -113,9 +126,9 @@ export class RunWriter implements WritesRuns {
 
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const first = out.count;
-    // A single straight has no corners, so its blocks are the same in both modes.
-    if (this.mode === "junction" || path.segmentCount === 1) writeJunctionRun(path, limits, out);
-    else this.blend.write(path, limits, out);
+    // A single straight has no corners, so its blocks are the same in all modes.
+    if (path.segmentCount === 1) writeJunctionRun(path, limits, out);
+    else this.corners.write(path, limits, out);
     if (this.rules !== null && path.segmentCount > 1) {
       mergeBlocks(out, first, path.end(), limits, this.rules);
     }

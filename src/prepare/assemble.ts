@@ -21,9 +21,7 @@ export interface PreparedLayer extends FileLayer {
 /** Sorts lines by layer, keeping the file's order within each; from here on their tag is the layer. */
 export function byLayer(lines: Lines, table: LayerTable): Lines {
   const layer = new Uint32Array(lines.tag.length);
-  // No object spread here: to V8 the result would have a different hidden class, and all code that reads
-  // lines would be recompiled.
-  const tagged = { xy: lines.xy, offsets: lines.offsets, tag: layer };
+  const tagged = { ...lines, tag: layer };
   if (table.layers.length === 1) return tagged;
   for (let i = 0; i < layer.length; i++) layer[i] = table.ofShape[lines.tag[i]];
   if (isSorted(layer)) return tagged;

@@ -7,7 +7,7 @@
  *        y  └───────────┘           true     page corner on paper corner
  *                                   place    the content's box as given, then turned about its centre
  */
-import { VERB_LINE, type ClipRegion, type Drawing } from "../drawing/drawing.js";
+import type { ClipRegion, Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { PlotwrightError } from "../errors.js";
 import {
@@ -113,51 +113,16 @@ const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infini
 /** Boxes for `Placement`. */
 function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: Float64Array; readonly whole: Box } {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
-  const { a, b, c, d, e, f } = map;
   const boxes = new Float64Array(4 * count);
-  let wholeX0 = Infinity;
-  let wholeY0 = Infinity;
-  let wholeX1 = -Infinity;
-  let wholeY1 = -Infinity;
-  let empty = 0;
+  let whole = EMPTY_BOX;
+  let hasEmpty = false;
   for (let i = 0; i < count; i++) {
-    const verbEnd = verbOffsets[i + 1];
-    let v = verbOffsets[i] + 1;
-    while (v < verbEnd && verbs[v] === VERB_LINE) v++;
-    if (v < verbEnd || verbEnd - verbOffsets[i] < 2) {
-      boundsOfVerbs(verbs, verbOffsets[i], verbEnd, coords, coordOffsets[i], map, boxes, 4 * i);
-      const box = boxAt(boxes, i);
-      if (isEmptyBox(box)) empty++;
-      wholeX0 = Math.min(wholeX0, box.x0);
-      wholeY0 = Math.min(wholeY0, box.y0);
-      wholeX1 = Math.max(wholeX1, box.x1);
-      wholeY1 = Math.max(wholeY1, box.y1);
-      continue;
-    }
-    // Straight segments only, as in most large drawings: inlined to avoid a call for each shape.
-    let x0 = Infinity;
-    let y0 = Infinity;
-    let x1 = -Infinity;
-    let y1 = -Infinity;
-    for (let k = coordOffsets[i]; k < coordOffsets[i + 1]; k += 2) {
-      const x = a * coords[k] + c * coords[k + 1] + e;
-      const y = b * coords[k] + d * coords[k + 1] + f;
-      if (x < x0) x0 = x;
-      if (x > x1) x1 = x;
-      if (y < y0) y0 = y;
-      if (y > y1) y1 = y;
-    }
-    boxes[4 * i] = x0;
-    boxes[4 * i + 1] = y0;
-    boxes[4 * i + 2] = x1;
-    boxes[4 * i + 3] = y1;
-    if (x0 < wholeX0) wholeX0 = x0;
-    if (y0 < wholeY0) wholeY0 = y0;
-    if (x1 > wholeX1) wholeX1 = x1;
-    if (y1 > wholeY1) wholeY1 = y1;
+    boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map, boxes, 4 * i);
+    const box = boxAt(boxes, i);
+    if (isEmptyBox(box)) hasEmpty = true;
+    whole = uniteBoxes(whole, box);
   }
-  const whole = empty > 0 ? EVERYTHING : { x0: wholeX0, y0: wholeY0, x1: wholeX1, y1: wholeY1 };
-  return { boxes, whole };
+  return { boxes, whole: hasEmpty ? EVERYTHING : whole };
 }
 
 /** One of `shapeBoxes`. */

@@ -1,41 +1,35 @@
 /** A plotter's profile, as sent, stored or written to a file. */
 import { z } from "zod";
 import { nameSchema } from "./name.js";
-import { CONTROLLER_TABLES, INPUT_PORTS, type Controller } from "../machines/controllers.js";
+import type { ControllerDescription } from "../drivers/driver.js";
+import { CONTROLLERS } from "../drivers/registry.js";
+import type { Controller, ControllerField, ControllerFields } from "../machines/controller.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { SPRINGS_TABLE } from "../settings/springs.js";
-import { shapeOf } from "./setting.js";
+import { schemaOf, shapeOf } from "./setting.js";
 
-const switchInputSchema = z.object({
-  port: z.enum(INPUT_PORTS),
-  pin: z.int().min(0).max(7),
-  pressed: z.union([z.literal(0), z.literal(1)]),
-});
+function fieldSchema(field: ControllerField): z.ZodType {
+  if (field.kind === "one-of") return z.literal([...field.values]);
+  if (field.kind !== "group") return schemaOf(field);
+  const group = z.object(fieldShape(field.fields));
+  return field.isOptional ? group.nullable().optional() : group;
+}
 
-/** The board stores servo positions in 16 bits. */
-const servoPosSchema = z.int().min(1).max(65_535);
+const fieldShape = (fields: ControllerFields): Record<string, z.ZodType> =>
+  Object.fromEntries(Object.entries(fields).map(([key, field]) => [key, fieldSchema(field)]));
 
-const ebbControllerSchema = z
-  .object({
-    kind: z.literal("ebb"),
-    microstepMode: z.union([z.literal(1), z.literal(2), z.literal(3), z.literal(4), z.literal(5)]),
-    servoPosAt0Pct: servoPosSchema,
-    servoPosAt100Pct: servoPosSchema,
-    servoPin: z.union([z.literal(4), z.literal(5)]),
-    homing: z.object({ x: switchInputSchema, y: switchInputSchema }).nullable().optional(),
-  })
-  .refine(({ servoPosAt0Pct, servoPosAt100Pct }) => servoPosAt0Pct !== servoPosAt100Pct, {
-    message: "the servo has no range: 0 % and 100 % are the same position",
-    path: ["servoPosAt100Pct"],
+const kindSchema = (kind: string, { fields, contradictionOf = () => null }: ControllerDescription) =>
+  z.object({ kind: z.literal(kind), ...fieldShape(fields) }).superRefine((controller, context) => {
+    const contradiction = contradictionOf(controller);
+    if (contradiction === null) return;
+    context.addIssue({ code: "custom", path: [contradiction.field], message: contradiction.message });
   });
 
+const [firstKind, ...otherKinds] = Object.entries(CONTROLLERS).map(([kind, one]) => kindSchema(kind, one));
 const controllerSchema = z.discriminatedUnion("kind", [
-  ebbControllerSchema,
-  ...Object.entries(CONTROLLER_TABLES).map(([kind, table]) =>
-    z.object({ kind: z.literal(kind), ...shapeOf(table) }),
-  ),
-  // The tables are the types' source too, but their keys are lost in the list.
-]) as z.ZodType<Controller>;
+  firstKind,
+  ...otherKinds,
+]) as unknown as z.ZodType<Controller>;
 
 const profileShape = {
   /** Also used as a file name. */

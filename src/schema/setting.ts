@@ -15,7 +15,7 @@ export function numberSchema(row: NumberSetting): z.ZodNumber {
   return fromMin.max(row.max, { error });
 }
 
-function schemaOf(row: Setting): z.ZodType {
+export function schemaOf(row: Setting): z.ZodType {
   if (row.kind === "number") return numberSchema(row);
   if (row.kind === "switch") return z.boolean();
   return z.enum(row.choices);

@@ -1,8 +1,26 @@
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
-/** How the pen moves: one set of limits with the pen down (`draw`), one with the pen up (`travel`). */
-export const MOTION_MODES = ["junction", "blend", "scurve"] as const;
-export type MotionMode = (typeof MOTION_MODES)[number];
+/**
+ * How the pen moves: one set of limits with the pen down (`draw`), one with the pen up (`travel`).
+ *
+ * The corner rules and the page's words for them; src/plan/run-writer.ts has their planners.
+ */
+export const CORNER_RULES = {
+  junction: {
+    label: "Exact",
+    hint: "Slows down for every corner and turns on the point. The line is exactly the file’s.",
+  },
+  blend: {
+    label: "Rounded",
+    hint: "Sweeps through corners on a tiny curve: quicker, quieter, and the pen never jerks.",
+  },
+  scurve: {
+    label: "Gentle",
+    hint: "As rounded, and speeds up and slows down softly too. Kindest to brush pens and tall machines.",
+  },
+} as const;
+export type MotionMode = keyof typeof CORNER_RULES;
+export const MOTION_MODES = Object.keys(CORNER_RULES) as readonly MotionMode[];
 
 /** How the swinging of the machine is kept out of the line (src/plan/shapers.ts). */
 export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;

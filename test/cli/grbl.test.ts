@@ -21,7 +21,7 @@ afterEach(() => rmSync(dir, { recursive: true, force: true }));
 it(
   "plan writes G-code for it, with the pen up at both ends",
   async () => {
-    const { code, out } = await cli("plan", SAMPLE, "--machine-file", profile, "--ebb", "-");
+    const { code, out } = await cli("plan", SAMPLE, "--machine-file", profile, "--commands", "-");
     expect(code).toBe(0);
     const lines = out.trim().split("\n");
     expect(lines.slice(0, 3)).toEqual(["G21G90G94", "G1Z5F3000", "G4P0.1"]);

@@ -72,7 +72,7 @@ describe("plotwright plan", () => {
     for (const [index, name] of [dash, ...samples.map(sample)].entries()) {
       for (const firmware of [generations[index % 3], "3.0.3"]) {
         const ebb = join(dir, "commands.txt");
-        const run = await cli("plan", name, "--json", "--ebb", ebb, "--firmware", firmware);
+        const run = await cli("plan", name, "--json", "--commands", ebb, "--firmware", firmware);
         const { durationS } = JSON.parse(run.out) as { durationS: number };
         const board = replay(readFileSync(ebb, "utf8"), firmware);
         const ratio = board.statistics().busyS / durationS;
@@ -84,7 +84,7 @@ describe("plotwright plan", () => {
   });
 
   it("prints the commands to stdout with -, from motors-on to motors-off", async () => {
-    const { code, out } = await cli("plan", sample(firstSample), "--ebb", "-");
+    const { code, out } = await cli("plan", sample(firstSample), "--commands", "-");
     expect(code).toBe(0);
     const lines = out.trimEnd().split("\n");
     expect(lines.filter((line) => !/^[A-Z0-9]+(,-?\d+)*$/.test(line))).toEqual([]);
@@ -94,8 +94,15 @@ describe("plotwright plan", () => {
     expect(lines.at(-1)).toBe("EM,0,0");
   });
 
-  it("refuses --json together with --ebb -, as both want stdout", async () => {
-    expect(await cli("plan", sample(firstSample), "--json", "--ebb", "-")).toMatchObject({
+  it("still understands --ebb, the old name of --commands", async () => {
+    const plan = ["plan", sample(firstSample), "--firmware", "2.8.1"];
+    const { code, out } = await cli(...plan, "--ebb", "-");
+    expect({ code, out }).toEqual({ code: 0, out: (await cli(...plan, "--commands", "-")).out });
+    expect(out).toMatch(/^EM,1/);
+  });
+
+  it("refuses --json together with --commands -, as both want stdout", async () => {
+    expect(await cli("plan", sample(firstSample), "--json", "--commands", "-")).toMatchObject({
       code: 2,
       out: "",
     });
@@ -261,10 +268,10 @@ describe("bad input on the command line", () => {
     const file = write("good.svg", svg('<path d="M10 10h50"/>'));
     const out = join(dir, "out.txt");
     for (const args of [
-      ["plan", file, "--ebb", out, "--unknown"],
-      ["plan", file, "--ebb", out, "--speed", "fast"],
-      ["plan", file, "--ebb", out, "--machine", "typewriter"],
-      ["plan", file, "--ebb", out, "--firmware", "latest"],
+      ["plan", file, "--commands", out, "--unknown"],
+      ["plan", file, "--commands", out, "--speed", "fast"],
+      ["plan", file, "--commands", out, "--machine", "typewriter"],
+      ["plan", file, "--commands", out, "--firmware", "latest"],
       ["plan"],
       ["plan", file, file],
       ["fly"],

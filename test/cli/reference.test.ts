@@ -80,7 +80,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "--machine-file": "machine.json",
   "--config": "settings.json",
   "--only": "Ink",
-  "--ebb": "-",
+  "--commands": "-",
   "--preview": "-",
   "--svg": "-",
   "--strokes": "-",

@@ -9,6 +9,7 @@ import { GRBL } from "../support/grbl-machine.js";
 import { DRAWING, drawnMm, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
+import { ScriptedLine } from "../support/scripted-line.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
@@ -186,6 +187,29 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(board.state()).toMatchObject({ zMm: 5, penUp: true });
     expect(machine.place(GRBL)?.x).toBeCloseTo(10, 3);
     await machine.close();
+  });
+
+  it.each([
+    [
+      "answers once and is silent then",
+      1,
+      /^no-board: Something answers on this port, but it is not a Grbl.*wait/,
+    ],
+    ["answers each line", Infinity, /^no-board: Something answers on this port, but it is not a Grbl.*wait/],
+    ["never answers", 0, /^board-timeout: /],
+  ])("reports another device that %s", async (_, answers, message) => {
+    const world = new ManualClock();
+    let left = answers;
+    const line = new ScriptedLine(() => (left-- > 0 ? "echo:wait\n" : null), "\n");
+    const events = {
+      changed: () => undefined,
+      buttonPressed: () => undefined,
+      supplyRead: () => undefined,
+      lost: () => undefined,
+    };
+    const options = { clock: world, machineClock: world, speed: 1, events };
+    expect(await outcome(world.run(grblDriver.identify(line, options)))).toMatch(message);
+    expect(line.closed).toBe(true);
   });
 
   it("gives way to an EiBotBoard for a job of such a machine, and comes back", async () => {

@@ -10,7 +10,10 @@ export class ScriptedLine implements Transport {
   private closeListener: ((error?: Error) => void) | null = null;
 
   /** `answer` returns the reply bytes to each command; null: no reply. */
-  constructor(private answer: (line: string) => string | null = () => null) {}
+  constructor(
+    private answer: (line: string) => string | null = () => null,
+    private readonly lineEnd = "\r",
+  ) {}
 
   answerWith(answer: (line: string) => string | null): void {
     this.answer = answer;
@@ -19,7 +22,7 @@ export class ScriptedLine implements Transport {
   write(bytes: Uint8Array): Promise<void> {
     if (this.closed) return Promise.reject(new PlotwrightError("disconnected", "The line is closed."));
     this.partial += Buffer.from(bytes).toString("latin1");
-    const lines = this.partial.split("\r");
+    const lines = this.partial.split(this.lineEnd);
     this.partial = lines.pop()!;
     for (const line of lines) {
       this.written.push(line);

@@ -33,7 +33,7 @@ const storage = ((): TextStore | null => {
 const EXPORTED = {
   svg: { ending: "svg", type: "image/svg+xml" },
   json: { ending: "json", type: "application/json" },
-  ebb: { ending: "ebb.txt", type: "text/plain" },
+  commands: { ending: "commands.txt", type: "text/plain" },
 };
 
 /** A new plan has other moments and other places. */

@@ -13,7 +13,7 @@ const FIRMWARES = ["3.0.3", "2.8.1", "2.7.0", "2.5.3"];
 const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: string }> = {
   svg: { title: words.svg, hint: words.svgHint },
   json: { title: words.json, hint: words.jsonHint },
-  ebb: { title: words.ebb, hint: words.ebbHint },
+  commands: { title: words.commands, hint: words.commandsHint },
 };
 
 export const ExportList = () => {
@@ -38,7 +38,7 @@ export const ExportList = () => {
             </button>
           </div>
           <p className="note">{WORDS[format].hint}</p>
-          {format === "ebb" && (
+          {format === "commands" && (
             <Select
               label={words.firmware}
               value={firmware}

@@ -1,5 +1,6 @@
 import { useId } from "react";
 import {
+  CORNER_RULES,
   DRAW_TABLE,
   EASE_TABLE,
   FIT_TABLE,
@@ -64,12 +65,12 @@ const ModeChoice = ({ mode }: { mode: MotionMode }) => {
             />
             <span>
               <CornerPicture mode={value} />
-              {words.modes[value].name}
+              {CORNER_RULES[value].label}
             </span>
           </label>
         ))}
       </div>
-      <p className="note">{words.modes[mode].hint}</p>
+      <p className="note">{CORNER_RULES[mode].hint}</p>
     </fieldset>
   );
 };

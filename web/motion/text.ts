@@ -7,20 +7,6 @@ export const motionText = {
     "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
   jerkHint: "How fast the acceleration may change. Less is softer and slower.",
   mode: "Corners",
-  modes: {
-    junction: {
-      name: "Exact",
-      hint: "Slows down for every corner and turns on the point. The line is exactly the file’s.",
-    },
-    blend: {
-      name: "Rounded",
-      hint: "Sweeps through corners on a tiny curve: quicker, quieter, and the pen never jerks.",
-    },
-    scurve: {
-      name: "Gentle",
-      hint: "As rounded, and speeds up and slows down softly too. Kindest to brush pens and tall machines.",
-    },
-  },
   ease: "Begin and end strokes slowly",
   fit: "Draw dense curves in long sweeps",
   sendAheadHint:

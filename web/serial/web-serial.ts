@@ -3,6 +3,7 @@
  * (Chromium browsers; a secure context, which http://localhost is too).
  */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
+import { usbIds } from "../../src/internal.js";
 
 /** What is needed of the browser's `SerialPort`. */
 export interface WebSerialPort {
@@ -17,8 +18,11 @@ export interface WebSerial {
   requestPort(options: { filters: { usbVendorId: number; usbProductId: number }[] }): Promise<WebSerialPort>;
 }
 
-/** The EiBotBoard's USB numbers: Microchip's, the product given to it. */
-const EBB_FILTER = { usbVendorId: 0x04d8, usbProductId: 0xfd92 };
+/** What the browser's dialogue lists: the boards that plotwright knows. */
+const FILTERS = usbIds().map(({ vendorId, productId }) => ({
+  usbVendorId: Number.parseInt(vendorId, 16),
+  usbProductId: Number.parseInt(productId, 16),
+}));
 /** The board is a USB device that ignores the rate; it has to be some legal number. */
 const BAUD_RATE = 115_200;
 
@@ -35,7 +39,7 @@ export async function requestBoard(serial: WebSerial | undefined = browserSerial
   }
   let port: WebSerialPort;
   try {
-    port = await serial.requestPort({ filters: [EBB_FILTER] });
+    port = await serial.requestPort({ filters: FILTERS });
   } catch (cause) {
     throw new PlotwrightError("no-board", "No board was chosen. Plug it in, and choose it in the list.", {
       cause,

@@ -22,6 +22,7 @@ import {
   pointCount,
   prepareSettingsOf,
   strokeCount,
+  unusedSettings,
   type Placement,
 } from "../../src/internal.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
@@ -114,7 +115,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       penStops: penStopsOf(ready.strokes, settings),
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
-      layoutWarnings: ready.warnings,
+      layoutWarnings: [...ready.warnings, ...unusedSettings(settings, machineOf(settings))],
       cutOff,
       strokeCount: strokeCount(ready.strokes),
       pointCount: pointCount(ready.strokes),

@@ -35,11 +35,11 @@ export interface PlanRequest {
 export interface ExportRequest {
   readonly type: "export";
   readonly format: ExportFormat;
-  /** Of the board that "ebb" is for. */
+  /** Of the board that the commands are for. */
   readonly firmware: string;
 }
 
-export const EXPORT_FORMATS = ["svg", "json", "ebb"] as const;
+export const EXPORT_FORMATS = ["svg", "json", "commands"] as const;
 export type ExportFormat = (typeof EXPORT_FORMATS)[number];
 
 export type WorkerRequest = PlanRequest | ExportRequest;
@@ -66,7 +66,7 @@ export interface Planned {
   readonly drawnLayers: readonly StrokeLayer[];
   /** What of the file can't be drawn, with places on its page. */
   readonly fileWarnings: readonly DrawingWarning[];
-  /** What this paper and these settings leave out. */
+  /** What this paper and these settings leave out, and settings that the machine does not use. */
   readonly layoutWarnings: readonly string[];
   /** What the margins cut off. */
   readonly cutOff: CutOffPicture | null;

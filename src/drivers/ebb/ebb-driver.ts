@@ -5,8 +5,6 @@ import { EbbMachine } from "./machine/ebb-machine.js";
 import { VirtualBoard } from "./virtual/virtual-board.js";
 
 export const ebbDriver: Driver = {
-  // Microchip's vendor ID, with a sublicensed product ID.
-  usbIds: [{ vendorId: "04d8", productId: "fd92" }],
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
   virtualMachine: ({ firmware, ...options }) =>

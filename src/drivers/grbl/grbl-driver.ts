@@ -5,8 +5,6 @@ import { GrblSession } from "./machine/session.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const grblDriver: Driver = {
-  // Many other devices have the USB chips of these boards.
-  usbIds: [],
   identify: async (transport, options) => {
     const session = new GrblSession(transport, options.clock, (error) => options.events.lost(error));
     try {

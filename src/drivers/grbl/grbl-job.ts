@@ -3,20 +3,13 @@
  * send.
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
-import type { GrblController } from "../../machines/controllers.js";
 import type { MachineProfile } from "../../machines/profile.js";
 import { penMovesOf } from "../../plan/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import type { Trajectory } from "../../plan/trajectory.js";
 import type { PenSettings } from "../../settings/pen.js";
-import type {
-  DriverPlanOptions,
-  FirmwareRules,
-  JobSettings,
-  MachineCommands,
-  MachineJob,
-} from "../machine-job.js";
-import { dwellS, grblOf } from "./model/grbl-controller.js";
+import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
+import { dwellS, grblOf, type GrblController } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { moveTimeS } from "./model/planner.js";
 
@@ -31,12 +24,6 @@ export function grblCommandsOf(commands: MachineCommands): GrblCommands {
   return commands as GrblCommands;
 }
 
-/** The plan does not depend on the version. */
-export const grblFirmware: FirmwareRules = {
-  isOwn: (firmware) => firmware.startsWith("Grbl"),
-  limitsMotion: () => false,
-};
-
 /** mm, absolute, mm/min. A reset restores the defaults of some of them. */
 export const MODES = "G21G90G94";
 /** Answered when everything before it is done. */
@@ -50,7 +37,7 @@ export function planGrblJob(
 ): MachineJob<GrblCommands> {
   const grbl = grblOf(machine);
   const runs = new GrblRuns(machine, grbl);
-  const trajectory = plan(strokes, { ...motion, mode: "junction" }, timedPen(pen, grbl), {
+  const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, timedPen(pen, grbl), {
     from: options.from ?? undefined,
     startX: options.startXMm,
     startY: options.startYMm,

@@ -43,27 +43,18 @@ const ARC_TOLERANCE = 8e-7;
  * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
  */
 export function importSvg(text: string, options: ImportOptions = {}): Drawing {
-  const steps = importSvgSteps(text, options);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-  }
-}
-
-/** Imports in steps of a few milliseconds; the generator returns the drawing. */
-export function* importSvgSteps(text: string, options: ImportOptions = {}): Generator<void, Drawing> {
   const warnings = new Warnings();
   // The tree is out of scope when the columns are assembled, which halves the peak memory.
-  const { builder, page } = yield* draw(text, options, warnings);
+  const { builder, page } = draw(text, options, warnings);
   return finish(builder, page, warnings);
 }
 
-function* draw(
+function draw(
   text: string,
   options: ImportOptions,
   warnings: Warnings,
-): Generator<void, { readonly builder: DrawingBuilder; readonly page: SvgPage }> {
-  const tree = yield* parseSvgTree(text);
+): { readonly builder: DrawingBuilder; readonly page: SvgPage } {
+  const tree = parseSvgTree(text);
   const cascade = new Cascade(tree);
   reportParsing(tree, cascade, warnings);
 
@@ -93,7 +84,7 @@ function* draw(
   clips.textBox = (element, at) => painter.textBox(element, at);
   clips.lettersOf = (element, at, add) => painter.outlinesOf(element, at, add);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
-  if (isShown(root)) yield* walk.run(context);
+  if (isShown(root)) walk.run(context);
   return { builder, page };
 }
 

@@ -19,8 +19,6 @@ export const TEXT_NODE = "#text";
 /** Attributes written `xlink:href` or `href` are both stored under this name. */
 export const HREF = "href";
 
-/** Characters between two yields: under 20 ms of parsing. */
-const SLICE_CHARS = 1 << 18;
 const TEXT_PARENTS = new Set(["style", "text", "tspan", "textPath", "tref", "a"]);
 const SKIPPED = new Set(["metadata", "foreignObject", "script", "desc"]);
 const MAX_REPAIRS = 1000;
@@ -82,16 +80,13 @@ export const tagOf = (tree: SvgTree, element: number): string => tree.names[tree
 export const textOf = (tree: SvgTree, element: number): string =>
   attributeValue(tree, tree.attributeOffsets[element]);
 
-/** Parses in steps; the generator returns the tree. Throws PlotwrightError("bad-file"). */
-export function* parseSvgTree(source: string): Generator<void, SvgTree> {
+/** Throws PlotwrightError("bad-file"). */
+export function parseSvgTree(source: string): SvgTree {
   const start = skipBlank(source);
   rejectOtherFormats(source, start);
   const text = expandEntities(source);
   const builder = new TreeBuilder(text, start);
-  for (let at = start; at < text.length; at += SLICE_CHARS) {
-    builder.write(text.slice(at, at + SLICE_CHARS));
-    yield;
-  }
+  builder.write(text.slice(start));
   return builder.finish();
 }
 

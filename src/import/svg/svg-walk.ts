@@ -36,8 +36,6 @@ import type { DrawingBuilder } from "../drawing-builder.js";
  */
 const MAX_COPIED_ELEMENTS = 500_000;
 const MAX_COPIED_COORDS = 50_000_000;
-const ELEMENTS_PER_YIELD = 1000;
-const COORDS_PER_YIELD = 100_000;
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
 /** Elements that draw nothing where they stand. All others that are not drawn here are reported. */
@@ -91,12 +89,10 @@ export class SvgWalk {
     this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
   }
 
-  /** Draws everything below the root. Yields often enough to keep a page responsive. */
-  *run(rootContext: Context): Generator<void, void> {
+  /** Draws everything below the root. */
+  run(rootContext: Context): void {
     const { tree, stack } = this;
     this.enterRoot(rootContext);
-    let visited = 0;
-    let coordsAtYield = 0;
     while (stack.length > 0) {
       const frame = stack[stack.length - 1];
       const element = frame.next;
@@ -107,12 +103,7 @@ export class SvgWalk {
       }
       frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
       this.visit(element, frame.context);
-      if (++visited >= ELEMENTS_PER_YIELD || this.builder.coordCount - coordsAtYield > COORDS_PER_YIELD) {
-        visited = 0;
-        coordsAtYield = this.builder.coordCount;
-        this.builder.progress = element / tree.count;
-        yield;
-      }
+      this.builder.progress = element / tree.count;
     }
   }
 

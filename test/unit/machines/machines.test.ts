@@ -1,6 +1,8 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { MACHINES, machineById } from "../../../src/index.js";
+import { ebbOf } from "../../../src/drivers/ebb/protocol/ebb-controller.js";
+import { checkMachine } from "../../../src/drivers/registry.js";
 import {
   motor1FromXy,
   motor2FromXy,
@@ -14,13 +16,12 @@ const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc
 const mm = fc.double({ min: -1_000, max: 1_000, noNaN: true });
 
 describe("machine profiles", () => {
-  it("have unique ids, and sizes and servo ranges that the board supports", () => {
+  it("have unique ids, and fields and servo ranges that the board supports", () => {
     expect(new Set(MACHINES.map((machine) => machine.id)).size).toBe(MACHINES.length);
     for (const machine of MACHINES) {
-      expect(machine.widthMm).toBeGreaterThan(0);
-      expect(machine.heightMm).toBeGreaterThan(0);
-      expect(machine.controller.servoPosAt100Pct).toBeGreaterThan(machine.controller.servoPosAt0Pct);
-      expect(machine.controller.servoPosAt100Pct).toBeLessThan(65_536);
+      checkMachine(machine);
+      const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
+      expect(servoPosAt100Pct).toBeGreaterThan(servoPosAt0Pct);
     }
   });
 

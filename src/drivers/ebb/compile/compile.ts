@@ -7,7 +7,6 @@
  * next command is computed from that state. So rounding never adds up, and the final step counters equal
  * those of the plan.
  */
-import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
@@ -21,6 +20,7 @@ import {
   type PenWay,
 } from "../protocol/commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
+import { checkEbbProfile } from "../protocol/ebb-controller.js";
 import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
 import type { LegWriter, MotorPlace, RunWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
@@ -51,7 +51,7 @@ export interface CompileOptions {
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
-  checkProfile(options.machine);
+  checkEbbProfile(options.machine);
   return new Compiler(trajectory, options).run();
 }
 

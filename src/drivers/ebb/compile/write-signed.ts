@@ -80,7 +80,7 @@ function aim(
 ): void {
   const planned = motor.p1 - motor.p0;
   const error = motor.p0 + 0.5 - place.steps - place.acc / RANGE;
-  const way = (planned + correction(error, ticks, leg.isLast)) * RANGE;
+  const distance = (planned + correction(error, ticks, leg.isLast)) * RANGE;
   const v0 = motor.v0 * stretch;
   const v1 = motor.v1 * stretch;
   // The trapezoid of the two end speeds misses the distance by J T³/12.
@@ -88,7 +88,7 @@ function aim(
   out.jerk = leg.isParabola ? 0 : Math.round((12 * excess) / (ticks * ticks));
   out.accel = Math.round((v1 - v0 - (out.jerk * ticks * ticks) / 2) / ticks);
   const bent = (out.accel * ticks) / 2 + (out.jerk * ticks * ticks) / 6;
-  out.rate = Math.round(way / ticks - bent);
+  out.rate = Math.round(distance / ticks - bent);
   keepInRange(out, ticks);
 }
 

@@ -69,8 +69,8 @@ function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments):
     return;
   }
   const direction = Math.sign(out.steps);
-  const way = Math.abs(out.steps) * RANGE - place.acc;
-  const mean = way / ticks;
+  const distance = Math.abs(out.steps) * RANGE - place.acc;
+  const mean = distance / ticks;
   const slope = (direction * (motor.v1 - motor.v0)) / ticks;
   const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
   const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
@@ -83,22 +83,22 @@ function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments):
 function run(a: Arguments, ticks: number, place: MotorPlace): number {
   if (a.steps === 0) return 0;
   const registers = registersFor("late", a.rate, a.accel);
-  const way = Math.abs(a.steps) * RANGE - place.acc;
-  const last = tickOfSum(way, ticks, registers);
+  const distance = Math.abs(a.steps) * RANGE - place.acc;
+  const last = tickOfSum(distance, ticks, registers);
   place.acc += sumOfRates(last, registers.rate, registers.accel, 0) - Math.abs(a.steps) * RANGE;
   place.steps += a.steps;
   return last;
 }
 
-/** First tick at which the sum of rates reaches `way`, which happens by tick `ticks` at the latest. */
-function tickOfSum(way: number, ticks: number, { rate, accel }: Registers): number {
+/** First tick at which the sum of rates reaches `distance`, which happens by tick `ticks` at the latest. */
+function tickOfSum(distance: number, ticks: number, { rate, accel }: Registers): number {
   let low = 1;
   let high = ticks;
   // It is nearly always the last tick: check that first.
-  if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < way) return ticks;
+  if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < distance) return ticks;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (sumOfRates(middle, rate, accel, 0) >= way) high = middle;
+    if (sumOfRates(middle, rate, accel, 0) >= distance) high = middle;
     else low = middle + 1;
   }
   return low;

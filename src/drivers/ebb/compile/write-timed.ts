@@ -74,8 +74,8 @@ function aim(leg: Leg, motor: MotorLeg, place: MotorPlace, out: Arguments): void
   const errorCleared = -ahead;
   out.clear = Math.abs(errorCleared) + CLEAR_WORTH_STEPS < Math.abs(errorKept);
   const error = out.clear ? errorCleared : errorKept;
-  const way = (Math.abs(planned) + correction(error, ticks, leg.isLast)) * RANGE;
-  const mean = way / ticks;
+  const distance = (Math.abs(planned) + correction(error, ticks, leg.isLast)) * RANGE;
+  const mean = distance / ticks;
   if (!(mean >= 1)) {
     out.rate = out.accel = 0;
     return;

@@ -5,17 +5,17 @@
  * Polling between short moves needs only the board's PI, which every firmware has.
  */
 import { PlotwrightError } from "../../../errors.js";
-import type { HomingSwitches, SwitchInput } from "../../../machines/controllers.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { MachineSettings } from "../../machine-job.js";
+import type { HomingSwitches, SwitchInput } from "../protocol/ebb-controller.js";
 import type { Carriage } from "./carriage.js";
 
 /** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
 const RELEASE_MM = 0.05;
 /** A switch that is still pressed this far away is not an end switch. */
-const MOST_RELEASE_MM = 10;
+const MAX_RELEASE_MM = 10;
 /** The machine may be this much longer than its travel. */
 const SLACK = 1.1;
 const SEEK_SPEED_MM_PER_S = 30;
@@ -38,7 +38,7 @@ async function seekAxis(
   settings: MachineSettings,
   input: SwitchInput,
   axis: "x" | "y",
-  mostMm: number,
+  maxMm: number,
 ): Promise<void> {
   const machine = machineOf(settings);
   await carriage.connection.session.send(`PD,${input.port},${input.pin},1`);
@@ -46,12 +46,12 @@ async function seekAxis(
     const { x, y } = carriage.place(machine)!;
     await carriage.walk(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
   };
-  for (let wentMm = 0; !(await isPressed(carriage, input)); wentMm += SEEK_MM) {
-    if (wentMm > mostMm) throw unmet(machine, axis, mostMm, input);
+  for (let movedMm = 0; !(await isPressed(carriage, input)); movedMm += SEEK_MM) {
+    if (movedMm > maxMm) throw unmet(machine, axis, maxMm, input);
     await step(-SEEK_MM);
   }
-  for (let wentMm = 0; await isPressed(carriage, input); wentMm += RELEASE_MM) {
-    if (wentMm > MOST_RELEASE_MM) throw stuck(axis, input);
+  for (let movedMm = 0; await isPressed(carriage, input); movedMm += RELEASE_MM) {
+    if (movedMm > MAX_RELEASE_MM) throw stuck(axis, input);
     await step(RELEASE_MM);
   }
 }
@@ -69,12 +69,12 @@ const withTravelSpeed = (settings: MachineSettings, speedMmPerS: number): Machin
 const unmet = (
   { name }: MachineProfile,
   axis: string,
-  mostMm: number,
+  maxMm: number,
   { port, pin }: SwitchInput,
 ): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The ${name} moved ${Math.round(mostMm)} mm along ${axis} and met no switch. Check its cable, and the input (${port}${pin}) in the machine's profile.`,
+    `The ${name} moved ${Math.round(maxMm)} mm along ${axis} and met no switch. Check its cable, and the input (${port}${pin}) in the machine's profile.`,
   );
 
 const stuck = (axis: string, { port, pin }: SwitchInput): PlotwrightError =>

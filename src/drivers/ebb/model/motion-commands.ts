@@ -110,25 +110,25 @@ export class MotionCommands {
     const target1 = p.hasMore && takesTarget ? p.int() : 0;
     const target2 = p.hasMore && takesTarget ? p.int() : 0;
     return (steps1, steps2) => {
-      const way1 = target1 - steps1;
-      const way2 = target2 - steps2;
-      const longest = Math.max(Math.abs(way1), Math.abs(way2));
+      const distance1 = target1 - steps1;
+      const distance2 = target2 - steps2;
+      const longest = Math.max(Math.abs(distance1), Math.abs(distance2));
       if (longest === 0) return [];
-      const axis = (way: number): AxisOrder => {
-        const stepsPerS = (fastest * Math.abs(way)) / longest;
+      const axis = (distance: number): AxisOrder => {
+        const stepsPerS = (fastest * Math.abs(distance)) / longest;
         const rate = Math.min(INT31, Math.floor((stepsPerS * ACCUMULATOR_RANGE) / TICKS_PER_S));
         return {
-          rate: Math.sign(way) * Math.max(way === 0 ? 0 : 1, rate),
+          rate: Math.sign(distance) * Math.max(distance === 0 ? 0 : 1, rate),
           accel: 0,
           jerk: 0,
-          steps: Math.abs(way),
+          steps: Math.abs(distance),
         };
       };
       const order: MoveOrder = {
         kind: "move",
         isTimed: false,
-        axis1: axis(way1),
-        axis2: axis(way2),
+        axis1: axis(distance1),
+        axis2: axis(distance2),
         ticks: Infinity,
         idleTicks: this.features.idleTicks,
         clear: 0,

@@ -2,10 +2,9 @@
  * Command lines of the EiBotBoard: those at the start and end of a plot, and a writer
  * for the commands between.
  */
-import { checkProfile } from "../../../machines/check-profile.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
-import { ebbOf } from "./ebb-controller.js";
+import { checkEbbProfile, ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
 import { servoPosFromPct } from "./servo-height.js";
 
@@ -22,7 +21,7 @@ const STANDARD_PIN = 4;
  * pen's heights and speeds.
  */
 export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmware: string): string[] {
-  checkProfile(machine);
+  checkEbbProfile(machine);
   const features = firmwareFeatures(firmware);
   const { microstepMode } = ebbOf(machine);
   const lines = [`EM,${microstepMode},${microstepMode}`];

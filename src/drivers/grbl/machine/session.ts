@@ -207,7 +207,9 @@ export class GrblSession {
     const sinceS = this.clock.nowS();
     this.cancelWatch = this.clock.after(ASK_S, () => {
       if (this.clock.nowS() - Math.max(this.heardS, sinceS - PATIENCE_S) > PATIENCE_S) {
-        this.fail(silent(this.sent[0]?.line ?? ""));
+        // A device that is not identified yet and has answered before is not a Grbl.
+        const isOther = this.version === null && this.heard.length > 0;
+        this.fail(isOther ? notGrbl(this.heard.slice(-4)) : silent(this.sent[0]?.line ?? ""));
       } else {
         this.now(NOW.status);
         this.watch();

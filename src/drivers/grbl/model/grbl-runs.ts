@@ -1,5 +1,4 @@
 /** Writes the runs of a plan as Grbl performs them, and stores the moves to send for them. */
-import type { GrblController } from "../../../machines/controllers.js";
 import { motor1FromXy, motor2FromXy, placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { BlockColumns } from "../../../plan/block-columns.js";
@@ -7,7 +6,7 @@ import { capSegments, type RunLimits } from "../../../plan/limits.js";
 import type { RunPath } from "../../../plan/run-path.js";
 import type { WritesRuns } from "../../../plan/run-writer.js";
 import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
-import { axisLimits } from "./grbl-controller.js";
+import { axisLimits, type GrblController } from "./grbl-controller.js";
 import { moveOf, plannedSpeeds2, type AxisLimits, type Move } from "./planner.js";
 
 /** A line to send: to a position of the axes, mm. */

@@ -34,9 +34,9 @@ const SAME = 0.999999;
 
 /** A move between two different positions. `before`: the move that is queued before it. */
 export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
-  const way: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-  const lengthMm = Math.hypot(...way);
-  const unit: Axes = [way[0] / lengthMm, way[1] / lengthMm, way[2] / lengthMm];
+  const delta: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+  const lengthMm = Math.hypot(...delta);
+  const unit: Axes = [delta[0] / lengthMm, delta[1] / lengthMm, delta[2] / lengthMm];
   const speed = Math.min(feed, alongAxes(limits.speed, unit));
   const maxEntry2 = before
     ? Math.min(junctionSpeed2(before.unit, unit, limits), speed ** 2, before.speed ** 2)
@@ -46,9 +46,9 @@ export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, b
 
 /** Max value along a direction within the limits of all axes. */
 function alongAxes(limits: Axes, unit: Axes): number {
-  let most = Infinity;
-  for (let i = 0; i < 3; i++) if (unit[i] !== 0) most = Math.min(most, limits[i] / Math.abs(unit[i]));
-  return most;
+  let max = Infinity;
+  for (let i = 0; i < 3; i++) if (unit[i] !== 0) max = Math.min(max, limits[i] / Math.abs(unit[i]));
+  return max;
 }
 
 /** Max speed² around a corner: that of a circle that passes it within the junction deviation. */

@@ -1,0 +1,30 @@
+/** The settings that do not change a plot on a Grbl, by path, in words: it plans its motion by itself, and its Z axis moves the pen. */
+import { DRAW_TABLE, FIT_TABLE, MOTION_TABLE, MOTOR_ACCEL, TRAVEL_TABLE } from "../../settings/motion.js";
+import { DROP_RATE, LIFT_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../settings/pen.js";
+
+export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
+  "motion.mode": MOTION_TABLE.mode.label,
+  "motion.shaper": MOTION_TABLE.shaper.label,
+  "motion.draw.accelMmPerS2": `${DRAW_TABLE.accelMmPerS2.label} (pen down)`,
+  "motion.draw.cornerMm": `${DRAW_TABLE.cornerMm.label} (pen down)`,
+  "motion.draw.jerkMmPerS3": `${DRAW_TABLE.jerkMmPerS3.label} (pen down)`,
+  "motion.travel.accelMmPerS2": `${TRAVEL_TABLE.accelMmPerS2.label} (pen up)`,
+  "motion.travel.cornerMm": `${TRAVEL_TABLE.cornerMm.label} (pen up)`,
+  "motion.travel.jerkMmPerS3": `${TRAVEL_TABLE.jerkMmPerS3.label} (pen up)`,
+  "motion.layers.*.accelMmPerS2": `${DRAW_TABLE.accelMmPerS2.label} of a layer`,
+  "motion.layers.*.cornerMm": `${DRAW_TABLE.cornerMm.label} of a layer`,
+  "motion.layers.*.jerkMmPerS3": `${DRAW_TABLE.jerkMmPerS3.label} of a layer`,
+  "motion.fit.toleranceMm": `${FIT_TABLE.toleranceMm.label} of merged commands`,
+  "motion.motorAccelStepsPerS2": MOTOR_ACCEL.label,
+  "pen.upPct": PEN_TABLE.upPct.label,
+  "pen.downPct": PEN_TABLE.downPct.label,
+  "pen.liftMs": PEN_TABLE.liftMs.label,
+  "pen.dropMs": PEN_TABLE.dropMs.label,
+  "pen.liftPctPerS": LIFT_RATE.label,
+  "pen.dropPctPerS": DROP_RATE.label,
+  "pen.overlap": OVERLAP_TABLE.overlap.label,
+  "pen.layers.*.upPct": `${PEN_TABLE.upPct.label} of a layer`,
+  "pen.layers.*.downPct": `${PEN_TABLE.downPct.label} of a layer`,
+  "pen.layers.*.liftMs": `${PEN_TABLE.liftMs.label} of a layer`,
+  "pen.layers.*.dropMs": `${PEN_TABLE.dropMs.label} of a layer`,
+};
