@@ -9,7 +9,7 @@ import { queuedJob } from "../../host/queue/queued-job.js";
 import { Store } from "../../server/storage/store.js";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { StoredModel, type StoredRecords } from "../../web/backend/browser/stored-model.js";
+import { StoredModel } from "../../web/backend/browser/stored-model.js";
 import { seeded } from "../support/live-plot.js";
 
 /** IndexedDB as maps; values are copied, as IndexedDB does. */
@@ -28,7 +28,7 @@ class Records {
   }
 
   #of(store: string): Map<string, unknown> {
-    return this[store as keyof StoredRecords] as Map<string, unknown>;
+    return this[store as "jobs"];
   }
 }
 
@@ -113,7 +113,7 @@ describe("the browser's stored model", () => {
     both((store) => store.savePlotter({ id: "b", name: "B", device: "virtual", machine: null }));
     both((store) => store.savePlotterSettings("main", { heights: 1 }));
     both((store) => store.savePlotter({ id: "main", name: "A", device: "auto", machine: "x" }));
-    both((store) => store.savePlotterSettings("nobody", {}));
+    both((store) => store.savePlotterSettings("none", {}));
     both((store) => store.plotters());
     both((store) => store.plotterSettings());
     both((store) => store.removePlotter("b"));
