@@ -1,7 +1,8 @@
-/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md, and all of library-reference.md. */
+/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md and motion.md, and both references. */
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
+import { httpReference } from "./http-reference.js";
 import { libraryReference } from "./library-reference.js";
 import { penGainsTable } from "./pen-gains.js";
 import { settingsTable } from "./settings-table.js";
@@ -12,6 +13,7 @@ writePart("cli.md", "settings", settingsTable());
 writePart("cli.md", "commands", await cliReference());
 writePart("motion.md", "pen gains", penGainsTable());
 writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
+writeFileSync(path.join(DOCS, "http-reference.md"), await httpReference());
 
 function writePart(file: string, name: string, part: string): void {
   const at = path.join(DOCS, file);

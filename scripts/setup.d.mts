@@ -1,3 +1,5 @@
 export declare const ROOT: string;
 export declare function ensureDependencies(): void;
 export declare function ensureBuild(): void;
+/** A file of a package in node_modules. */
+export declare function nodeModule(...parts: string[]): string;

@@ -27,7 +27,8 @@ const CHECKS = [
 
 /** The projects of vitest.config.ts that may run in parallel with the checks, and those that run after them. */
 const SHARED_RUNS = ["functions", "together", "processes"];
-const UNDISTURBED_RUNS = ["real-time", "load"];
+const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
+const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
 
 const failures = [];
 let passedCount = 0;
@@ -122,6 +123,7 @@ try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
   for (const name of SHARED_RUNS) await runTests(name, filters, folder);
   await checks;
+  if (!HAS_PSEUDO_TERMINALS) console.log("Left out on Windows, which has no pseudo-terminals: test/serial");
   for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
 } finally {
   rmSync(folder, { recursive: true, force: true });

@@ -40,8 +40,9 @@ const serviceWorker = (): Plugin => ({
   generateBundle: {
     order: "post",
     handler(_options, bundle) {
-      const built = Object.keys(bundle).filter((name) => /^assets\/.*\.(js|css)$/.test(name));
-      const files = ["/", ...[...PUBLIC_FILES, ...built].map((name) => `/${name}`)].sort();
+      const built = Object.keys(bundle).filter((name) => /^assets\/.*\.(js|css|svg)$/.test(name));
+      // Relative to the service worker, since the static page may be in any folder of a site.
+      const files = ["./", ...PUBLIC_FILES, ...built].sort();
       // Every other file's hash is named in one of these two, and so changes theirs.
       const version = built.filter((name) => /^assets\/index-/.test(name)).join();
       const worker = bundle["service-worker.js"];

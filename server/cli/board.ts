@@ -6,6 +6,7 @@ import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "nod
 import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { applyFault, faultHelp } from "./board-faults.js";
+import { fileFault } from "../storage/file-fault.js";
 import type { CliIo } from "./io.js";
 
 export interface BoardCommandOptions {
@@ -113,7 +114,12 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     ...(options.speed === undefined ? {} : { speed: options.speed }),
   });
   const { board } = ptyBoard;
-  link(ptyBoard.path, options.pty);
+  try {
+    link(ptyBoard.path, options.pty);
+  } catch (error) {
+    await ptyBoard.close();
+    throw error;
+  }
   const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
   const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
   const dropped = watchDrops(ptyBoard, options.pty, io);
@@ -204,7 +210,7 @@ function writeDrawing(path: string, board: VirtualBoard, machine: MachineProfile
   try {
     writeFileSync(path, drawnSvg(board, machine));
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${(cause as Error).message}.`, {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, {
       cause,
     });
   }
@@ -225,9 +231,13 @@ function link(target: string, path: string): void {
     if (isLink(path)) rmSync(path);
     symlinkSync(target, path);
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be made: ${(cause as Error).message}.`, {
-      cause,
-    });
+    throw new PlotwrightError(
+      "bad-setting",
+      `${path} can't be made: ${fileFault(cause)}. Choose another --pty path.`,
+      {
+        cause,
+      },
+    );
   }
 }
 

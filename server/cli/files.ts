@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { fileFault } from "../planning/read-drawing.js";
+import { fileFault } from "../storage/file-fault.js";
 import type { CliIo } from "./io.js";
 import { readStdin } from "./stdin.js";
 

@@ -11,5 +11,25 @@ function hint(word: string, commands: readonly string[]): string {
   if (/^\d+$/.test(word)) {
     return `To choose the port: plotwright --port ${word}, or npm start -- --port ${word} (with -- before the options).`;
   }
+  if (word === "recover" || word === "resume")
+    return "To continue a drawing that was begun: plotwright plot --resume";
+  const near = nearest(word, commands);
+  if (near !== null) return `Did you mean ${near}?`;
   return `The commands are ${commands.join(", ")}.`;
+}
+
+/** The command that a small slip of the keyboard turns into `word`; null if there is none. */
+function nearest(word: string, commands: readonly string[]): string | null {
+  return commands.find((command) => isSlip(word, command) || isSlip(command, word)) ?? null;
+}
+
+/** Whether `a` is `b` without a letter, with another letter, or with two neighbours swapped. */
+function isSlip(a: string, b: string): boolean {
+  for (let i = 0; i <= b.length; i++) {
+    const [head, tail] = [b.slice(0, i), b.slice(i + 1)];
+    if (a === head + tail) return true;
+    if (a.length === b.length && a.startsWith(head) && a.endsWith(tail)) return true;
+    if (a === head + b.slice(i + 1, i + 2) + b.slice(i, i + 1) + b.slice(i + 2)) return true;
+  }
+  return false;
 }

@@ -2,20 +2,14 @@
  * What a plot of the command line needs to resume after a crash: its drawing, its settings, and the journal that its
  * driver writes. One folder per device, deleted when the plot has ended.
  */
-import {
-  copyFileSync,
-  mkdirSync,
-  existsSync,
-  readFileSync,
-  renameSync,
-  rmSync,
-  writeFileSync,
-} from "node:fs";
+import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "../../host/plotter/types.js";
+import { makeDataFolder } from "../storage/data-dir.js";
+import { fileFault } from "../storage/file-fault.js";
 
 const plotSchema = z.object({
   name: z.string(),
@@ -45,9 +39,13 @@ export interface CutShort extends Plotted {
 
 export class PlotRecord {
   readonly #folder: string;
+  readonly #dataDir: string;
+  readonly #names: readonly string[];
 
   constructor(dataDir: string, device = "auto") {
-    this.#folder = join(dataDir, "command-line", encodeURIComponent(device));
+    this.#dataDir = dataDir;
+    this.#names = ["command-line", encodeURIComponent(device)];
+    this.#folder = join(dataDir, ...this.#names);
   }
 
   /** The drawing as it was when the plot began. */
@@ -56,10 +54,18 @@ export class PlotRecord {
   }
 
   begin(path: string, plot: Plotted): void {
-    this.end();
-    mkdirSync(this.#folder, { recursive: true, mode: 0o700 });
-    copyFileSync(path, this.drawingPath);
-    this.takeOver(plot);
+    makeDataFolder(this.#dataDir, ...this.#names);
+    try {
+      rmSync(join(this.#folder, "journal.json"), { force: true });
+      copyFileSync(path, this.drawingPath);
+      this.takeOver(plot);
+    } catch (cause) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `The data folder ${this.#dataDir} can't be written to: ${fileFault(cause)}. Choose another one with --data.`,
+        { cause },
+      );
+    }
   }
 
   /** Begun or resumed by this process. */

@@ -39,7 +39,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
     .description("Pen-plotter control for AxiDraw, NextDraw, EggBot and other EiBotBoard machines")
     .version(version, "--version", "print the version")
     .exitOverride()
-    .showSuggestionAfterError(false)
+    .showSuggestionAfterError()
     .configureOutput({
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
@@ -79,7 +79,7 @@ const inWords = (text: string): string =>
   text.replace(
     /^too many arguments for '(.+)'\. Expected (\d+) arguments? but got (\d+)\.$/,
     (_, name: string, expected: string, got: string) =>
-      `${name} takes ${expected === "0" ? "no arguments" : `${expected} at most`}, got ${got}. Options begin with --, such as --port 9381; names with blanks need quotes. See plotwright ${name} --help.`,
+      `${name} takes ${expected === "0" ? "no arguments" : `at most ${expected} argument${expected === "1" ? "" : "s"}`}, got ${got}. Options begin with --, such as --port 9381; names with blanks need quotes. See plotwright ${name} --help.`,
   );
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");

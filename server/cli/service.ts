@@ -8,6 +8,7 @@ import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { packagePath } from "../storage/package-files.js";
+import { fileFault } from "../storage/file-fault.js";
 import type { CliIo } from "./io.js";
 
 export interface ServiceOptions {
@@ -78,8 +79,12 @@ export function installService(
       "npx keeps programs only for a while. Install plotwright first: npm install -g plotwright.",
     );
   }
-  mkdirSync(dirname(path), { recursive: true });
-  writeFileSync(path, unit);
+  try {
+    mkdirSync(dirname(path), { recursive: true });
+    writeFileSync(path, unit);
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, { cause });
+  }
   systemctl(options, host, ["daemon-reload"]);
   systemctl(options, host, ["enable", UNIT]);
   // Restart, not start: a running server must use the new unit.

@@ -21,7 +21,7 @@ import {
   plotSettingsSchema,
   type PlotSettings,
 } from "../../src/schema/index.js";
-import { fileFault } from "../planning/read-drawing.js";
+import { fileFault } from "../storage/file-fault.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles, machineOfText } from "../storage/machine-files.js";
 import { readText } from "./files.js";

@@ -1,3 +1,5 @@
+import { checkObject } from "../check-arguments.js";
+
 /**
  * What the pen draws, in drawing order: polylines in mm in the machine frame.
  *
@@ -35,3 +37,13 @@ export const settingsIdOf = (layer: StrokeLayer): string => layer.partOf ?? laye
 
 export const strokeCount = (set: StrokeSet): number => set.offsets.length - 1;
 export const pointCount = (set: StrokeSet): number => set.xy.length / 2;
+
+/** @throws TypeError if a program without types passes something else */
+export const checkStrokes = (call: string, strokes: StrokeSet): void =>
+  checkObject(
+    call,
+    "the set of strokes",
+    strokes,
+    ["xy", "offsets", "layer", "layers"],
+    "prepare(drawing).strokes or strokesOf(lines)",
+  );

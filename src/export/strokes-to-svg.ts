@@ -1,5 +1,6 @@
 /** The prepared drawing as an SVG that matches the plot: same strokes, order and layers, in mm. */
-import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import { checkObject } from "../check-arguments.js";
+import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import { linesOnPaper } from "./lines-on-paper.js";
 import { mmText, pathData, svgOpening, xmlText } from "./svg-text.js";
 
@@ -25,6 +26,14 @@ export interface LayerLook {
 
 /** SVG text with one Inkscape layer per layer that has strokes, and one path per stroke. */
 export function toSvg(strokes: StrokeSet, options: SvgOptions): string {
+  checkStrokes("toSvg", strokes);
+  checkObject(
+    "toSvg",
+    "the options object",
+    options,
+    ["widthMm", "heightMm"],
+    "{ widthMm, heightMm }, the paper's size",
+  );
   const parts = [svgOpening(options.widthMm, options.heightMm)];
   const count = strokeCount(strokes);
   const xy = linesOnPaper(strokes);

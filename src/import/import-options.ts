@@ -1,4 +1,5 @@
 /** Options for reading a file of any format. */
+import { checkNames, checkObject, refuseSetting } from "../check-arguments.js";
 import { singleStrokeFont } from "./text/single-stroke-font.js";
 import type { TextFont } from "./text/text-font.js";
 
@@ -18,6 +19,18 @@ export interface ImportOptions {
   readonly font?: TextFont;
   /** For SVG's `switch` and `systemLanguage`, best first. Default: English. */
   readonly languages?: readonly string[];
+}
+
+const NAMES = ["pxPerInch", "text", "font", "languages"];
+
+/** @throws TypeError or PlotwrightError "bad-setting" for options that are none */
+export function checkImportOptions(options: ImportOptions): void {
+  const { text, font } = options;
+  checkNames("import", options, NAMES);
+  if (text !== undefined && !TEXT_MODES.includes(text))
+    refuseSetting("import text", text, `one of ${TEXT_MODES.join(", ")}`);
+  if (font !== undefined)
+    checkObject("import", "the font", font, ["layout"], "what openOutlineFont returns, awaited");
 }
 
 /** The font that draws text; null for none. */

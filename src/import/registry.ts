@@ -4,11 +4,12 @@
  *
  * FORMATS is separate from READERS, so that the page knows the file extensions without loading the readers.
  */
+import { checkText } from "../check-arguments.js";
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { importDxf } from "./dxf/import-dxf.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
-import type { ImportOptions } from "./import-options.js";
+import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
 import { importSvg } from "./svg/import-svg.js";
 
@@ -87,6 +88,8 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
  * const drawing = importDrawing("box.dxf", text);
  */
 export function importDrawing(name: string, text: string, options: ImportOptions = {}): Drawing {
+  checkText("importDrawing(name, text)", text);
+  checkImportOptions(options);
   return readerOf(name, text)(text, options);
 }
 

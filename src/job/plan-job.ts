@@ -4,10 +4,12 @@
  *
  *   strokes ──until──> settings with the layers' codes ──the controller's driver──> trajectory and commands
  */
-import type { StrokeSet } from "../drawing/stroke-set.js";
+import { checkObject } from "../check-arguments.js";
+import { checkStrokes, type StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
 import { checkMachine, plannerOf } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";
+import { checkSettingNames } from "../plan/check-settings.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 
 export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
@@ -26,11 +28,28 @@ export interface JobOptions extends DriverPlanOptions {
  * @throws RangeError for coordinates that are not finite, or a start outside the drawing
  */
 export function planJob(
-  { strokes }: { readonly strokes: StrokeSet },
+  prepared: { readonly strokes: StrokeSet },
   settings: JobSettings,
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
 ): MachineJob {
+  checkObject(
+    "planJob",
+    "what to draw",
+    prepared,
+    ["strokes"],
+    "{ strokes }, for example what prepare returns",
+  );
+  const { strokes } = prepared;
+  checkStrokes("planJob", strokes);
+  checkObject(
+    "planJob",
+    "the settings object",
+    settings,
+    ["motion", "pen"],
+    "{ motion: DEFAULT_MOTION, pen: DEFAULT_PEN }",
+  );
+  checkSettingNames(settings.motion, settings.pen);
   checkMachine(machine);
   const coded = withLayerCodes(settings, strokes.layers);
   return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);

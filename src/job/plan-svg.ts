@@ -1,11 +1,14 @@
 /** From a drawing's text to commands in one call. */
+import { checkNames } from "../check-arguments.js";
 import { importSvg } from "../import/svg/import-svg.js";
 import { machineOf, type MachineChoice } from "../machines/profiles.js";
+import { completeSettings } from "../prepare/complete-settings.js";
 import { NO_PENS, type PenSetup } from "../prepare/pens.js";
 import type { Prepared } from "../prepare/prepare.js";
 import { DEFAULT_MOTION } from "../settings/motion.js";
 import { DEFAULT_PEN } from "../settings/pen.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../settings/prepare.js";
+import { STREAM_TABLE } from "../settings/stream.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import { planJob, type JobOptions, type JobSettings, type MachineJob } from "./plan-job.js";
 import { prepareJob } from "./prepare-job.js";
 
@@ -15,7 +18,7 @@ import { prepareJob } from "./prepare-job.js";
  */
 export interface SvgSettings extends Partial<JobSettings & MachineChoice & PenSetup> {
   /** Paper, placing, hatching, order of strokes … Default: `DEFAULT_PREPARE`. */
-  readonly prepare?: PrepareSettings;
+  readonly prepare?: Partial<PrepareSettings>;
 }
 
 /** A job, and the strokes that it draws. */
@@ -26,6 +29,12 @@ export interface PlannedSvg extends MachineJob {
   readonly warnings: readonly string[];
 }
 
+const NAMES = [
+  ...["machine", "customMachine", "prepare", "motion", "pen"],
+  ...Object.keys(NO_PENS),
+  ...Object.keys(STREAM_TABLE),
+];
+
 /**
  * Turns SVG text into motion and commands for a machine: import, prepare, check that the machine reaches
  * everything, and plan. The default machine is an AxiDraw V3, the default paper A4 in landscape.
@@ -33,13 +42,14 @@ export interface PlannedSvg extends MachineJob {
  * @throws PlotwrightError "bad-file" (also if nothing is left to draw), "out-of-bounds", "bad-setting", "cancelled"
  */
 export function planSvg(text: string, settings: SvgSettings = {}, options: JobOptions = {}): PlannedSvg {
+  checkNames("planSvg", settings, NAMES);
   const whole = {
     machine: "axidraw-v3",
-    prepare: DEFAULT_PREPARE,
     motion: DEFAULT_MOTION,
     pen: DEFAULT_PEN,
     ...NO_PENS,
     ...settings,
+    prepare: completeSettings(settings.prepare ?? {}),
   };
   const machine = machineOf(whole);
   const { prepared, warnings } = prepareJob(importSvg(text), whole, machine);

@@ -1,4 +1,5 @@
 /** Checks profiles written by hand in programs without types, which may lack required fields. */
+import { checkObject } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
 import type { ControllerField, ControllerFields } from "./controller.js";
@@ -20,6 +21,10 @@ const ABOVE_0: Need = {
   isRight: (value) => Number.isFinite(value) && (value as number) > 0,
   what: "a number above 0",
 };
+const CONTROLLER_NAME: Need = {
+  isRight: (value) => typeof value === "string" && value !== "",
+  what: "the name of a controller",
+};
 const OBJECT: Need = { isRight: isObject, what: "an object" };
 
 const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
@@ -31,12 +36,16 @@ const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
 
 /** @throws PlotwrightError "bad-setting" for the first field that is missing or invalid, except the controller's */
 export function checkProfile(machine: MachineProfile): void {
+  checkObject("machine", "the machine", machine, [], 'a profile, for example machineById("axidraw-v3")');
   const values = machine as unknown as Values;
   for (const [key, need] of Object.entries(PROFILE_NEEDS)) check(machine, key, need, values[key]);
-  if (isObject(values.controller)) return;
-  throw bad(
-    `The machine profile "${nameOf(machine)}" has no controller: what drives its motors and its pen.`,
-  );
+  const { controller } = values;
+  if (!isObject(controller)) {
+    throw bad(
+      `The machine profile "${nameOf(machine)}" has no controller: what drives its motors and its pen.`,
+    );
+  }
+  check(machine, "controller.kind", CONTROLLER_NAME, controller.kind);
 }
 
 /** @throws PlotwrightError "bad-setting" for the first field of the controller that is missing or invalid */

@@ -5,6 +5,7 @@
  * AxiDraw and NextDraw: 200-step motors, 5 full steps per mm along an axis, so 80 at 1/16.
  * Servo ranges: 7500 … 28000 covers a standard servo on RB1; the brushless lift on RB2 takes 5400 … 12600.
  */
+import { refuseSetting } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "./profile.js";
 
@@ -85,6 +86,12 @@ export const MACHINES: readonly MachineProfile[] = [
  * @throws PlotwrightError "bad-setting" for an unknown id, with the list of known ids
  */
 export function machineById(id: string): MachineProfile {
+  if (typeof id !== "string")
+    refuseSetting(
+      "machine",
+      id,
+      'an id such as "axidraw-v3"; planSvg takes a custom profile as customMachine',
+    );
   const machine = MACHINES.find((candidate) => candidate.id === id);
   if (machine === undefined) {
     const known = MACHINES.map((candidate) => candidate.id).join(", ");

@@ -2,9 +2,11 @@
  * Rejects motion and pen settings that are outside the ranges of the settings tables or contradict each
  * other.
  */
+import { checkNames } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import {
+  DEFAULT_MOTION,
   DRAW_TABLE,
   EASE_TABLE,
   FIT_TABLE,
@@ -15,6 +17,7 @@ import {
   type MotionSettings,
 } from "../settings/motion.js";
 import {
+  DEFAULT_PEN,
   DROP_RATE,
   LAYER_WAIT,
   LIFT_RATE,
@@ -34,6 +37,7 @@ export function checkSettings(
   pen: PenSettings,
   machine: MachineProfile | undefined,
 ): void {
+  checkSettingNames(motion, pen);
   if (!MOTION_MODES.includes(motion.mode)) {
     throw bad(`motion mode is "${String(motion.mode)}": choose one of ${MOTION_MODES.join(", ")}`);
   }
@@ -51,6 +55,21 @@ export function checkSettings(
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
     checkNumber(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
   }
+}
+
+const PEN_NAMES = [...Object.keys(DEFAULT_PEN), "liftPctPerS", "dropPctPerS", "layers"];
+const MOTION_NAMES = [...Object.keys(DEFAULT_MOTION), "ease", "motorAccelStepsPerS2", "layers"];
+
+/** @throws PlotwrightError "bad-setting" for settings that are not there, or that have other names */
+export function checkSettingNames(motion: MotionSettings, pen: PenSettings): void {
+  checkNames("motion", motion, MOTION_NAMES);
+  for (const name of ["mode", "draw", "travel"] as const) {
+    if ((motion[name] as unknown) !== undefined) continue;
+    throw bad(`motion ${name} is missing: begin with { ...DEFAULT_MOTION } and change what differs`);
+  }
+  checkNames("draw", motion.draw, Object.keys(DRAW_TABLE));
+  checkNames("travel", motion.travel, Object.keys(TRAVEL_TABLE));
+  checkNames("pen", pen, PEN_NAMES);
 }
 
 function checkShaper({ shaper = "none", mode }: MotionSettings, machine: MachineProfile | undefined): void {
@@ -72,7 +91,8 @@ function checkShaper({ shaper = "none", mode }: MotionSettings, machine: Machine
   }
 }
 
-function checkPen(name: string, pen: PenSettings): void {
+/** @throws PlotwrightError "bad-setting" */
+export function checkPen(name: string, pen: PenSettings): void {
   checkNumbers(name, PEN_TABLE, pen);
   if (pen.upPct <= pen.downPct) {
     throw bad(
@@ -106,7 +126,8 @@ function check(name: string, row: NumberSetting, value: number): void {
   // The planner has no upper limit for speeds and lengths; percentages and waits have one.
   const range = row.minExcluded ? { ...row, max: Infinity } : row;
   if (isAllowed(range, value)) return;
-  throw bad(`${name} ${row.label.toLowerCase()} is ${value} ${row.unit}: it must be ${rangeInWords(range)}`);
+  const is = typeof value === "number" ? `${value} ${row.unit}` : (JSON.stringify(value) ?? "missing");
+  throw bad(`${name} ${row.label.toLowerCase()} is ${is}: it must be ${rangeInWords(range)}`);
 }
 
 const bad = (message: string): PlotwrightError => new PlotwrightError("bad-setting", message);

@@ -8,7 +8,13 @@
  * stroke begins exactly where the previous one of the same layer ended, the pen stays down.
  */
 import { PlotwrightError } from "../errors.js";
-import { pointCount, settingsIdOf, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import {
+  checkStrokes,
+  pointCount,
+  settingsIdOf,
+  strokeCount,
+  type StrokeSet,
+} from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
@@ -71,6 +77,7 @@ export function plan(
   pen: PenSettings = DEFAULT_PEN,
   options: PlanOptions = {},
 ): Trajectory {
+  checkStrokes("plan", strokes);
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;

@@ -1,5 +1,6 @@
 /** Checks that the drawing fits the machine, before anything moves. */
-import type { StrokeSet } from "../drawing/stroke-set.js";
+import { checkObject } from "../check-arguments.js";
+import { checkStrokes, type StrokeSet } from "../drawing/stroke-set.js";
 import { PlotwrightError } from "../errors.js";
 import { boxOfPoints, type Box } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
@@ -23,6 +24,9 @@ export function checkBounds(
   strokes: StrokeSet,
   machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,
 ): void {
+  checkStrokes("checkBounds", strokes);
+  const aMachine = 'a profile, for example machineById("axidraw-v3")';
+  checkObject("checkBounds", "the machine", machine, ["widthMm", "heightMm"], aMachine);
   if (strokes.xy.length === 0) return;
   const box = boxOfPoints(strokes.xy);
   if (isReached(box, machine)) return;

@@ -18,8 +18,10 @@ import {
   visibleOnly,
   type PreparedLayer,
 } from "./assemble.js";
+import { checkObject } from "../check-arguments.js";
 import { clipRegions } from "./clip-regions.js";
 import { clipLines } from "./clipped-fills.js";
+import { completeSettings } from "./complete-settings.js";
 import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
@@ -29,7 +31,7 @@ import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
 import { setFor } from "./set-for.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../settings/prepare.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import {
   ANYWHERE,
   addHatch,
@@ -69,13 +71,22 @@ export interface Prepared {
 /**
  * Places the drawing on the paper and turns it into strokes in drawing order (mm in the machine frame).
  *
- * @throws PlotwrightError "bad-setting" if the margins leave no room; "cancelled"
+ * @param changes the settings that differ from `DEFAULT_PREPARE`
+ * @throws PlotwrightError "bad-setting" for a wrong setting, or if the margins leave no room; "cancelled"
  */
 export function prepare(
   drawing: Drawing,
-  settings: PrepareSettings = DEFAULT_PREPARE,
+  changes: Partial<PrepareSettings> = {},
   options: Work = {},
 ): Prepared {
+  checkObject(
+    "prepare",
+    "the drawing",
+    drawing,
+    ["paths", "groups"],
+    "what importSvg or importDrawing returns",
+  );
+  const settings = completeSettings(changes);
   const progress = (done: number, step: string): void => {
     stopIfCancelled(options);
     options.onProgress?.(done, step);

@@ -21,30 +21,23 @@ import {
 
 const ROOT = path.join(import.meta.dirname, "..", "..");
 
+/** Files that all folders of src may import. */
+const BASE = ["units", "errors", "check-arguments"];
+
 /** What each folder of src may import, besides itself. The keys are all existing folders. */
 const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
-  geometry: ["units", "errors"],
-  drawing: ["geometry", "units", "errors"],
-  settings: ["drawing", "units", "errors"],
-  import: ["drawing", "geometry", "units", "errors"],
-  machines: ["settings", "units", "errors"],
-  prepare: ["drawing", "geometry", "machines", "settings", "units", "errors"],
-  plan: ["prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  job: [
-    "import",
-    "drivers",
-    "plan",
-    "prepare",
-    "drawing",
-    "geometry",
-    "machines",
-    "settings",
-    "units",
-    "errors",
-  ],
-  export: ["plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
-  schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", "units", "errors"],
+  "check-arguments": ["errors"],
+  geometry: [...BASE],
+  drawing: ["geometry", ...BASE],
+  settings: ["drawing", ...BASE],
+  import: ["drawing", "geometry", ...BASE],
+  machines: ["settings", ...BASE],
+  prepare: ["drawing", "geometry", "machines", "settings", ...BASE],
+  plan: ["prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  job: ["import", "drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  export: ["plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
 };
 
 /** The folders of server, lowest first: each imports only those before it. The entry files may import all. */

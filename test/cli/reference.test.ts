@@ -7,7 +7,7 @@ import { Command } from "commander";
 import { COMMANDS } from "../../server/cli/commands.js";
 import { buildProgram } from "../../server/cli/program.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
-import { addSettingOptions } from "../../server/cli/settings-options.js";
+import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
 import { PlotRecord } from "../../server/cli/plot-record.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -110,6 +110,7 @@ const WITH: Readonly<Record<string, readonly string[]>> = {
   "--spring-x": ["--spring-y", "25"],
   "--spring-y": ["--spring-x", "15"],
   "--damping": ["--spring-x", "15", "--spring-y", "25"],
+  "--shaper": ["--spring-x", "15", "--spring-y", "25"],
   "--quality": ["--spring-x", "15", "--spring-y", "25"],
 };
 const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
@@ -124,6 +125,36 @@ const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   service: ["status"],
   board: ["--pty", "plotter"],
 };
+
+/** What the other options do, with what shows it. */
+const EFFECTS: readonly (readonly [string, readonly string[], RegExp])[] = [
+  ["plan", ["drawing.svg", "--json"], /^\{.*\}\s*$/s],
+  ["plan", ["drawing.svg", "--ebb", "-", "--firmware", "2.5.3"], /\nLM,/],
+  ["plan", ["drawing.svg", "--ebb", "-", "--firmware", "3.0.3"], /\nLT,/],
+  ["plan", ["drawing.svg", "--svg", "-"], /<svg[^>]* width="297mm"/],
+  [
+    "plan",
+    ["drawing.svg", "--svg", "-", "--machine", "axidraw-v3-a3", "--paper", "A3"],
+    /<svg[^>]* width="420mm"/,
+  ],
+  ["plan", ["drawing.svg", "--preview", "-"], /<svg/],
+  ["plan", ["drawing.svg", "--strokes", "-"], /^\{"/],
+  ["plan", ["drawing.svg", "--only", "Ink"], /no layer .*Ink|Ink.* no layer|Layers?/i],
+  ["plan", ["drawing.svg", "--machine", "typewriter"], /no machine "typewriter"/],
+  ["plan", ["drawing.svg", "--machine-file", "none.json"], /none\.json/],
+  ["plan", ["drawing.svg", "--config", "none.json"], /none\.json/],
+  ["devices", ["--json"], /^\[\]\s*$/],
+  ["machines", ["--json"], /^\[\{"id":"axidraw-v3"/],
+  ["info", ["--json"], /"firmware":/],
+  ["queue", ["--json"], /^[[{]/],
+  ["raw", ["QM"], /^QM,0,0,0/],
+  ["logs", ["--port", "1", "--out", "log.txt"], /log\.txt is written/],
+  ["pen", ["40"], /^$/],
+  ["plot", ["drawing.svg", "--quiet"], /^$/],
+  ["plot", ["drawing.svg", "--copies", "2"], /Done: drawing\.svg.*Done: drawing\.svg/s],
+  ["plot", ["--resume"], /nothing to resume/],
+  ["add", ["drawing.svg", "--copies", "2"], /drawing\.svg/],
+];
 
 describe("each option in docs/cli.md", () => {
   it.each(COMMANDS.map(({ name }) => name))("of %s is accepted with a value as described", async (name) => {
@@ -145,19 +176,33 @@ describe("each option in docs/cli.md", () => {
     }
   });
 
-  it.each(SETTING_OPTIONS.map(({ flags }) => flags.split(" ")[0]))("%s plans", async (flag) => {
-    const command = addSettingOptions(new Command());
-    const option = command.options.find(({ long }) => long === flag)!;
-    const value = option.argChoices?.[0] ?? VALUES[flag] ?? String(option.defaultValue ?? "1");
-    const { code, err } = await cliWith(
-      new CaughtIo(),
-      "plan",
-      "wide.svg",
-      flag,
-      ...(option.required ? [value] : []),
-      ...(WITH[flag] ?? []),
-    );
-    expect([err, code]).toEqual([expect.any(String), 0]);
+  it.each(SETTING_OPTIONS.map(({ flags }) => flags.split(" ")[0]))(
+    "%s changes the plan's settings",
+    async (flag) => {
+      const command = addSettingOptions(new Command()).exitOverride();
+      const option = command.options.find(({ long }) => long === flag)!;
+      const value =
+        flag === "--machine" ? "axidraw-v3-a3" : (option.argChoices?.at(-1) ?? VALUES[flag] ?? "1");
+      // A switch is tried after its opposite, so that its default does not matter.
+      const opposite = flag.startsWith("--no-") ? flag.replace("--no-", "--") : flag.replace("--", "--no-");
+      const before = option.required ? [] : [opposite];
+      const args = [...before, flag, ...(option.required ? [value] : []), ...(WITH[flag] ?? [])];
+      const settingsOf = (given: readonly string[]): unknown =>
+        settingsFromOptions(
+          addSettingOptions(new Command())
+            .parse([...given], { from: "user" })
+            .opts(),
+        );
+      expect(settingsOf(args)).not.toEqual(settingsOf(before));
+      const { code, err } = await cliWith(new CaughtIo(), "plan", "wide.svg", ...args);
+      expect([err, code]).toEqual([expect.any(String), 0]);
+    },
+  );
+
+  it.each(EFFECTS)("%s takes effect: %j", { timeout: LIMIT_MS }, async (name, args, expected) => {
+    const io = new CaughtIo();
+    await cliWith(io, name, ...args, ...additionsOf(name));
+    expect(io.outText + io.errText).toMatch(expected);
   });
 });
 

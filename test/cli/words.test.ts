@@ -11,8 +11,14 @@ import { cli } from "./support.js";
 
 describe("a word that is not a command", () => {
   it.each([
-    ["pln", "x.svg", /There is no command pln\. The commands are serve, plan, plot, /],
-    ["recover", "", /There is no command recover\. The commands are /],
+    ["pln", "x.svg", /There is no command pln\. Did you mean plan\?$/],
+    ["polt", "x.svg", /There is no command polt\. Did you mean plot\?$/],
+    [
+      "recover",
+      "",
+      /There is no command recover\. To continue a drawing that was begun: plotwright plot --resume$/,
+    ],
+    ["frobnicate", "", /There is no command frobnicate\. The commands are serve, plan, plot, /],
     ["x.svg", "", /There is no command x\.svg\. To plot a drawing: plotwright plot x\.svg$/],
     ["9381", "", /To choose the port: plotwright --port 9381, or npm start -- --port 9381/],
   ])("%s %s is named, with a suggestion", async (word, more, message) => {
@@ -29,7 +35,7 @@ describe("a word that is not a command", () => {
     ],
     [
       ["plan", "my", "drawing.svg"],
-      /^plotwright: plan takes 1 at most, got 2\. .* names with blanks need quotes/,
+      /^plotwright: plan takes at most 1 argument, got 2\. .* names with blanks need quotes/,
     ],
   ])("%j has a surplus word", async (args, message) => {
     const { code, err } = await cli(...args);
@@ -76,6 +82,30 @@ describe("a length", () => {
 describe("a file that cannot be used", () => {
   const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
   afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+  it.each([
+    [
+      ["plot", "in", "--data", "/proc/x"],
+      /The data folder \/proc\/x can't be created: no folder can be made there/,
+    ],
+    [["plot", "in", "--data", "in"], /The data folder .* can't be created: a part of this path is a file/],
+    [
+      ["plan", "in", "--svg", "/proc/x.svg"],
+      /\/proc\/x\.svg can't be written: there is no such file or folder/,
+    ],
+    [["plan", "in", "--ebb", "in/x.txt"], /x\.txt can't be written: a part of this path is a file/],
+    [["plan", "."], /can't be read: it is a folder/],
+    [["board", "--pty", "/proc/x"], /\/proc\/x can't be made: there is no such file or folder/],
+  ])("stops %j with a message, without the system's codes", { timeout: 60_000 }, async (args, message) => {
+    const drawing = join(folder, "in");
+    writeFileSync(drawing, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 2h9" stroke="red"/></svg>');
+    const board = args[0] === "plot" ? ["--device", "virtual", "--virtual-speed", "100"] : [];
+    const paths = args.map((arg) => (arg === "." ? folder : arg.replace(/^in(?=$|\/)/, drawing)));
+    const { code, err } = await cli(...paths, ...board);
+    expect([code, err]).toEqual([expect.any(Number), expect.stringMatching(message)]);
+    expect(code).toBeGreaterThan(0);
+    expect(err).not.toMatch(/ENO|EACC|EIS/);
+  });
   const file = (name: string, text: string): string => {
     const path = join(folder, name);
     writeFileSync(path, text);

@@ -1,4 +1,6 @@
+import { readFileSync } from "node:fs";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { httpReference, routeHeading } from "../../scripts/http-reference.js";
 import { startApp, type TestApp } from "./support/app.js";
 
 let app: TestApp;
@@ -29,5 +31,18 @@ describe("the OpenAPI document", () => {
     expect(document.paths["/api/v1/jobs/{id}/move"]?.["post"]).toMatchObject({
       parameters: [{ name: "id", in: "path" }],
     });
+  });
+});
+
+describe("docs/http-reference.md", () => {
+  const text = readFileSync(new URL("../../docs/http-reference.md", import.meta.url), "utf8");
+
+  it("is what `npm run docs` writes", async () => {
+    expect(text).toBe(await httpReference());
+  });
+
+  it("has a section for each route of the OpenAPI document", () => {
+    const missing = app.documented().filter((one) => !text.includes(`\n${routeHeading(one)}\n`));
+    expect(missing).toEqual([]);
   });
 });

@@ -172,7 +172,9 @@ describe("a data folder that can't be used", () => {
     async () => {
       const server = serve("--data", "/proc/x", "--device", "virtual");
       expect(await server.ended).toEqual({ code: 2, signal: null });
-      expect(server.said()).toMatch(/^plotwright: The data folder \/proc\/x can't be created .*--data\.\n$/);
+      expect(server.said()).toMatch(
+        /^plotwright: The data folder \/proc\/x can't be created: no folder can be made there\. .*--data\.\n$/,
+      );
     },
     LIMIT_MS,
   );

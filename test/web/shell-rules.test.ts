@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
 import { cachesToDrop, ruleFor } from "../../web/pwa/shell-rules.js";
 
-const HERE = "http://127.0.0.1:9080";
-const asked = (path: string, more: { method?: string; mode?: string } = {}) =>
-  ruleFor({ method: "GET", url: new URL(path, HERE).href, mode: "cors", ...more }, HERE);
+const HERE = "http://127.0.0.1:9080/";
+const asked = (path: string, more: { method?: string; mode?: string } = {}, page = HERE) =>
+  ruleFor({ method: "GET", url: new URL(path, HERE).href, mode: "cors", ...more }, page);
 
 describe("the service worker", () => {
   it("answers for the page and its files", () => {
@@ -28,6 +28,18 @@ describe("the service worker", () => {
   it("ignores pairing, other pages and other sites", () => {
     expect(asked("/pair?token=x", { mode: "navigate" })).toBeNull();
     expect(asked("http://camera.local/picture.png")).toBeNull();
+  });
+
+  it("answers only for its own folder of a site", () => {
+    const page = `${HERE}plots/app/`;
+    expect(asked("/plots/app/?from=docs", { mode: "navigate" }, page)).toBe("page");
+    expect(asked("/plots/app/index.html", { mode: "navigate" }, page)).toBe("page");
+    expect(asked("/plots/app/assets/index-abc.js", {}, page)).toBe("kept");
+    for (const path of ["/", "/plots/", "/plots/docs/index.html"]) {
+      expect(asked(path, { mode: "navigate" }, page)).toBeNull();
+    }
+    expect(asked("/assets/index-abc.js", {}, page)).toBeNull();
+    expect(asked("/plots/docs/icon.svg", {}, page)).toBeNull();
   });
 
   it("keeps the previous version for pages that are still open", () => {

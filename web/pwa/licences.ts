@@ -2,7 +2,7 @@
 
 /** Null where there is no such file, as while the page is developed. */
 export const fetchLicences = async (signal: AbortSignal): Promise<string | null> => {
-  const response = await fetch("/licences.txt", { signal });
+  const response = await fetch(`${import.meta.env.BASE_URL}licences.txt`, { signal });
   const isText = response.headers.get("Content-Type")?.startsWith("text/plain") === true;
   return response.ok && isText ? response.text() : null;
 };

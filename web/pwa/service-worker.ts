@@ -4,7 +4,7 @@
  */
 import { cachesToDrop, ruleFor } from "./shell-rules.js";
 
-/** Put in by the build: paths of the page's files, and a name that changes with them. */
+/** Put in by the build: paths of the page's files, relative to this one, and a name that changes with them. */
 const SHELL = JSON.parse("__SHELL__") as { readonly version: string; readonly files: readonly string[] };
 const PREFIX = "plotwright-";
 const CACHE = `${PREFIX}${SHELL.version}`;
@@ -27,11 +27,13 @@ interface Scope {
   addEventListener(type: "fetch", listener: (event: Fetching) => void): void;
 }
 const scope = globalThis as unknown as Scope;
+/** Address of the page, and of the folder with its files. */
+const PAGE = new URL("./", scope.location.href).href;
 
 scope.addEventListener("install", (event) => event.waitUntil(fetchShell()));
 scope.addEventListener("activate", (event) => event.waitUntil(takeOver()));
 scope.addEventListener("fetch", (event) => {
-  const rule = ruleFor(event.request, scope.location.origin);
+  const rule = ruleFor(event.request, PAGE);
   if (rule === "page") event.respondWith(pageOrKept(event.request));
   if (rule === "kept") event.respondWith(keptOrFetched(event.request));
 });
@@ -39,7 +41,7 @@ scope.addEventListener("fetch", (event) => {
 async function fetchShell(): Promise<void> {
   const cache = await caches.open(CACHE);
   // Past the browser's own cache: a file without a hash may be an old one there.
-  await cache.addAll(SHELL.files.map((file) => new Request(file, { cache: "reload" })));
+  await cache.addAll(SHELL.files.map((file) => new Request(new URL(file, PAGE), { cache: "reload" })));
   await scope.skipWaiting();
 }
 
@@ -61,7 +63,7 @@ async function pageOrKept(request: Request): Promise<Response> {
     // No server: what was kept is shown instead.
   }
   const cache = await caches.open(CACHE);
-  return (await cache.match("/")) ?? fetched;
+  return (await cache.match(PAGE)) ?? fetched;
 }
 
 async function keptOrFetched(request: Request): Promise<Response> {

@@ -12,12 +12,15 @@ export interface Asked {
  * "kept": a file whose name has a hash, or an icon: from the cache where it is.
  * null: everything else goes its way as without a service worker. The API above all: an old answer of it would be a
  * lie about what the plotter does.
+ *
+ * `page`: the page's address, which ends with "/".
  */
-export const ruleFor = ({ method, url, mode }: Asked, origin: string): "page" | "kept" | null => {
-  const at = new URL(url);
-  if (method !== "GET" || at.origin !== origin) return null;
-  if (mode === "navigate") return at.pathname === "/" ? "page" : null;
-  const isKept = at.pathname.startsWith("/assets/") || /^\/[\w.-]+\.(svg|png|webmanifest)$/.test(at.pathname);
+export const ruleFor = ({ method, url, mode }: Asked, page: string): "page" | "kept" | null => {
+  const { origin, pathname } = new URL(url);
+  if (method !== "GET" || !`${origin}${pathname}`.startsWith(page)) return null;
+  const file = `${origin}${pathname}`.slice(page.length);
+  if (mode === "navigate") return file === "" || file === "index.html" ? "page" : null;
+  const isKept = file.startsWith("assets/") || /^[\w.-]+\.(svg|png|webmanifest)$/.test(file);
   return isKept ? "kept" : null;
 };
 

@@ -8,6 +8,7 @@
  * Bad files throw PlotwrightError("bad-file") with line and column; minor problems become warnings. Time and
  * memory are linear in the text and in what copies (`use`) add; copies are limited.
  */
+import { checkText } from "../../check-arguments.js";
 import type { Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
@@ -18,7 +19,7 @@ import { finishAroundDrawing } from "../finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
 import { SvgConditions } from "./svg-conditions.js";
 import { SvgClips } from "./svg-clips.js";
-import { fontOf, type ImportOptions } from "../import-options.js";
+import { checkImportOptions, fontOf, type ImportOptions } from "../import-options.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
 import { SvgGeometry } from "./svg-geometry.js";
 import { planLayers } from "./svg-layers.js";
@@ -43,6 +44,8 @@ const ARC_TOLERANCE = 8e-7;
  * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
  */
 export function importSvg(text: string, options: ImportOptions = {}): Drawing {
+  checkText("importSvg", text);
+  checkImportOptions(options);
   const warnings = new Warnings();
   // The tree is out of scope when the columns are assembled, which halves the peak memory.
   const { builder, page } = draw(text, options, warnings);

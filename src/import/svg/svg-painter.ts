@@ -21,6 +21,7 @@ import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
+import { warnOf } from "./svg-effects.js";
 import { isMarked } from "./svg-markers.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgPaintServers } from "./svg-paint-servers.js";
@@ -32,7 +33,7 @@ import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import type { Paint } from "./paint.js";
 import type { Color } from "../color.js";
-import { declaredValue } from "./style.js";
+import { declaredValue, INITIAL_STYLE } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {
@@ -121,7 +122,10 @@ export class SvgPainter {
     const box = isDrawn
       ? builder.boxOfShapes(firstShape, builder.shapeCount)
       : this.geometry.placeOf(context, text.x, text.y, 0, 0);
+    if (isDrawn) warnOf(text.effects, box, warnings);
     if (isDrawn && this.font.kind === "single-stroke") warnings.add("text-substituted", box);
+    for (const wanted of isDrawn ? otherFaces(text.letters, this.font) : [])
+      warnings.add("text-style-ignored", box, wanted);
     for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
     if (text.unsupported.length > 0) {
       warnings.add("text-not-drawn", box, undefined, text.unsupported.length);
@@ -250,6 +254,20 @@ export class SvgPainter {
       }
     }
   }
+}
+
+/** What letters ask for that the font is not: another family, bold, italic. */
+function otherFaces(letters: readonly PlacedLetter[], { face }: TextFont): ReadonlySet<string> {
+  const wanted = new Set<string>();
+  if (face === undefined) return wanted;
+  for (const { fontFamily, isBold, isItalic } of new Set(letters.map(({ style }) => style))) {
+    const family = fontFamily.split(",")[0].replace(/["']/g, "").trim();
+    if (family !== INITIAL_STYLE.fontFamily && family.toLowerCase() !== face.family.toLowerCase())
+      wanted.add(`font ${family}`);
+    if (isBold !== face.isBold) wanted.add(isBold ? "bold" : "not bold");
+    if (isItalic !== face.isItalic) wanted.add(isItalic ? "italic" : "not italic");
+  }
+  return wanted;
 }
 
 /** A letter's em to page mm. */

@@ -6,8 +6,9 @@ import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { effectsOf, type Effects } from "./svg-effects.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
-import { withoutAlignment } from "./text-style.js";
+import { withoutAlignment, withoutShift } from "./text-style.js";
 import type { Context } from "./svg-context.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
@@ -17,6 +18,8 @@ import type { TextFont } from "../text/text-font.js";
 export interface PlacedText extends LaidOutText {
   /** Elements that are not laid out: a textPath without a path, and unsupported kinds. */
   readonly unsupported: readonly string[];
+  /** Of the spans: what a browser draws with them and a pen does not. */
+  readonly effects: Effects;
   /** Start of the text, in user units. */
   readonly x: number;
   readonly y: number;
@@ -43,12 +46,14 @@ export function placeText(
   const chars = collapseBlanks(gatherer.chars);
   gatherer.assignPositions(chars);
   const { x, y } = chars[0] ?? {};
-  return { ...layOutText(chars, font), unsupported: gatherer.unsupported, x: x ?? 0, y: y ?? 0 };
+  const { unsupported, effects } = gatherer;
+  return { ...layOutText(chars, font), unsupported, effects, x: x ?? 0, y: y ?? 0 };
 }
 
 class Gatherer {
   readonly chars: Char[] = [];
   readonly unsupported: string[] = [];
+  readonly effects: Effects[number][] = [];
   /** Elements that may have positions, and the characters inside each. */
   private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
   private readonly declared = new Declared();
@@ -93,7 +98,9 @@ class Gatherer {
       for (const node of children.reverse())
         stack.push({ node, style, open: within, path, keepsBlanks, stretch });
     };
-    pushChildren(root, this.context.style, [], null, this.keepsBlanksAround(root), null);
+    const { style: around } = this.context;
+    const rootStyle = { ...around, text: withoutShift(around.text) };
+    pushChildren(root, rootStyle, [], null, this.keepsBlanksAround(root), null);
     while (stack.length > 0) {
       const { node, style, open, path, keepsBlanks, stretch } = stack.pop()!;
       const tag = tagOf(tree, node);
@@ -110,8 +117,12 @@ class Gatherer {
         this.cascade.collect(node, this.declared);
         const own = this.styleInside(style);
         // Deeply nested spans have no use; deeper ones are not laid out.
-        if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64)
+        if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64) {
+          this.effects.push(...effectsOf(own, this.declared));
+          const clip = declaredValue(own, this.declared, "clip-path") ?? "none";
+          if (clip !== "none") this.effects.push(["clip-ignored", `${clip.slice(0, 40)} on ${tag}`]);
           pushChildren(node, own, open, onPath, keepsBlanks, stretch);
+        }
       }
     }
   }

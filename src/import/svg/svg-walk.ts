@@ -25,7 +25,7 @@ import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
-import { outsideText } from "./text-style.js";
+import { withoutAlignment, withoutShift } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
 import type { Warnings } from "../warnings.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
@@ -123,7 +123,12 @@ export class SvgWalk {
 
   private leave(frame: Frame): void {
     const { builder } = this;
-    if (frame.effects.length === 0 || builder.shapeCount === frame.firstShape) return;
+    if (frame.effects.length === 0) return;
+    if (builder.shapeCount === frame.firstShape) {
+      // A filter can paint where there is no shape.
+      if (frame.effects.some(([code]) => code === "filter-ignored")) this.warnings.add("filter-ignored");
+      return;
+    }
     warnOf(frame.effects, builder.boxOfShapes(frame.firstShape, builder.shapeCount), this.warnings);
   }
 
@@ -171,8 +176,7 @@ export class SvgWalk {
   private styled(outer: Context): Context {
     const { last, declared } = this;
     if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
-      const { text: around } = outer.style;
-      const text = declared.get("baseline-shift") === "inherit" ? around : outsideText(around);
+      const text = withoutShift(withoutAlignment(outer.style.text));
       const parent = text === outer.style.text ? outer.style : { ...outer.style, text };
       last.inner = withStyle(outer, computeStyle(parent, declared, outer.basis), IDENTITY);
       last.outer = outer;

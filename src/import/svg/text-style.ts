@@ -15,10 +15,11 @@ export interface TextStyle {
   readonly keepsBlanks: boolean | null;
   readonly dominantBaseline: string;
   readonly alignmentBaseline: string;
-  /** px upwards, summed over the enclosing elements of the text. */
+  /** px upwards, summed over the enclosing spans. */
   readonly baselineShift: number;
-  /** The same for `sub` and `super`, in px for a font whose letters are 1 em high. */
-  readonly heightShift: number;
+  /** Font sizes in px of the enclosing subscripts and superscripts, summed: the font says how far each shifts. */
+  readonly subscriptPx: number;
+  readonly superscriptPx: number;
   readonly decorations: readonly Decoration[];
 }
 
@@ -48,7 +49,8 @@ export const INITIAL_TEXT_STYLE: TextStyle = {
   dominantBaseline: "auto",
   alignmentBaseline: "auto",
   baselineShift: 0,
-  heightShift: 0,
+  subscriptPx: 0,
+  superscriptPx: 0,
   decorations: [],
 };
 
@@ -69,7 +71,8 @@ const BASELINES: Readonly<Record<string, (metrics: FontMetrics) => number>> = {
 export function baselineOffset(text: TextStyle, fontSize: number, metrics: FontMetrics): number {
   const usual = text.isVertical ? BASELINES["central"] : (): number => 0;
   const own = BASELINES[text.alignmentBaseline] ?? BASELINES[text.dominantBaseline] ?? usual;
-  const shift = text.baselineShift + text.heightShift * (metrics.ascent + metrics.descent);
+  const { baselineShift, subscriptPx, superscriptPx } = text;
+  const shift = baselineShift + superscriptPx * metrics.superscript - subscriptPx * metrics.subscript;
   return own(metrics) * fontSize - shift;
 }
 
@@ -77,11 +80,11 @@ export function baselineOffset(text: TextStyle, fontSize: number, metrics: FontM
 export const withoutAlignment = (text: TextStyle): TextStyle =>
   text.alignmentBaseline === "auto" ? text : { ...text, alignmentBaseline: "auto" };
 
-/** What an element outside a text passes on to it: `baseline-shift` is not inherited either. */
-export const outsideText = (text: TextStyle): TextStyle =>
-  text.baselineShift === 0 && text.heightShift === 0
-    ? withoutAlignment(text)
-    : { ...withoutAlignment(text), baselineShift: 0, heightShift: 0 };
+/** `baseline-shift` applies only to the spans inside a text, not to the text itself or what is around it. */
+export const withoutShift = (text: TextStyle): TextStyle =>
+  text.baselineShift === 0 && text.subscriptPx === 0 && text.superscriptPx === 0
+    ? text
+    : { ...text, baselineShift: 0, subscriptPx: 0, superscriptPx: 0 };
 
 const PROPERTIES: ReadonlySet<string> = new Set<Property>([
   "word-spacing",
@@ -132,9 +135,9 @@ export function computeTextStyle(
   if (dominant !== undefined && dominant !== "auto") changes.dominantBaseline = dominant;
   changes.alignmentBaseline = valueOf("alignment-baseline") ?? parent.alignmentBaseline;
   const shift = valueOf("baseline-shift");
-  if (shift === "sub" || shift === "super") {
-    changes.heightShift = parent.heightShift + (shift === "sub" ? -0.5 : 0.5) * style.fontSize;
-  } else if (shift !== undefined) {
+  if (shift === "sub") changes.subscriptPx = parent.subscriptPx + style.fontSize;
+  else if (shift === "super") changes.superscriptPx = parent.superscriptPx + style.fontSize;
+  else if (shift !== undefined) {
     changes.baselineShift = parent.baselineShift + shiftOf(shift, style.fontSize, lengthOf);
   }
   const decoration = `${valueOf("text-decoration") ?? ""} ${valueOf("text-decoration-line") ?? ""}`;

@@ -5,13 +5,20 @@ declare module "fontkit" {
   }
   export interface Font {
     readonly unitsPerEm: number;
+    readonly familyName: string | null;
+    readonly italicAngle: number;
     readonly ascent: number;
     readonly descent: number;
     readonly xHeight: number;
     readonly underlinePosition: number;
     readonly underlineThickness: number;
     readonly availableFeatures: readonly string[];
-    readonly "OS/2"?: { readonly yStrikeoutPosition?: number };
+    readonly "OS/2"?: {
+      readonly usWeightClass?: number;
+      readonly yStrikeoutPosition?: number;
+      readonly ySubscriptYOffset?: number;
+      readonly ySuperscriptYOffset?: number;
+    };
     layout(
       text: string,
       features?: Readonly<Record<string, boolean>>,

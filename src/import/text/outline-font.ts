@@ -6,6 +6,7 @@ import type { Font } from "fontkit";
 import { PlotwrightError } from "../../errors.js";
 import {
   USUAL_METRICS,
+  type FontFace,
   type FontMetrics,
   type LaidOutGlyph,
   type LetterStyle,
@@ -20,6 +21,8 @@ const LETTER_OF_COMMAND: Readonly<Record<string, string>> = {
   closePath: "Z",
 };
 const NOT_DEFINED = 0;
+const USUAL_WEIGHT = 400;
+const BOLD_WEIGHT = 600;
 
 /**
  * Opens a font file (TrueType, OpenType, WOFF), for `ImportOptions.font`. The font library is loaded by the first call,
@@ -48,9 +51,16 @@ export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   return {
     kind: "outline",
     metrics: metricsOf(font),
+    face: faceOf(font),
     hasSmallCaps: font.availableFeatures.includes("smcp"),
     layout: (text, style) => layOut(font, text, style),
   };
+}
+
+function faceOf(font: Font): FontFace | undefined {
+  if (font.familyName === null) return undefined;
+  const weight = font["OS/2"]?.usWeightClass ?? USUAL_WEIGHT;
+  return { family: font.familyName, isBold: weight >= BOLD_WEIGHT, isItalic: font.italicAngle !== 0 };
 }
 
 /** A font may lack tables or have zeros in them: then the usual values apply. */
@@ -62,6 +72,8 @@ function metricsOf(font: Font): FontMetrics {
     ascent: em(font.ascent, USUAL_METRICS.ascent),
     descent: em(-font.descent, USUAL_METRICS.descent),
     xHeight,
+    subscript: em(font["OS/2"]?.ySubscriptYOffset, USUAL_METRICS.subscript),
+    superscript: em(font["OS/2"]?.ySuperscriptYOffset, USUAL_METRICS.superscript),
     underline: em(font.underlinePosition, USUAL_METRICS.underline),
     strikeout: em(font["OS/2"]?.yStrikeoutPosition, xHeight / 2),
     lineThickness: em(font.underlineThickness, USUAL_METRICS.lineThickness),

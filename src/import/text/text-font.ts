@@ -30,16 +30,28 @@ export interface FontMetrics {
   readonly ascent: number;
   readonly descent: number;
   readonly xHeight: number;
+  /** Of `baseline-shift`: how far a subscript goes down and a superscript up. */
+  readonly subscript: number;
+  readonly superscript: number;
   /** The middles of the lines of text decoration, and their thickness. */
   readonly underline: number;
   readonly strikeout: number;
   readonly lineThickness: number;
 }
 
+/** Which font of a family it is. */
+export interface FontFace {
+  readonly family: string;
+  readonly isBold: boolean;
+  readonly isItalic: boolean;
+}
+
 /** A source of letters. Lengths in em, y down, baseline at 0. */
 export interface TextFont {
   /** Outlines are filled; single strokes are drawn as lines. */
   readonly kind: "outline" | "single-stroke";
+  /** If given, text that asks for another one is reported. */
+  readonly face?: FontFace | undefined;
   /** Default: those of a usual font. */
   readonly metrics?: FontMetrics;
   /** Whether it has small capitals of its own; if not, they are made from its capitals. */
@@ -66,6 +78,9 @@ export const USUAL_METRICS: FontMetrics = {
   ascent: 0.9,
   descent: 0.21,
   xHeight: 0.46,
+  // As CSS Inline Layout 3, §4.2 asks for if a font has none.
+  subscript: 1 / 5,
+  superscript: 1 / 3,
   underline: -0.12,
   strikeout: 0.23,
   lineThickness: 0.06,

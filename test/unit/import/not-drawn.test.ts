@@ -43,6 +43,10 @@ describe("elements", () => {
     expect(codesOf(tag).filter((code) => code !== "reference-missing")).toEqual([]);
   });
 
+  it("that are empty are reported for a filter, which can paint by itself", () => {
+    expect(codes(draw(`${LINE}<g filter="url(#f)"/><g opacity=".5"/>`))).toEqual(["filter-ignored"]);
+  });
+
   it("in a text are reported, too", () => {
     expect(codes(draw('<text x="9" y="9">a<tref href="#x"/></text>'))).toEqual([
       "text-substituted",

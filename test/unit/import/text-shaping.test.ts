@@ -9,7 +9,16 @@ const MARK = "\u0301";
 /** A square for each letter, closer after "A"; a combining mark is a small square above the letter before it. */
 const font: TextFont = {
   kind: "outline",
-  metrics: { ascent: 0.8, descent: 0.2, xHeight: 0.5, underline: -0.1, strikeout: 0.3, lineThickness: 0.05 },
+  metrics: {
+    ascent: 0.8,
+    descent: 0.2,
+    xHeight: 0.5,
+    subscript: 0.1,
+    superscript: 0.4,
+    underline: -0.1,
+    strikeout: 0.3,
+    lineThickness: 0.05,
+  },
   layout: (line, { hasLigatures = true }) => ({
     glyphs: [...(hasLigatures ? line.replace("fi", "ﬁ") : line)].map((char, at, all) =>
       char === MARK
@@ -87,7 +96,8 @@ describe("a font's own heights", () => {
   });
 
   it("place subscripts, superscripts and decorations", () => {
-    expect(boxOf(drawn(text('<tspan baseline-shift="super">a</tspan>')), 0)[3]).toBe(450);
+    expect(boxOf(drawn(text('<tspan baseline-shift="super">a</tspan>')), 0)[3]).toBe(460);
+    expect(boxOf(drawn(text('<tspan baseline-shift="sub">a</tspan>')), 0)[3]).toBe(510);
     expect(boxOf(drawn(text("a", 'text-decoration="underline"')), 0)).toEqual([100, 508, 200, 513]);
     expect(boxOf(drawn(text("a", 'text-decoration="line-through"')), 0)).toEqual([100, 468, 200, 473]);
   });
@@ -104,9 +114,8 @@ describe("what a text takes from around it", () => {
   it("is not a baseline shift", () => {
     const grouped = `<g baseline-shift="super" alignment-baseline="hanging">${text("a")}</g>`;
     expect(shapesOf(drawn(grouped))).toEqual(shapesOf(drawn(text("a"))));
-    expect(boxOf(drawn(`<g baseline-shift="3">${text("a", 'baseline-shift="inherit"')}</g>`), 0)[3]).toBe(
-      470,
-    );
+    const shifted = text("a", 'baseline-shift="super"');
+    expect(shapesOf(drawn(shifted))).toEqual(shapesOf(drawn(text("a"))));
   });
 
   it("is one writing mode for all of it", () => {
@@ -138,5 +147,27 @@ describe("text as a clip", () => {
 
   it("is reported where letters have no outlines", () => {
     expect(codes(draw(clipped))).toEqual(["clip-text", "empty-drawing"]);
+  });
+});
+
+describe("what spans of a text ask for and do not get is reported", () => {
+  const face = { family: "Plain Sans", isBold: false, isItalic: false };
+  const messages = (body: string): string[] =>
+    draw(body, { text: "outline", font: { ...font, face } }).warnings.map(({ message }) => message);
+
+  it.each([
+    ['filter="url(#f)"', "filter effect is ignored"],
+    ['clip-path="url(#c)"', "(url(#c) on tspan)"],
+    ['mask="url(#m)"', "mask is ignored"],
+    ['opacity=".5"', "partly transparent"],
+    ['font-weight="bold"', "(bold)"],
+    ['font-style="italic"', "(italic)"],
+    ['font-family="Courier, monospace"', "(font Courier)"],
+  ])("%s", (attributes, expected) => {
+    expect(messages(text(`a<tspan ${attributes}>b</tspan>`))).toEqual([expect.stringContaining(expected)]);
+  });
+
+  it("but nothing where the font is the one asked for", () => {
+    expect(messages(text("a", "font-family=\"'plain sans', serif\""))).toEqual([]);
   });
 });

@@ -7,8 +7,10 @@
  * next command is computed from that state. So rounding never adds up, and the final step counters equal
  * those of the plan.
  */
+import { checkObject } from "../../../check-arguments.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
+import { checkPen } from "../../../plan/check-settings.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
 import type { PenMove, Trajectory } from "../../../plan/trajectory.js";
 import { TICKS_PER_MS } from "../../../units.js";
@@ -47,11 +49,23 @@ export interface CompileOptions {
  * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
  * `setUpCommands` switch the motors on before it, once per session; `EM,0,0` switches them off.
  *
- * @throws PlotwrightError "bad-setting" for an invalid firmware version or an incomplete machine profile
+ * @throws PlotwrightError "bad-setting" for an invalid firmware version, an incomplete machine profile, or a machine
+ *   without an EiBotBoard
+ * @throws TypeError for an argument of another kind
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
-  checkEbbProfile(options.machine);
+  checkObject("compile", "the trajectory", trajectory, ["runs", "penMoves"], "what plan returns");
+  checkObject(
+    "compile",
+    "the options object",
+    options,
+    ["machine", "firmware", "pen"],
+    "{ machine, firmware, pen }",
+  );
+  const { machine, pen } = options;
+  checkEbbProfile(machine);
+  checkPen("pen", pen);
   return new Compiler(trajectory, options).run();
 }
 

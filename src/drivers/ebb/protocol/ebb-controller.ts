@@ -85,7 +85,7 @@ export function ebbOf({ name, controller }: MachineProfile): EbbController {
   if (controller.kind === "ebb") return controller as EbbController;
   throw new PlotwrightError(
     "bad-setting",
-    `${name} is not driven by an EiBotBoard: its profile says "${controller.kind}". Choose another machine.`,
+    `${name} is not driven by an EiBotBoard: its profile says "${controller.kind}". Choose another machine, or plan with planJob, which knows every controller.`,
   );
 }
 

@@ -134,7 +134,7 @@ export function firmwareFeatures(version: string): FirmwareFeatures {
 }
 
 function parseVersion(version: string): readonly [number, number, number] {
-  const match = /^v?(\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?$/.exec(version.trim());
+  const match = /^v?(\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?$/.exec(String(version).trim());
   if (match === null) {
     throw new PlotwrightError(
       "bad-setting",

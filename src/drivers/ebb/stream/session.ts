@@ -6,6 +6,7 @@
  * has to wait for a slot in the queue is answered late by design. So the time-out applies to the *first*
  * unanswered command, from the time it became the first, and each command states how long it may take.
  */
+import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
 import { LineSplitter } from "../../line-splitter.js";
 import { commandName, replyShape } from "../protocol/replies.js";
@@ -84,6 +85,20 @@ export class BoardSession {
     private readonly transport: Transport,
     options: SessionOptions,
   ) {
+    checkObject(
+      "BoardSession",
+      "the transport",
+      transport,
+      ["write"],
+      "what board.transport() or requestBoard returns",
+    );
+    checkObject(
+      "BoardSession",
+      "the options object",
+      options,
+      ["clock"],
+      "{ clock }, for example { clock: browserClock() }",
+    );
     this.clock = options.clock;
     this.patienceS = options.patienceS ?? 1.5;
     this.log = new SessionLog(options.clock, options.logLines);

@@ -8,6 +8,7 @@
  *   host ──write──> system buffer ──64-byte packets──> parser ──> queue (1 … 32) ──> motors, pen
  *                   (waits while the parser is blocked by a full queue)
  */
+import { checkObject } from "../../../check-arguments.js";
 import { PlotwrightError } from "../../../errors.js";
 import { firmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
@@ -103,6 +104,13 @@ export class VirtualBoard {
   private readonly dropListeners: (() => void)[] = [];
 
   constructor(options: VirtualBoardOptions) {
+    checkObject(
+      "VirtualBoard",
+      "the options object",
+      options,
+      ["clock"],
+      "{ clock }, for example { clock: browserClock() }",
+    );
     const speed = options.speed ?? 1;
     if (!(speed > 0)) throw new RangeError(`speed is ${speed}: expected more than 0`);
     this.clock = options.clock;

@@ -1,0 +1,115 @@
+/** Markdown of the repository to HTML of the site: ids of headings as on GitHub, links between the files as pages. */
+import path from "node:path";
+import { Marked, type Tokens } from "marked";
+import { PAGES, type DocPage } from "./pages.js";
+
+export interface Heading {
+  readonly depth: number;
+  readonly id: string;
+  /** Plain text. */
+  readonly text: string;
+}
+
+export interface Rendered {
+  readonly html: string;
+  readonly headings: readonly Heading[];
+  /** Paths in the repository of the pictures that the page shows. */
+  readonly pictures: readonly string[];
+}
+
+const ENTITIES: Readonly<Record<string, string>> = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
+export const escapeHtml = (text: string): string => text.replace(/[&<>"]/g, (one) => ENTITIES[one]);
+
+/** `source`: the file's path in the repository, which its links are relative to. */
+export function renderMarkdown(source: string, markdown: string): Rendered {
+  const headings: Heading[] = [];
+  const pictures: string[] = [];
+  const idFor = idWriter();
+  const marked = new Marked({
+    renderer: {
+      heading({ tokens, depth }: Tokens.Heading) {
+        const text = plainText(tokens);
+        const id = idFor(text);
+        headings.push({ depth, id, text });
+        const anchor =
+          depth === 1
+            ? ""
+            : ` <a class="anchor" href="#${id}" aria-label="Link to “${escapeHtml(text)}”">#</a>`;
+        return `<h${depth} id="${id}">${this.parser.parseInline(tokens)}${anchor}</h${depth}>\n`;
+      },
+      link({ href, text, tokens }: Tokens.Link) {
+        // On GitHub a file's name is a good text, here its page has a name.
+        const page = text.endsWith(".md") ? pageOf(source, href) : undefined;
+        const words = page === undefined ? this.parser.parseInline(tokens) : escapeHtml(page.label);
+        return `<a href="${escapeHtml(linkTo(source, href))}">${words}</a>`;
+      },
+      image({ href, text }: Tokens.Image) {
+        const picture = inRepository(source, href);
+        pictures.push(picture);
+        return `<img src="${escapeHtml(picture.replace(/^docs\//, ""))}" alt="${escapeHtml(text)}">`;
+      },
+      code({ text }: Tokens.Code) {
+        // Long lines scroll, so the keyboard must be able to reach them.
+        return `<pre tabindex="0"><code>${escapeHtml(text)}</code></pre>\n`;
+      },
+      table({ header, align, rows }: Tokens.Table) {
+        const cell = (tag: string) => (one: Tokens.TableCell, column: number) => {
+          const side = align[column] === null ? "" : ` class="${align[column]}"`;
+          return `<${tag}${side}>${this.parser.parseInline(one.tokens)}</${tag}>`;
+        };
+        const hasHeader = header.some(({ text }) => text !== "");
+        // A header cell without text says nothing to a screen reader.
+        const head = header.map((one, i) => cell(one.text === "" ? "td" : "th")(one, i)).join("");
+        const body = rows.map((row) => `<tr>${row.map(cell("td")).join("")}</tr>`).join("\n");
+        return `<div class="table" tabindex="0" role="region" aria-label="Table"><table>${
+          hasHeader ? `<thead><tr>${head}</tr></thead>` : ""
+        }<tbody>\n${body}\n</tbody></table></div>\n`;
+      },
+      html({ text }: Tokens.HTML | Tokens.Tag) {
+        if (!text.trim().startsWith("<!--")) throw new Error(`${source}: HTML in Markdown: ${text.trim()}`);
+        return "";
+      },
+    },
+  });
+  const html = marked.parse(markdown, { async: false });
+  return { html, headings, pictures };
+}
+
+/** Where a link of a Markdown file leads on the site. Throws if its target is not on the site. */
+function linkTo(source: string, href: string): string {
+  if (/^(https?|mailto):/.test(href) || href.startsWith("#")) return href;
+  const anchor = href.split("#")[1] as string | undefined;
+  const found = pageOf(source, href);
+  if (found === undefined) throw new Error(`${source}: the link to ${href} leads to no page of the site`);
+  return anchor === undefined ? found.file : `${found.file}#${anchor}`;
+}
+
+function pageOf(source: string, href: string): DocPage | undefined {
+  const target = inRepository(source, href.split("#")[0]);
+  return PAGES.find((one) => one.source === target);
+}
+
+const inRepository = (source: string, href: string): string =>
+  path.posix.join(path.posix.dirname(source), decodeURI(href));
+
+interface InlineToken {
+  readonly type: string;
+  readonly text?: string;
+  readonly tokens?: readonly InlineToken[];
+}
+const plainText = (tokens: readonly InlineToken[]): string =>
+  tokens.map((token) => (token.tokens === undefined ? (token.text ?? "") : plainText(token.tokens))).join("");
+
+/** Ids as GitHub makes them, so that one link works in both places. */
+function idWriter(): (text: string) => string {
+  const counts = new Map<string, number>();
+  return (text) => {
+    const id = text
+      .toLowerCase()
+      .replace(/[^\p{L}\p{N}\s_-]/gu, "")
+      .replaceAll(" ", "-");
+    const count = counts.get(id) ?? 0;
+    counts.set(id, count + 1);
+    return count === 0 ? id : `${id}-${count}`;
+  };
+}

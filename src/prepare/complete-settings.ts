@@ -1,0 +1,49 @@
+/** Completes the settings of `prepare` with their defaults, and refuses those that are not settings. */
+import { checkNames, refuseSetting } from "../check-arguments.js";
+import {
+  DEFAULT_PREPARE,
+  HATCH_TABLE,
+  PAPER_TABLE,
+  PREPARE_TABLE,
+  type PrepareSettings,
+} from "../settings/prepare.js";
+import { isAllowed, rangeInWords, type SettingsTable } from "../settings/setting.js";
+
+const NAMES = [...Object.keys(DEFAULT_PREPARE), "layerShifts"];
+const LISTS = ["hiddenLayers", "shownLayers", "layerOrder", "layerHatches"] as const;
+const EXAMPLE_PAPER = "a size such as PAPER_SIZES.A4 or { widthMm: 210, heightMm: 297 }";
+
+/** @throws PlotwrightError "bad-setting", naming the setting, its value and what is allowed */
+export function completeSettings(settings: Partial<PrepareSettings>): PrepareSettings {
+  checkNames("prepare", settings, NAMES);
+  const given = Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined));
+  const whole: PrepareSettings = { ...DEFAULT_PREPARE, ...given };
+  checkTable("prepare ", PREPARE_TABLE, whole);
+  for (const name of LISTS) {
+    if (!Array.isArray(whole[name])) refuseSetting(`prepare ${name}`, whole[name], "a list");
+  }
+  if (typeof whole.paper !== "object" || (whole.paper as unknown) === null)
+    refuseSetting("prepare paper", whole.paper, EXAMPLE_PAPER);
+  checkTable("prepare paper.", PAPER_TABLE, whole.paper);
+  checkNames("hatch", whole.hatch, Object.keys(HATCH_TABLE));
+  const hatch = { ...DEFAULT_PREPARE.hatch, ...whole.hatch };
+  checkTable("prepare hatch.", HATCH_TABLE, hatch);
+  return { ...whole, hatch };
+}
+
+function checkTable<Table extends SettingsTable>(
+  at: string,
+  table: Table,
+  values: Readonly<Record<keyof Table, unknown>>,
+): void {
+  for (const [key, row] of Object.entries(table)) {
+    const value = values[key];
+    if (row.kind === "number") {
+      if (!isAllowed(row, value as number)) refuseSetting(at + key, value, rangeInWords(row));
+    } else if (row.kind === "switch") {
+      if (typeof value !== "boolean") refuseSetting(at + key, value, "true or false");
+    } else if (!row.choices.includes(value as string)) {
+      refuseSetting(at + key, value, `one of ${row.choices.join(", ")}`);
+    }
+  }
+}

@@ -1,0 +1,256 @@
+/**
+ * The web site of `npm run build:site`: its links, every page of the documentation, and the app in Chromium. It is served
+ * below a path, as on a host that has several projects.
+ */
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import path from "node:path";
+import { gzipSync } from "node:zlib";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { ROOT } from "../../scripts/setup.mjs";
+import { PAGES } from "../../scripts/site/pages.js";
+import { seriousFindings } from "../support/axe.js";
+import { launchBrowser } from "../support/browser.js";
+import { IS_FULL } from "../support/full-run.js";
+import { chooseSample, waitForPicture } from "../support/page-actions.js";
+import { temporaryFolder } from "../support/server-process.js";
+import { serveFolder, type StaticSite } from "../support/static-site.js";
+
+const BASE = "/plots/";
+const folder = temporaryFolder("site");
+const DOC_FILES = PAGES.map(({ file }) => `docs/${file}`);
+
+let browser: Browser;
+let site: StaticSite;
+
+beforeAll(async () => {
+  const script = path.join(ROOT, "scripts", "build-site.ts");
+  const args = [
+    path.join(ROOT, "node_modules/tsx/dist/cli.mjs"),
+    script,
+    "--out",
+    folder.path,
+    "--base",
+    BASE,
+  ];
+  const { status, stderr } = spawnSync(process.execPath, args, { cwd: ROOT, encoding: "utf8" });
+  expect(`${status} ${status === 0 ? "" : stderr}`).toBe("0 ");
+  browser = await launchBrowser();
+  site = await serveFolder(folder.path, BASE);
+});
+afterAll(async () => {
+  await site.close();
+  await browser.close();
+  rmSync(folder.path, { recursive: true, force: true });
+});
+
+const read = (file: string): string => readFileSync(path.join(folder.path, file), "utf8");
+const htmlFiles = (): string[] =>
+  readdirSync(folder.path, { recursive: true, encoding: "utf8" })
+    .map((file) => file.replaceAll("\\", "/"))
+    .filter((file) => file.endsWith(".html"));
+
+/** What is wrong with a link of a page, or null. Links to other sites are not followed. */
+function faultOf(from: string, link: string): string | null {
+  const base = `http://site${BASE}`;
+  const target = new URL(link.replaceAll("&amp;", "&"), `${base}${from}`);
+  if (target.host !== "site") {
+    const isSafe = target.protocol === "https:" || target.hostname === "127.0.0.1";
+    return isSafe ? null : `${from}: ${link} is not https`;
+  }
+  if (!target.pathname.startsWith(BASE)) return `${from}: ${link} leaves the site`;
+  const file = decodeURIComponent(target.pathname.slice(BASE.length));
+  const isThere = statSync(path.join(folder.path, file), { throwIfNoEntry: false })?.isFile() ?? false;
+  if (!isThere) return `${from}: ${link} leads nowhere`;
+  const id = decodeURIComponent(target.hash.slice(1));
+  if (id !== "" && !read(file).includes(` id="${id}"`)) return `${from}: ${link} has no such heading`;
+  return null;
+}
+
+describe("the files of the site", () => {
+  it("have only links that lead somewhere", () => {
+    const links = htmlFiles().flatMap((from) =>
+      [...read(from).matchAll(/\s(?:href|src)="([^"]*)"/g)].map((match) => ({ from, link: match[1] ?? "" })),
+    );
+    expect(links.length).toBeGreaterThan(1_000);
+    const faults = links.map(({ from, link }) => faultOf(from, link)).filter((fault) => fault !== null);
+    expect(faults).toEqual([]);
+  });
+
+  it("have a content security policy, and nothing inline that it forbids", () => {
+    for (const file of htmlFiles()) {
+      const html = read(file);
+      expect([file, /<meta\s+http-equiv="Content-Security-Policy"/.test(html)]).toEqual([file, true]);
+      expect([file, /<script(?![^>]*\ssrc=)|<style|\sstyle=|\son\w+=/.exec(html)?.[0]]).toEqual([
+        file,
+        undefined,
+      ]);
+    }
+  });
+
+  it("have pictures of at most 200 kB, each with a description", () => {
+    const sizes = readdirSync(path.join(folder.path, "docs", "screenshots")).map(
+      (name) => statSync(path.join(folder.path, "docs", "screenshots", name)).size,
+    );
+    expect(sizes.length).toBeGreaterThanOrEqual(3);
+    expect(Math.max(...sizes)).toBeLessThanOrEqual(200_000);
+    const withoutWords = DOC_FILES.flatMap(
+      (file) => read(file).match(/<article>[\s\S]*<\/article>/)?.[0] ?? "",
+    ).flatMap((article) => [...article.matchAll(/<img [^>]*alt=""/g)]);
+    expect(withoutWords).toEqual([]);
+  });
+
+  it("have titles that differ", () => {
+    const titles = DOC_FILES.map((file) => /<title>(.*)<\/title>/.exec(read(file))?.[1]);
+    expect(new Set(titles).size).toBe(DOC_FILES.length);
+  });
+
+  it("load little: a page of the documentation is at most 60 kB gzipped, with style and script", () => {
+    const bytes = (file: string): number => gzipSync(readFileSync(path.join(folder.path, file))).length;
+    const shared = bytes("docs/site.css") + bytes("docs/site.js") + bytes("docs/icon.svg");
+    expect(Math.max(...DOC_FILES.map((file) => shared + bytes(file)))).toBeLessThanOrEqual(60_000);
+  });
+});
+
+/** Errors of the console, and requests that failed. */
+function complaintsOf(page: Page): string[] {
+  const complaints: string[] = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(`${page.url()}: ${message.text()}`);
+  });
+  page.on("requestfailed", (request) => {
+    const words = request.failure()?.errorText ?? "";
+    // A page that is left does not load the rest of its files.
+    if (words !== "net::ERR_ABORTED") complaints.push(`${request.url()}: ${words}`);
+  });
+  return complaints;
+}
+
+describe("each page of the documentation", () => {
+  // axe takes seconds for a long page. The references are of the same parts as the other pages, and in the dark only
+  // the colours differ.
+  const generated = ["docs/library-reference.html", "docs/http-reference.html"];
+  const inLight = DOC_FILES.filter((file) => IS_FULL || !generated.includes(file));
+  const inDark = IS_FULL ? DOC_FILES : ["docs/index.html", "docs/cli.html", "docs/motion.html"];
+  it.each([
+    ["light", [...inLight, "404.html"]],
+    ["dark", inDark],
+  ] as const)("has no error and no serious finding of axe in %s", async (colorScheme, files) => {
+    const viewport = { width: 1440, height: 900 };
+    const page = await browser.newPage({ colorScheme, viewport, serviceWorkers: "block" });
+    const complaints = complaintsOf(page);
+    for (const file of files) {
+      await page.goto(site.url + file);
+      expect(await page.locator("h1").count()).toBe(1);
+      const findings = await seriousFindings(page);
+      complaints.push(...findings.map((finding) => `${file}: ${finding}`));
+    }
+    await page.close();
+    expect(complaints).toEqual([]);
+  });
+
+  it("fits a phone's width", async () => {
+    const page = await browser.newPage({ viewport: { width: 390, height: 844 }, serviceWorkers: "block" });
+    for (const file of [...DOC_FILES, "404.html"]) {
+      await page.goto(site.url + file);
+      const widthPx = await page.evaluate(() => document.documentElement.scrollWidth);
+      expect([file, widthPx]).toEqual([file, 390]);
+    }
+    await page.close();
+  });
+});
+
+describe("a reader", () => {
+  it("opens the menu on a phone, and finds a title", async () => {
+    const page = await browser.newPage({ viewport: { width: 390, height: 844 }, serviceWorkers: "block" });
+    const complaints = complaintsOf(page);
+    await page.goto(site.url);
+    await page.waitForURL(/docs\/index\.html$/);
+    await page.getByRole("button", { name: "Menu" }).click();
+    await page.getByRole("searchbox", { name: "Search titles" }).fill("udev port");
+    await page.getByText("No title has these words.").waitFor();
+    await page.getByRole("searchbox", { name: "Search titles" }).fill("corner costs");
+    await page.getByRole("link", { name: /^What one corner costs/ }).click();
+    await page.waitForURL(/docs\/comparison\.html#what-one-corner-costs$/);
+    expect(complaints).toEqual([]);
+    await page.close();
+  });
+
+  it("gets a page with links for an unknown address", async () => {
+    const page = await browser.newPage({ serviceWorkers: "block" });
+    const response = await page.goto(`${site.url}docs/a/b/c.html`);
+    expect(response?.status()).toBe(404);
+    await page.getByRole("link", { name: "overview", exact: true }).click();
+    await page.getByRole("heading", { level: 1, name: "plotwright" }).waitFor();
+    await page.close();
+  });
+
+  it("can read every page without a network after one visit", async () => {
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    const host = await serveFolder(folder.path, BASE);
+    await page.goto(`${host.url}docs/index.html`);
+    await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+    await host.close();
+    for (const file of ["docs/first-plot.html", "docs/motion.html", "docs/"]) {
+      await page.goto(host.url + file);
+      expect(await page.locator("h1").count()).toBe(1);
+    }
+    await page.goto(`${host.url}docs/first-plot.html`);
+    const isDrawn = await page
+      .locator("article img")
+      .first()
+      .evaluate((image) => (image as HTMLImageElement).naturalWidth > 0);
+    expect(isDrawn).toBe(true);
+    await context.close();
+  });
+});
+
+/** Without it the app of the site is the server's page, which can only report that its server is missing. */
+const HAS_BROWSER_BACKEND = existsSync(path.join(ROOT, "web", "backend", "browser"));
+
+describe.runIf(HAS_BROWSER_BACKEND)("the app of the site", () => {
+  const openApp = async (page: Page, host: StaticSite): Promise<void> => {
+    await page.goto(`${host.url}app/index.html`);
+    await page.getByText("Drop a drawing here").waitFor();
+  };
+
+  it("loads at most 320 kB of code, gzipped, for an empty sheet, and shows no error under its policy", async () => {
+    const page = await browser.newPage({ serviceWorkers: "block" });
+    const complaints = complaintsOf(page);
+    const loaded = new Map<string, number>();
+    page.on("response", (response) => {
+      if (!response.url().startsWith(site.url)) return;
+      const file = new URL(response.url()).pathname.slice(BASE.length);
+      loaded.set(file, gzipSync(readFileSync(path.join(folder.path, file))).length);
+    });
+    await openApp(page, site);
+    await page.waitForLoadState("networkidle");
+    // The samples' pictures come after the page.
+    const bytes = [...loaded]
+      .filter(([file]) => !file.endsWith(".svg"))
+      .reduce((sum, [, size]) => sum + size, 0);
+    expect([...loaded.keys()].filter((file) => file.endsWith(".js")).length).toBeGreaterThan(2);
+    expect(bytes).toBeLessThanOrEqual(320_000);
+    await chooseSample(page);
+    await waitForPicture(page);
+    expect(complaints).toEqual([]);
+    await page.close();
+  });
+
+  it("opens and plans a sample without a network after one visit", async () => {
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    const host = await serveFolder(folder.path, BASE);
+    await openApp(page, host);
+    await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+    await host.close();
+    await openApp(page, host);
+    await chooseSample(page);
+    await context.close();
+  });
+});
