@@ -20,17 +20,17 @@ export default tseslint.config(
     },
   },
   {
-    files: ["{src,server,web,test,scripts,bench}/**/*.{ts,tsx}"],
+    files: ["{src,host,server,web,test,scripts,bench}/**/*.{ts,tsx}"],
     plugins: { plotwright: { rules: { "plain-words": plainWords } } },
     rules: { "plotwright/plain-words": "error" },
   },
   {
-    files: ["{src,server,web,test,scripts}/**/*.{ts,tsx}"],
+    files: ["{src,host,server,web,test,scripts}/**/*.{ts,tsx}"],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: { "@typescript-eslint/no-unnecessary-type-assertion": "error" },
   },
   {
-    files: ["src/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
+    files: ["src/**/*.ts", "host/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
     languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
     rules: {
       "@typescript-eslint/no-floating-promises": "error",
@@ -73,6 +73,24 @@ export default tseslint.config(
     },
   },
   {
+    files: ["host/**/*.ts"],
+    rules: {
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            onlyEntryPoints("host"),
+            {
+              group: ["node:*", "**/server/**", "**/web/**", "**/test/**"],
+              message:
+                "host runs in Node and in a browser's worker: take what you need as an interface argument.",
+            },
+          ],
+        },
+      ],
+    },
+  },
+  {
     files: ["server/**/*.ts"],
     rules: {
       "no-restricted-imports": [
@@ -109,7 +127,7 @@ export default tseslint.config(
           patterns: [
             onlyEntryPoints("web"),
             {
-              group: ["**/server/**", "!**/backend/server/**", "**/test/**", "node:*"],
+              group: ["**/server/**", "!**/backend/server/**", "!./server/**", "**/test/**", "node:*"],
               message: "server and web never import each other; what they exchange is in src/schema.",
             },
           ],

@@ -95,6 +95,7 @@ export function ensureDependencies() {
 
 const BUILD_INPUTS = [
   "src",
+  "host",
   "server",
   "web",
   "scripts/licences.mjs",

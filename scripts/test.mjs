@@ -13,7 +13,7 @@ import { findBrowser, installBrowser } from "./find-browser.mjs";
 import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
 
 const CHECKS = [
-  ...["src", "server", "web", "test", "scripts"].map((folder) => ({
+  ...["src", "host", "server", "web", "test", "scripts"].map((folder) => ({
     name: `types of ${folder}`,
     args: [nodeModule("typescript", "bin", "tsc"), "-p", `${folder}/tsconfig.json`],
   })),

@@ -61,6 +61,8 @@ const licences = licencePlugins();
 export default defineConfig({
   // Relative to the package, where npm runs its scripts.
   root: "web",
+  // The static app may be in any folder of a site; the server has the page at its root.
+  base: process.env["VITE_BACKEND"] === "browser" ? "./" : "/",
   plugins: [react(), withoutNeverCalled(), serviceWorker(), licences.inPage()],
   build: {
     outDir: "../dist/web",

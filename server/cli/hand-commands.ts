@@ -1,6 +1,6 @@
 /** One-off commands to the machine: pen, moves by hand, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
-import type { HandMove } from "../plotter/hand-moves.js";
+import type { HandMove } from "../../host/plotter/hand-moves.js";
 import { length } from "./lengths.js";
 import {
   runAlign,

@@ -1,9 +1,9 @@
 /** One-off commands to the machine: pen, moves by hand, a raw line, info. */
 import type { PlotSettings } from "../../src/schema/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
-import type { HandMove } from "../plotter/hand-moves.js";
-import { openPlotter } from "../plotter/named-plotter.js";
-import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { HandMove } from "../../host/plotter/hand-moves.js";
+import { openPlotter } from "../plotter/open-plotter.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import type { DeviceOptions } from "./options.js";

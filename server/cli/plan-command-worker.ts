@@ -1,6 +1,6 @@
 /** See plan-thread.ts. */
 import { parentPort, workerData } from "node:worker_threads";
-import { faultOf, type Fault } from "../planning/messages.js";
+import { faultOf, type Fault } from "../../host/planning/messages.js";
 import { runPlan } from "./plan.js";
 import type { FromPlanThread, PlanThreadInput } from "./plan-thread.js";
 

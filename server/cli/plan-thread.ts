@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { BoundedThread } from "../planning/bounded-thread.js";
-import type { Fault } from "../planning/messages.js";
+import type { Fault } from "../../host/planning/messages.js";
 import {
   importLimit,
   planLimit,

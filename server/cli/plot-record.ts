@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import type { JournalEntry } from "../plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/types.js";
 import { makeDataFolder } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
 

@@ -1,6 +1,6 @@
 /** Progress of a running plot, and the keys that control it. */
 import { SingleBar } from "cli-progress";
-import type { PlotProgress, PlotRun } from "../plotter/types.js";
+import type { PlotProgress, PlotRun } from "../../host/plotter/types.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import type { CliIo } from "./io.js";
 import { minutes } from "./plan.js";

@@ -18,15 +18,16 @@ import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { createPlanning } from "../planning/planning.js";
 import { DrawingFiles } from "../storage/drawing-files.js";
-import { JobQueue } from "../queue/job-queue.js";
-import { Notices } from "../queue/notices.js";
+import { JobQueue } from "../../host/queue/job-queue.js";
+import { Notices } from "../../host/queue/notices.js";
 import { packagePath, packageVersion } from "../storage/package-files.js";
 import { Store } from "../storage/store.js";
 import { Access } from "../security/access.js";
 import { OperatorLock } from "../security/operator-lock.js";
 import { lanAddresses, LOCAL_NAME, pairingLinks } from "../security/network.js";
-import { FIRST_PLOTTER, openNamedPlotter } from "../plotter/named-plotter.js";
-import { PlotterRegistry } from "../plotter/plotter-registry.js";
+import { FIRST_PLOTTER, openNamedPlotter } from "../../host/plotter/named-plotter.js";
+import { NODE_PARTS } from "../plotter/node-plotter.js";
+import { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { PluginHost, RunningPlugin } from "../plugins/server-plugin.js";
 import { UploadedDrawings } from "../storage/uploaded-drawings.js";
@@ -133,7 +134,7 @@ async function openParts(
     firstId: FIRST_PLOTTER,
     firstDevice,
     open: (row, isTaken) =>
-      openNamedPlotter(row, { virtualSpeed, virtualSprings, isTaken, withMachine, log }),
+      openNamedPlotter(row, { virtualSpeed, virtualSprings, isTaken, withMachine, log, ...NODE_PARTS }),
   });
   closing.add("the plotters", () => registry.close());
   const plotters = registry.ports;

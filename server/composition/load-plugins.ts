@@ -1,6 +1,6 @@
 /** Which options ask for which plug-in. A plug-in that no option asks for is not even loaded. */
 import type { PluginCore, ServerPlugin } from "../plugins/server-plugin.js";
-import type { JobHooks } from "../queue/queue-parts.js";
+import type { JobHooks } from "../../host/queue/queue-parts.js";
 import { claimsWithoutSharing } from "../queue/shared-claims.js";
 import type { ServerOptions } from "./server-options.js";
 

@@ -5,13 +5,13 @@ import { PlotwrightError } from "../../src/index.js";
 import type { Pairing } from "../../src/schema/index.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
-import { lane } from "../planning/lane.js";
+import { lane } from "../../host/planning/lane.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
-import type { JobQueue } from "../queue/job-queue.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
-import type { Notices } from "../queue/notices.js";
-import type { PlotterRegistry } from "../plotter/plotter-registry.js";
+import type { Notices } from "../../host/queue/notices.js";
+import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 import { ACCESS_ROUTES, accessRoutes } from "./access-routes.js";
 import type { ApiPart } from "./api-route.js";
@@ -102,12 +102,13 @@ export function apiParts(
   ];
 }
 
-function handMoveParts({ registry, queue, machines }: AppParts): HandMoveParts {
+function handMoveParts({ registry, queue, files, machines }: AppParts): HandMoveParts {
   const turn = lane(2);
   return {
     plotters: registry.ports,
     queue,
-    jobBoxMm: (id) => turn({ client: id }, () => drawingBoxMm(queue.drawingPath(id), queue.get(id).settings)),
+    jobBoxMm: (id) =>
+      turn({ client: id }, () => drawingBoxMm(files.path(queue.drawingOf(id)), queue.get(id).settings)),
     withMachine: (settings) => machines.withMachine(settings),
   };
 }

@@ -4,7 +4,7 @@ import type { ZodType } from "zod";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { ERROR_TABLE } from "../../src/internal.js";
 import { firstFault } from "../../src/schema/index.js";
-import { isDiskFault } from "../storage/disk-fault.js";
+import { isDiskFault } from "../../host/disk-fault.js";
 
 /** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */
 export function parseWith<T>(schema: ZodType<T>, value: unknown): T {

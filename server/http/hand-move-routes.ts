@@ -14,9 +14,9 @@ import {
   type BoxMm,
   type PlotSettings,
 } from "../../src/schema/index.js";
-import type { HandMove } from "../plotter/hand-moves.js";
-import type { JobQueue } from "../queue/job-queue.js";
-import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { HandMove } from "../../host/plotter/hand-moves.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { route, type ApiRoute } from "./api-route.js";
 import { parseWith } from "./errors.js";
 import { findFreePlotter } from "./find-plotter.js";

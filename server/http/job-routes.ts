@@ -18,9 +18,9 @@ import {
   type Job,
 } from "../../src/schema/index.js";
 import type { MachineFiles } from "../storage/machine-files.js";
-import type { Requester } from "../planning/lane.js";
+import type { Requester } from "../../host/planning/lane.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
-import type { JobQueue } from "../queue/job-queue.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
 import { bytesOf } from "./drawing-routes.js";
@@ -91,7 +91,7 @@ export function jobRoutes({ queue, files, uploads, machines }: JobParts): Router
     const { id } = request.params;
     response.attachment(fileName(queue.get(id).name));
     response.type("text/plain; charset=utf-8");
-    response.sendFile(queue.drawingPath(id), { dotfiles: "allow" }, (error) => {
+    response.sendFile(files.path(queue.drawingOf(id)), { dotfiles: "allow" }, (error) => {
       if (error !== undefined && error !== null) next(error);
     });
   });

@@ -13,9 +13,9 @@ import {
   plotterSettingsSchema,
   queueSettingsSchema,
 } from "../../src/schema/index.js";
-import type { PlotterRegistry, PlotterUse } from "../plotter/plotter-registry.js";
-import type { JobQueue } from "../queue/job-queue.js";
-import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { PlotterRegistry, PlotterUse } from "../../host/plotter/plotter-registry.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
 import { parseWith } from "./errors.js";
 import { findFreePlotter, findPlotter } from "./find-plotter.js";

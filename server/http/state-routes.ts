@@ -2,9 +2,9 @@
 import express, { Router } from "express";
 import { z } from "zod";
 import { meSchema, queueSettingsSchema, snapshotSchema, type Snapshot } from "../../src/schema/index.js";
-import type { PlotterRegistry } from "../plotter/plotter-registry.js";
-import type { JobQueue } from "../queue/job-queue.js";
-import type { Notices } from "../queue/notices.js";
+import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import type { Notices } from "../../host/queue/notices.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import { route, type ApiRoute } from "./api-route.js";

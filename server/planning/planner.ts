@@ -4,11 +4,12 @@
  *
  * A drawing that needs too much time or memory ends the worker, not the server.
  */
-import { PlotwrightError, type StrokeSet } from "../../src/index.js";
-import type { JobStats } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot, PlotPlanner } from "./plot-planner.js";
+import { PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { PlanRequest, PlannedPlot, PlotPlanner } from "../../host/planning/plot-planner.js";
+import type { Measured } from "../../host/planning/planning.js";
 import { BoundedThread } from "./bounded-thread.js";
-import type { FromWorker, ToWorker, WorkerInput } from "./messages.js";
+import type { FromWorker, ToWorker } from "../../host/planning/messages.js";
 import {
   importLimit,
   planLimit,
@@ -17,14 +18,19 @@ import {
   type PlanningLimits,
 } from "./planning-limits.js";
 
+/** Passed to the worker when it starts. It prepares the drawing at once and answers "ready". */
+export interface WorkerInput {
+  /** The drawing's file. The worker reads it, so that its text never passes through the main thread. */
+  readonly path: string;
+  readonly settings: PlotSettings;
+  readonly machine: MachineProfile;
+  /** Names of the layers to draw; default: all. */
+  readonly only?: readonly string[] | undefined;
+}
+
 export interface PlannerInput extends WorkerInput {
   /** Default PLANNING_LIMITS. */
   readonly limits?: PlanningLimits;
-}
-
-export interface Measured {
-  readonly stats: JobStats;
-  readonly warnings: readonly string[];
 }
 
 interface Waiting {

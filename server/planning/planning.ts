@@ -1,23 +1,14 @@
 /** Planning for the queue: takes the id of a stored drawing and uses a few threads at a time. */
 import { stat } from "node:fs/promises";
 import { machineOf } from "../../src/internal.js";
-import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
-import { lane, type Requester } from "./lane.js";
+import { lane } from "../../host/planning/lane.js";
+import type { Planning } from "../../host/planning/planning.js";
 import { OWN_PLANNING_LIMITS } from "./planning-limits.js";
-import type { PlotPlanner } from "./plot-planner.js";
 import { WorkerPlanner, measureDrawing } from "./planner.js";
 
-export interface Planning {
-  /** `firmware` of the board that will plot it; null: unknown. */
-  measure(
-    drawing: string,
-    settings: PlotSettings,
-    firmware: string | null,
-    requester?: Requester,
-  ): Promise<{ readonly stats: JobStats; readonly warnings: readonly string[] }>;
-  open(drawing: string, settings: PlotSettings, signal: AbortSignal): Promise<PlotPlanner>;
-}
+export type { Planning } from "../../host/planning/planning.js";
 
 /** Uploads measured at the same time in each lane. The planner of a running plot does not wait for them. */
 const SLOTS = 2;

@@ -7,10 +7,10 @@
  */
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { ApiPart } from "../http/api-route.js";
-import type { PlotterPort } from "../plotter/plotter-port.js";
-import type { JobQueue } from "../queue/job-queue.js";
-import type { Notices } from "../queue/notices.js";
-import type { JobHooks } from "../queue/queue-parts.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import type { Notices } from "../../host/queue/notices.js";
+import type { JobHooks } from "../../host/queue/queue-parts.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { Store } from "../storage/store.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";

@@ -1,6 +1,6 @@
 /** Claims of a server that is not connected to the shared queue. */
 import type { Store } from "../storage/store.js";
-import type { Claims } from "./queue-parts.js";
+import type { Claims } from "../../host/queue/queue-parts.js";
 
 /** Jobs taken from the shared queue can't start, since they may have been given to another server meanwhile. */
 export function claimsWithoutSharing(store: Pick<Store, "unreportedShared">): Claims {

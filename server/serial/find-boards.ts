@@ -1,13 +1,8 @@
 import { SerialPort } from "serialport";
 import { usbIds, type UsbId } from "../../src/internal.js";
+import type { FoundBoard } from "../../host/plotter/devices.js";
 
-export interface FoundBoard {
-  /** The path to pass to `--device`. */
-  readonly path: string;
-  /** Manufacturer, to show to users. */
-  readonly description: string;
-  readonly serialNumber: string | null;
-}
+export type { FoundBoard } from "../../host/plotter/devices.js";
 
 /** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
 export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {

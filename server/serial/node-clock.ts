@@ -9,15 +9,3 @@ export const nodeClock: Clock = {
     return () => clearTimeout(timer);
   },
 };
-
-/**
- * The clock of a virtual board that runs `speed` times faster than real time.
- * A stream that uses it keeps the same window of board time ahead at any speed.
- */
-export function scaledClock(clock: Clock, speed: number): Clock {
-  if (speed === 1) return clock;
-  return {
-    nowS: () => clock.nowS() * speed,
-    after: (delayS, callback) => clock.after(delayS / speed, callback),
-  };
-}

@@ -7,13 +7,11 @@ import { existsSync } from "node:fs";
 import { mkdir, open, readdir, rename, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
+import type { DrawingStore, StoredDrawing } from "../../host/storage.js";
 
-export interface StoredDrawing {
-  readonly id: string;
-  readonly bytes: number;
-}
+export type { StoredDrawing } from "../../host/storage.js";
 
-export class DrawingFiles {
+export class DrawingFiles implements DrawingStore {
   readonly #dir: string;
   /** Folder for drawings that belong to no job. */
   readonly unclaimedDir: string;

@@ -4,73 +4,45 @@
  */
 import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { MACHINES, PlotwrightError, type MachineProfile } from "../../src/index.js";
-import {
-  firstFault,
-  machineProfileSchema,
-  type ListedMachine,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+import type { MachineProfile } from "../../src/index.js";
+import { firstFault, machineProfileSchema } from "../../src/schema/index.js";
+import { CustomMachines, isBuiltInMachine, type MachineKeeper } from "../../host/custom-machines.js";
 
-export class MachineFiles {
-  readonly #dir: string;
-  readonly #own = new Map<string, MachineProfile>();
+export class MachineFiles extends CustomMachines {
   /** Why files were skipped. */
   readonly warnings: readonly string[];
 
   /** @param dataDir may be missing; then there are no custom machines yet */
   constructor(dataDir: string) {
-    this.#dir = join(dataDir, "machines");
+    const dir = join(dataDir, "machines");
+    const own: MachineProfile[] = [];
     const warnings: string[] = [];
-    for (const name of fileNames(this.#dir)) {
+    for (const name of fileNames(dir)) {
       try {
-        const machine = readMachineFile(join(this.#dir, name));
+        const machine = readMachineFile(join(dir, name));
         if (name !== `${machine.id}.json`)
           throw new Error(`its id is ${machine.id}, but the file name must be the id`);
-        if (isBuiltIn(machine.id)) throw new Error("its id belongs to a built-in machine");
-        this.#own.set(machine.id, machine);
+        if (isBuiltInMachine(machine.id)) throw new Error("its id belongs to a built-in machine");
+        own.push(machine);
       } catch (error) {
-        warnings.push(`${join(this.#dir, name)} is skipped: ${(error as Error).message}`);
+        warnings.push(`${join(dir, name)} is skipped: ${(error as Error).message}`);
       }
     }
+    super(own, keeperOf(dir));
     this.warnings = warnings;
   }
+}
 
-  /** Built-in machines first. */
-  list(): ListedMachine[] {
-    const own = [...this.#own.values()].sort((a, b) => a.name.localeCompare(b.name));
-    return [
-      ...MACHINES.map((machine) => ({ ...machine, builtIn: true })),
-      ...own.map((machine) => ({ ...machine, builtIn: false })),
-    ];
-  }
-
-  /** Stores the profile before it is used. Throws `conflict` for the id of a built-in machine. */
-  save(machine: MachineProfile): MachineProfile {
-    mustBeOwn(machine.id);
-    mkdirSync(this.#dir, { recursive: true, mode: 0o700 });
-    const path = join(this.#dir, `${machine.id}.json`);
+const keeperOf = (dir: string): MachineKeeper => ({
+  save: (machine) => {
+    mkdirSync(dir, { recursive: true, mode: 0o700 });
+    const path = join(dir, `${machine.id}.json`);
     // Written under another name and renamed, so that the file is never incomplete.
     writeFileSync(`${path}.new`, `${JSON.stringify(machine, null, 2)}\n`, { flush: true });
     renameSync(`${path}.new`, path);
-    this.#own.set(machine.id, machine);
-    return machine;
-  }
-
-  /** Jobs that use the machine keep their copy. Throws `not-found`. */
-  remove(id: string): void {
-    mustBeOwn(id);
-    if (!this.#own.delete(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
-    rmSync(join(this.#dir, `${id}.json`), { force: true });
-  }
-
-  /** Adds the profile to settings that name a custom machine without containing its profile. */
-  withMachine(settings: PlotSettings): PlotSettings {
-    const own = this.#own.get(settings.machine);
-    if (own === undefined || settings.customMachine?.id === settings.machine) return settings;
-    return { ...settings, customMachine: own };
-  }
-}
+  },
+  remove: (id) => rmSync(join(dir, `${id}.json`), { force: true }),
+});
 
 /** Throws an error that says what is wrong with the file. */
 const readMachineFile = (path: string): MachineProfile => machineOfText(readFileSync(path, "utf8"));
@@ -91,14 +63,4 @@ function fileNames(dir: string): string[] {
   } catch {
     return [];
   }
-}
-
-const isBuiltIn = (id: string): boolean => MACHINES.some((machine) => machine.id === id);
-
-function mustBeOwn(id: string): void {
-  if (!isBuiltIn(id)) return;
-  throw new PlotwrightError(
-    "conflict",
-    `${id} is a built-in machine and can't be changed. Save yours under another id.`,
-  );
 }

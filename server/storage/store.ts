@@ -7,21 +7,9 @@ import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { lockDataDir } from "./data-lock.js";
 import { openDatabase, type OpenedDatabase } from "./open-database.js";
-import type { StoredDrawing } from "./drawing-files.js";
+import type { JobStore, PlotterRow, PlotterStore, StoredDrawing, WatchedFile } from "../../host/storage.js";
 
-/** A file of the watched folder. The same name with different content is a different file. */
-export interface WatchedFile {
-  readonly name: string;
-  readonly sha256: string;
-}
-
-/** A plotter as stored; without a name, the name is derived from its device. */
-export interface PlotterRow {
-  readonly id: string;
-  readonly name: string | null;
-  readonly device: string;
-  readonly machine: string | null;
-}
+export type { PlotterRow, WatchedFile } from "../../host/storage.js";
 
 type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
@@ -33,7 +21,7 @@ const PLACES = COLUMNS.split(", ")
   .join(", ");
 const ENDED = ENDED_STATES.map((state) => `'${state}'`).join(", ");
 
-export class Store {
+export class Store implements JobStore, PlotterStore {
   /** What was repaired when the database was opened, and why it could not be backed up. */
   readonly opened: Pick<OpenedDatabase, "repair" | "copyFault">;
   readonly #db: Database;

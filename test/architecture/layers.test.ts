@@ -65,7 +65,7 @@ const read = (file: string): string => readFileSync(path.join(ROOT, file), "utf8
 const sourcesIn = (...folders: string[]): Sources =>
   Object.fromEntries(folders.flatMap(sourceFiles).map((file) => [file, read(file)]));
 
-const SOURCES = sourcesIn("src", "server", "web");
+const SOURCES = sourcesIn("src", "host", "server", "web");
 const importsIn = (folder: string): Import[] =>
   importsOf(SOURCES).filter(({ from }) => from.startsWith(`${folder}/`));
 
@@ -115,7 +115,7 @@ describe("the layers of src", () => {
 });
 
 describe("server and web", () => {
-  it.each(["server", "web"])("%s uses src only through its three entries", (folder) => {
+  it.each(["host", "server", "web"])("%s uses src only through its three entries", (folder) => {
     const wrong = importsIn(folder).filter(
       ({ to }) => to.startsWith("src/") && !["src/index", "src/internal", "src/schema/index"].includes(to),
     );
@@ -129,6 +129,34 @@ describe("server and web", () => {
       const other = from.startsWith("web/") ? "server/" : "web/";
       return to.startsWith(other) || to.startsWith("test/") || to.startsWith("scripts/");
     });
+    expect(wrong.map(write)).toEqual([]);
+  });
+});
+
+describe("host", () => {
+  const inside = importsInside("host", SOURCES);
+
+  it("imports only src, itself and zod, so it runs in Node and in a browser's worker", () => {
+    const wrong = importsIn("host").filter(({ to }) => !/^(src|host)\//.test(to) && to !== "zod");
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("is used by server and web only", () => {
+    const wrong = importsIn("src").filter(({ to }) => to.startsWith("host/"));
+    expect(wrong.map(write)).toEqual([]);
+  });
+
+  it("has folders that are layers: planning, plotter, queue", () => {
+    const level = (file: string): number =>
+      ["host", "host/planning", "host/plotter", "host/queue"].indexOf(path.posix.dirname(file));
+    expect(inside.filter(({ from, to }) => level(from) < level(to)).map(write)).toEqual([]);
+    expect(circleOfFiles("host", SOURCES)).toEqual([]);
+  });
+
+  it("keeps zod out of what the planner's thread loads", () => {
+    const wrong = importsIn("host").filter(
+      ({ from, to }) => from.startsWith("host/planning/") && to === "zod",
+    );
     expect(wrong.map(write)).toEqual([]);
   });
 });
@@ -178,6 +206,13 @@ describe("the folders of web", () => {
     expect(circleOfFiles("web", SOURCES)).toEqual([]);
   });
 
+  it("use host only in the backend without a server", () => {
+    const wrong = importsIn("web").filter(
+      ({ from, to }) => to.startsWith("host/") && !from.startsWith("web/backend/browser/"),
+    );
+    expect(wrong.map(write)).toEqual([]);
+  });
+
   it("have no cycles among themselves", () => {
     const between = inside
       .map(({ from, to }) => ({ from: folderOf(from), to: folderOf(to) }))
@@ -185,11 +220,11 @@ describe("the folders of web", () => {
     expect(findCycle(between)).toEqual([]);
   });
 
-  it("leave requests to the server's implementation of the backend", () => {
+  it("leave requests to the implementations of the backend", () => {
     // The service worker and its helpers fetch the page's own files; the build configuration is not part of
     // the page.
     const others = sourceFiles("web").filter(
-      (file) => !/^web\/(backend\/server|pwa)\//.test(file) && file !== "web/vite.config.ts",
+      (file) => !/^web\/(backend\/(server|browser)|pwa)\//.test(file) && file !== "web/vite.config.ts",
     );
     const wrong = others.filter((file) => {
       const text = read(file);
@@ -201,12 +236,12 @@ describe("the folders of web", () => {
     expect(wrong).toEqual([]);
   });
 
-  it("know the backend by its interface; only main.tsx chooses the implementation", () => {
+  it("know the backend by its interface; only page-backend.ts chooses the implementation", () => {
     const wrong = inside.filter(
       ({ from, to }) =>
-        to.startsWith("web/backend/server/") &&
-        !from.startsWith("web/backend/server/") &&
-        from !== "web/app/main.tsx",
+        /^web\/backend\/(server|browser)\//.test(to) &&
+        path.posix.dirname(from) !== path.posix.dirname(to) &&
+        from !== "web/backend/page-backend.ts",
     );
     expect(wrong.map(write)).toEqual([]);
   });

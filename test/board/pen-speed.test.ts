@@ -3,7 +3,7 @@
  * starts.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../src/index.js";
 import { penCommand, penMoveOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

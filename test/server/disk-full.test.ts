@@ -1,7 +1,7 @@
 /** A disk that fills up while a plot runs: the pen can still be stopped, and all reports are right. */
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Access } from "../../server/security/access.js";
-import { DISK_FULL, isDiskFault } from "../../server/storage/disk-fault.js";
+import { DISK_FULL, isDiskFault } from "../../host/disk-fault.js";
 import { apiErrorSchema, jobSchema, type Job } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";

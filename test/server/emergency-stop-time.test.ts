@@ -3,7 +3,7 @@
  * instant.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";

@@ -1,6 +1,6 @@
 /** A plotter whose machine has a Grbl, virtual, on a manual clock. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import { grblDriver } from "../../src/drivers/grbl/grbl-driver.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";

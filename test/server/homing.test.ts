@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { machineById, type MachineProfile, type PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { ManualClock } from "../support/manual-clock.js";

@@ -4,12 +4,12 @@ import { join } from "node:path";
 import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
-import { DISK_FULL } from "../../server/storage/disk-fault.js";
+import { DISK_FULL } from "../../host/disk-fault.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
-import { JobQueue } from "../../server/queue/job-queue.js";
-import { SERVER_STOPPED } from "../../server/queue/running-plots.js";
+import { JobQueue } from "../../host/queue/job-queue.js";
+import { SERVER_STOPPED } from "../../host/queue/running-plots.js";
 import type { Planning } from "../../server/planning/planning.js";
-import type { Claims } from "../../server/queue/queue-parts.js";
+import type { Claims } from "../../host/queue/queue-parts.js";
 import { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
@@ -390,12 +390,12 @@ describe("the queue", () => {
     const copy = queue.duplicate(fern.id);
     expect(names()).toEqual(["fern queued", "fern queued", "moss queued"]);
     expect(queue.list()[1]?.id).toBe(copy.id);
-    expect(queue.drawingPath(copy.id)).toBe(queue.drawingPath(fern.id));
+    expect(queue.drawingOf(copy.id)).toBe(queue.drawingOf(fern.id));
     queue.cancel(fern.id);
     queue.duplicate(fern.id);
     expect(names()).toEqual(["fern queued", "moss queued", "fern queued", "fern cancelled"]);
     await queue.remove(fern.id);
-    expect(queue.drawingPath(copy.id)).toMatch(/\.svg$/);
+    expect(store.isUsed(queue.drawingOf(copy.id))).toBe(true);
   });
 
   it("waits between jobs for the paper, or continues automatically if configured", async () => {

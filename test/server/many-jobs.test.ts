@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
-import { JobQueue } from "../../server/queue/job-queue.js";
+import { JobQueue } from "../../host/queue/job-queue.js";
 import { Store } from "../../server/storage/store.js";
 import type { ServerEvent } from "../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";

@@ -5,7 +5,7 @@ import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { createPlanning } from "../../server/planning/planning.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
-import { JobQueue } from "../../server/queue/job-queue.js";
+import { JobQueue } from "../../host/queue/job-queue.js";
 import { Store } from "../../server/storage/store.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { LedPlotter } from "./support/fakes.js";

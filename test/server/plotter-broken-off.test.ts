@@ -3,9 +3,9 @@
  * and no more is drawn twice than the board can have drawn since its last certain position.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../server/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/types.js";
 import type { PlotwrightError, StrokeSet, VirtualBoard } from "../../src/index.js";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";

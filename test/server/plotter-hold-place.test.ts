@@ -3,7 +3,7 @@
  * tell the sides apart. The reference is the board's own count of ticks.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { stateAt, type Trajectory } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";

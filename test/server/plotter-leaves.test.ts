@@ -1,6 +1,6 @@
 /** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
 import { ManualClock } from "../support/manual-clock.js";

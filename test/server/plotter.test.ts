@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
-import type { JournalEntry, PlotProgress } from "../../server/plotter/types.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { JournalEntry, PlotProgress } from "../../host/plotter/types.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";

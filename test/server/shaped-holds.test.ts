@@ -1,6 +1,6 @@
 /** Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { Place } from "../../src/index.js";
 import { SpringAxis } from "../../src/plan/spring-pen.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";

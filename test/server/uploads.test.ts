@@ -9,7 +9,7 @@ import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../src/index.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
-import { lane } from "../../server/planning/lane.js";
+import { lane } from "../../host/planning/lane.js";
 import { apiErrorSchema, DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 

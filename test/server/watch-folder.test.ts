@@ -12,8 +12,8 @@ import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
-import { JobQueue } from "../../server/queue/job-queue.js";
-import { Notices } from "../../server/queue/notices.js";
+import { JobQueue } from "../../host/queue/job-queue.js";
+import { Notices } from "../../host/queue/notices.js";
 import type { Planning } from "../../server/planning/planning.js";
 import { Store } from "../../server/storage/store.js";
 import { WatchFolder } from "../../server/plugins/watch-folder/watch-folder.js";
@@ -112,7 +112,7 @@ describe("the watched folder", () => {
     put("next.svg");
     await queued("slow.svg", "next.svg");
     const slow = queue.list().find(({ name }) => name === "slow.svg");
-    expect(readFileSync(queue.drawingPath(slow?.id ?? ""), "utf8")).toBe(whole);
+    expect(readFileSync(new DrawingFiles(dir, 1).path(queue.drawingOf(slow?.id ?? "")), "utf8")).toBe(whole);
   });
 
   it("names what can't be plotted in the log and in a notice, once, and continues", async () => {

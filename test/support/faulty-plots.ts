@@ -3,8 +3,8 @@
  * resumed after each interruption, as a user would do by Recover and Resume. Then what the board drew is
  * compared with the drawing.
  */
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
-import type { JournalEntry, LivePlotRun } from "../../server/plotter/types.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
 import type { PlotwrightError, StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn, type DrawnTruth } from "./drawn-truth.js";

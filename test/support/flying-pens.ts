@@ -2,8 +2,8 @@
  * Plots whose pen moves while the carriage does, on a virtual board with a servo of its own. Marks are where its tip
  * touches the paper.
  */
-import { MachinePlot } from "../../server/plotter/plot-run.js";
-import type { LivePlotRun, PlotProgress } from "../../server/plotter/types.js";
+import { MachinePlot } from "../../host/plotter/plot-run.js";
+import type { LivePlotRun, PlotProgress } from "../../host/plotter/types.js";
 import { DEFAULT_PEN, VirtualBoard, type PenSettings, type StrokeSet } from "../../src/index.js";
 import type { Machine } from "../../src/internal.js";
 import { ebbDriver } from "../../src/drivers/ebb/ebb-driver.js";

@@ -1,8 +1,8 @@
 /** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
 import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
-import { PlotterDriver } from "../../server/plotter/plotter-driver.js";
-import type { LivePlotRun } from "../../server/plotter/types.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { LivePlotRun } from "../../host/plotter/types.js";
 import type { StrokeSet, VirtualBoard } from "../../src/index.js";
 import type { MotionMode } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
@@ -39,11 +39,12 @@ export async function plotting(
   strokes = DRAWING,
   firmware = "2.8.1",
   pen = DEFAULT_PLOT_SETTINGS.pen,
+  settings: PlotSettings = { ...settingsOf(mode), pen },
 ): Promise<LivePlot> {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
-  const run = await world.run(driver.plot(new LocalPlanner(strokes), { ...settingsOf(mode), pen }));
+  const run = await world.run(driver.plot(new LocalPlanner(strokes), settings));
   return { world, driver, board: virtualBoardOf(driver), run };
 }
 

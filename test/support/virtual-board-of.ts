@@ -1,4 +1,4 @@
-import type { PlotterDriver } from "../../server/plotter/plotter-driver.js";
+import type { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { VirtualBoard } from "../../src/index.js";
 
 /** The virtual EiBotBoard that a plotter is connected to. */

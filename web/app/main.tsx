@@ -1,7 +1,7 @@
 /** Mounts the page: the only file that does something when it is imported. */
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
-import { createServerBackend } from "../backend/server/server-backend.js";
+import { createPageBackend } from "../backend/page-backend.js";
 import { App } from "./app.js";
 import { keepPage, lookForUpdate } from "../pwa/register.js";
 import { createActions } from "../state/actions.js";
@@ -63,7 +63,7 @@ const planner = new Planner(
     },
   },
 );
-const backend = createServerBackend();
+const backend = createPageBackend();
 const actions = createActions({
   store,
   backend,

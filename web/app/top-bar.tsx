@@ -1,6 +1,6 @@
 import { currentPlotter, mayOperate, shownView } from "../state/store.js";
 import { THEMES, type Theme } from "../state/persist.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { appName } from "../ui/text.js";
 import { historyText, shortcutsText, studioLink, themeText, viewText } from "./text.js";
 import { plotterText } from "../plotter/text.js";
@@ -86,8 +86,9 @@ const UndoButtons = () => {
 
 const StudioButton = () => {
   const store = usePageStore();
+  const { features } = useBackend();
   const isMine = usePageState(mayOperate);
-  if (!isMine) return null;
+  if (!isMine || !features.sharing) return null;
   return (
     <button
       type="button"

@@ -1,6 +1,6 @@
 /**
  * Everything that the page asks of what keeps the jobs and drives the plotters. The page knows only this interface;
- * `server/` implements it by plotwright's server. A failed request rejects with a BackendFault.
+ * `server/` implements it by plotwright's server, `browser/` by a worker of the page. A failed request rejects with a BackendFault.
  */
 import type { MachineProfile } from "../../src/index.js";
 import type {
@@ -64,7 +64,17 @@ export interface BackendListener {
   onLink(isConnected: boolean): void;
 }
 
+/** What not every backend offers; the page shows it only where it is there. */
+export interface BackendFeatures {
+  /** Other devices, keys, webhooks, several plotters, a queue that servers share. */
+  readonly sharing: boolean;
+  /** The user has to let the page use the plotter's port, by `connect`. */
+  readonly asksForPort: boolean;
+}
+
 export interface Backend {
+  readonly features: BackendFeatures;
+
   /** Reports everything once, then each change. Returns a function that stops. */
   listen(listener: BackendListener): () => void;
 
@@ -91,8 +101,10 @@ export interface Backend {
   movePen(id: string, request: PenRequest): Promise<Plotter>;
   motorsOff(id: string): Promise<Plotter>;
   home(id: string, settings: PlotSettings): Promise<Plotter>;
-  /** Address that the browser saves the log of the plotter's connection from. */
-  logHref(plotterId: string): string;
+  /** Lets the user choose a port, and connects to it. Only where `features.asksForPort`; call it from a click. */
+  connect(id: string): Promise<Plotter>;
+  /** Commands and replies of the plotter's connection. */
+  log(plotterId: string): Promise<string>;
 
   machines(): Promise<readonly ListedMachine[]>;
   saveMachine(profile: MachineProfile): Promise<MachineProfile>;

@@ -9,6 +9,7 @@ import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
 import { lampOf, penWords, plotterWords } from "./machine-words.js";
+import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
 const words = plotterText;
@@ -19,10 +20,20 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
+  const { attempt, connectPlotter } = useActions();
+  const saveLog = async (id: string): Promise<void> => {
+    const log = await attempt("log", () => backend.log(id));
+    if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
+  };
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
+      {isMine && plotter?.kind === "virtual" && backend.features.asksForPort && (
+        <button type="button" className="button" onClick={() => void connectPlotter(plotter.id)}>
+          {words.connect}
+        </button>
+      )}
       {isMine && <PenAtHand />}
       <div className="group-in-card">
         {isMine && <MoreMoves />}
@@ -39,9 +50,9 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
         {isMine && <DialogLink name="ringing">{words.ringing}</DialogLink>}
         {isMine && <DialogLink name="console">{words.console}</DialogLink>}
         {plotter && (
-          <a className="link" href={backend.logHref(plotter.id)} download>
+          <button type="button" className="link" onClick={() => void saveLog(plotter.id)}>
             {words.log}
-          </a>
+          </button>
         )}
       </p>
     </section>
@@ -97,6 +108,7 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
 };
 
 const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: Plotter }) => {
+  const { features } = useBackend();
   if (message && (connection === "fault" || connection === "absent")) {
     return (
       <p className="note health" role="alert">
@@ -104,7 +116,9 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
       </p>
     );
   }
-  if (kind === "virtual") return <p className="note">{words.virtualHint}</p>;
+  if (kind === "virtual") {
+    return <p className="note">{features.asksForPort ? words.connectHint : words.virtualHint}</p>;
+  }
   return message ? <p className="note">{message}</p> : null;
 };
 

@@ -24,6 +24,8 @@ export const plotterText = {
   profiles: "Machines…",
   ringing: "Measure ringing…",
   console: "Console",
+  connect: "Connect a plotter…",
+  connectHint: "Plots run on a model of the board until you connect a plotter by USB.",
   log: "Save the log of the connection",
   held: "Paused",
   interrupted: "Interrupted",

@@ -10,7 +10,7 @@ export const keepPage = (onUpdated: () => void): void => {
   });
   const register = (): void => {
     // Without it everything works but opening the page offline, so there is no message.
-    serviceWorker.register("/service-worker.js").catch(() => undefined);
+    serviceWorker.register(`${import.meta.env.BASE_URL}service-worker.js`).catch(() => undefined);
   };
   if (document.readyState === "complete") register();
   else window.addEventListener("load", register);

@@ -351,6 +351,8 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("motors-off", () => backend.motorsOff(id));
     },
+    /** Where the page itself opens the plotter's port: lets the user choose it. */
+    connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
     home: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => backend.home(id, store.getState().settings));

@@ -14,9 +14,9 @@ import {
   type SharedJob,
   type SharedTarget,
 } from "../../../src/schema/index.js";
-import type { PlotterPort } from "../../plotter/plotter-port.js";
+import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
-import type { JobQueue } from "../../queue/job-queue.js";
+import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Store } from "../../storage/store.js";
 import type { SharedStore, TakenJob } from "./shared-store.js";
 

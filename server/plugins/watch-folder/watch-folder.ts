@@ -25,8 +25,8 @@ import {
   type PlotSettings,
 } from "../../../src/schema/index.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
-import type { JobQueue } from "../../queue/job-queue.js";
-import type { Notices } from "../../queue/notices.js";
+import type { JobQueue } from "../../../host/queue/job-queue.js";
+import type { Notices } from "../../../host/queue/notices.js";
 import type { Store } from "../../storage/store.js";
 
 export interface WatchParts {

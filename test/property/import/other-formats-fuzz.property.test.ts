@@ -4,7 +4,7 @@
  * first seed.
  */
 import { expect, it } from "vitest";
-import { planAndCompile } from "../../../server/planning/stages.js";
+import { planAndCompile } from "../../../host/planning/stages.js";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importDrawing } from "../../../src/import/registry.js";
 import type { Drawing } from "../../../src/index.js";

@@ -9,8 +9,8 @@ import { apiParts, createApp, type AppParts } from "../../../server/http/app.js"
 import { EventHub } from "../../../server/http/events.js";
 import { MachineFiles } from "../../../server/storage/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
-import { PlotterRegistry } from "../../../server/plotter/plotter-registry.js";
-import { Notices } from "../../../server/queue/notices.js";
+import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
+import { Notices } from "../../../host/queue/notices.js";
 import { OperatorLock } from "../../../server/security/operator-lock.js";
 import { pairingLinks } from "../../../server/security/network.js";
 import type { FoundBoard } from "../../../server/serial/find-boards.js";
@@ -19,7 +19,7 @@ import { WEBHOOK_ROUTES, webhookRoutes } from "../../../server/plugins/webhooks/
 import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
-import { JobQueue } from "../../../server/queue/job-queue.js";
+import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Planning } from "../../../server/planning/planning.js";
 import { UploadedDrawings } from "../../../server/storage/uploaded-drawings.js";
 import type { ApiRoute } from "../../../server/http/api-route.js";

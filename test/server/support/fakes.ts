@@ -1,8 +1,8 @@
 /** A plotter and a planner without hardware or threads, controlled by the test. */
-import type { HandMove } from "../../../server/plotter/hand-moves.js";
-import type { ManagedPlotter } from "../../../server/plotter/plotter-port.js";
+import type { HandMove } from "../../../host/plotter/hand-moves.js";
+import type { ManagedPlotter } from "../../../host/plotter/plotter-port.js";
 import type { Planning } from "../../../server/planning/planning.js";
-import type { PlotPlanner } from "../../../server/planning/plot-planner.js";
+import type { PlotPlanner } from "../../../host/planning/plot-planner.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -10,7 +10,7 @@ import type {
   PlotOutcome,
   PlotProgress,
   PlotStart,
-} from "../../../server/plotter/types.js";
+} from "../../../host/plotter/types.js";
 import type { Place } from "../../../src/index.js";
 import type { CommandAnswer, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { STATS } from "./jobs.js";

@@ -11,7 +11,7 @@ import {
   queueSettingsSchema,
 } from "../../../src/schema/index.js";
 import { contentOf } from "../../worker/drawing-text.js";
-import type { Backend, DrawingSource } from "../backend.js";
+import { BackendFault, type Backend, type DrawingSource } from "../backend.js";
 import { openEvents } from "./events.js";
 import { API, createRequests, one, type Fetch } from "./requests.js";
 
@@ -25,6 +25,7 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
   const requests = createRequests(fetchPath);
   const { ask, send, tell, askWithDrawing } = requests;
   return {
+    features: { sharing: true, asksForPort: false },
     listen: (listener) => openEvents(`${API}/events`, listener),
 
     addJob: (job, drawing) => askWithDrawing(jobSchema, "/jobs", job, drawing),
@@ -50,7 +51,8 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     movePen: (id, request) => ask(plotterSchema, "POST", `${one("plotters", id)}/pen`, request),
     motorsOff: (id) => ask(plotterSchema, "POST", `${one("plotters", id)}/motors-off`),
     home: (id, settings) => ask(plotterSchema, "POST", `${one("plotters", id)}/home`, { settings }),
-    logHref: (id) => `${API}${one("plotters", id)}/log`,
+    connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters by itself.")),
+    log: async (id) => (await send("GET", `${one("plotters", id)}/log`)).text(),
 
     machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
     saveMachine: (profile) => ask(machineProfileSchema, "PUT", one("machines", profile.id), profile),

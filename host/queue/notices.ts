@@ -1,12 +1,11 @@
 /** Problems that no request could report, stored until a user dismisses them. */
-import { randomUUID } from "node:crypto";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { noticeSchema, type Notice, type ServerEvent } from "../../src/schema/index.js";
-import type { Store } from "../storage/store.js";
+import type { SettingStore } from "../storage.js";
 
 export interface NoticeParts {
-  readonly store: Pick<Store, "setting" | "saveSetting">;
+  readonly store: SettingStore;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
 }
@@ -30,7 +29,7 @@ export class Notices {
   }
 
   add(message: string): void {
-    const notice = { id: randomUUID(), at: this.#parts.nowIso(), message };
+    const notice = { id: crypto.randomUUID(), at: this.#parts.nowIso(), message };
     const list = [...this.#list, notice].slice(-MAX_NOTICES);
     try {
       this.#save(list);

@@ -1,5 +1,4 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
-import { isDeepStrictEqual } from "node:util";
 import { PlotwrightError } from "../../src/index.js";
 import { machineOf, firmwareFor, isPlannedAlike } from "../../src/internal.js";
 import {
@@ -181,10 +180,9 @@ export class JobQueue {
     if (unused !== null) await this.#parts.files.remove(unused);
   }
 
-  /** Path of the uploaded file. */
-  drawingPath(id: string): string {
-    this.get(id);
-    return this.#parts.files.path(this.#parts.store.drawingOf(id));
+  /** Id of the job's stored drawing. */
+  drawingOf(id: string): string {
+    return this.#parts.store.drawingOf(id);
   }
 
   /** Whether the job is on a plotter now; false for an unknown id. */
@@ -337,9 +335,20 @@ const settingOf = (plotterId: string): string => `queue:${plotterId}`;
 
 /** The place where a queued job starts is a stroke's number, which other preparing would give to another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {
-  if (job.place === null || isDeepStrictEqual(job.settings.prepare, settings.prepare)) return;
+  if (job.place === null || isSameValue(job.settings.prepare, settings.prepare)) return;
   throw new PlotwrightError(
     "conflict",
     `"${job.name}" starts at stroke ${job.place.strokeIndex + 1}, so its layout can't be changed. Add a new job instead.`,
+  );
+}
+
+/** Compares values of JSON, whatever the order of their keys. */
+function isSameValue(a: unknown, b: unknown): boolean {
+  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return a === b;
+  const [left, right] = [Object.entries(a), new Map(Object.entries(b))];
+  return (
+    Array.isArray(a) === Array.isArray(b) &&
+    left.length === right.size &&
+    left.every(([key, value]) => right.has(key) && isSameValue(value, right.get(key)))
   );
 }

@@ -1,17 +1,7 @@
-/** Messages between the planner (main thread) and its worker. Large arrays are transferred, not copied. */
-import { PlotwrightError, type ErrorCode, type MachineProfile, type StrokeSet } from "../../src/index.js";
-import type { JobStats, PlotSettings } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
-
-/** Passed to the worker when it starts. It prepares the drawing at once and answers "ready". */
-export interface WorkerInput {
-  /** The drawing's file. The worker reads it, so that its text never passes through the main thread. */
-  readonly path: string;
-  readonly settings: PlotSettings;
-  readonly machine: MachineProfile;
-  /** Names of the layers to draw; default: all. */
-  readonly only?: readonly string[] | undefined;
-}
+/** Messages between the planner and its thread. Large arrays are transferred, not copied. */
+import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
+import type { JobStats } from "../../src/schema/index.js";
+import type { PlanRequest, PlannedPlot } from "../../host/planning/plot-planner.js";
 
 export type ToWorker =
   | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }

@@ -1,9 +1,8 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
 import type { Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import type { Planning } from "../planning/planning.js";
-import type { DrawingFiles, StoredDrawing } from "../storage/drawing-files.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-import type { Store, WatchedFile } from "../storage/store.js";
+import type { DrawingStore, JobStore, StoredDrawing, WatchedFile } from "../storage.js";
 
 export interface Claims {
   /**
@@ -26,13 +25,15 @@ export interface JobHooks {
 }
 
 export interface QueueParts extends JobHooks {
-  readonly store: Store;
-  readonly files: DrawingFiles;
+  readonly store: JobStore;
+  readonly files: DrawingStore;
   readonly planning: Planning;
   /** By id, in order; plotters may be added and removed while the queue runs. */
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
+  /** Why a job that was being plotted when the program ended is interrupted. Default: SERVER_STOPPED. */
+  readonly stoppedMessage?: string | undefined;
   /** Logs problems that can't be reported otherwise, such as a full disk during a plot. */
   readonly log?: ((line: string) => void) | undefined;
 }

@@ -1,9 +1,7 @@
 /** Finds and opens a plotter, real or virtual, and lets its driver identify it. */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
 import type { Driver, Machine, MachineEvents, UsbId, VirtualMachine } from "../../src/internal.js";
-import { findBoards } from "../serial/find-boards.js";
-import { scaledClock } from "../serial/node-clock.js";
-import { openSerial } from "../serial/serial-transport.js";
+import type { Devices } from "./devices.js";
 
 export interface ConnectOptions {
   readonly driver: Driver;
@@ -11,6 +9,7 @@ export interface ConnectOptions {
   readonly usbIds: readonly UsbId[];
   /** "auto": the first board on USB with one of `usbIds`, else the virtual one. "virtual", or a serial port's path. */
   readonly device: string;
+  readonly devices: Devices;
   /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
   /** "auto" with no board on USB: true for the virtual one, false to reject with `no-board`. */
@@ -41,21 +40,37 @@ export async function connect(options: ConnectOptions): Promise<Connection> {
     const machine = await identified(options.virtualMachine().transport(), options);
     return { machine, kind: "virtual", device: null };
   }
-  const transport = await openSerial(path);
+  const transport = await options.devices.open(path);
   const machine = await identified(transport, options).catch((error: unknown) => {
     throw atDevice(error, path);
   });
   return { machine, kind: "serial", device: path };
 }
 
-async function firstBoard({ usbIds, isTaken = () => false }: ConnectOptions): Promise<string | null> {
-  const boards = await findBoards(usbIds);
+async function firstBoard({
+  usbIds,
+  devices,
+  isTaken = () => false,
+}: ConnectOptions): Promise<string | null> {
+  const boards = await devices.find(usbIds);
   return boards.find(({ path }) => !isTaken(path))?.path ?? null;
 }
 
 function identified(transport: Transport, options: ConnectOptions): Promise<Machine> {
   const { driver, clock, speed, events } = options;
   return driver.identify(transport, { clock, machineClock: scaledClock(clock, speed), speed, events });
+}
+
+/**
+ * The clock of a virtual board that runs `speed` times faster than real time.
+ * A stream that uses it keeps the same window of board time ahead at any speed.
+ */
+function scaledClock(clock: Clock, speed: number): Clock {
+  if (speed === 1) return clock;
+  return {
+    nowS: () => clock.nowS() * speed,
+    after: (delayS, callback) => clock.after(delayS / speed, callback),
+  };
 }
 
 /** Adds the device to the message of an error. */

@@ -13,7 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
-import { isDiskFault } from "../storage/disk-fault.js";
+import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
 import { applyJobEvent } from "./job-machine.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
@@ -61,8 +61,12 @@ export class RunningPlots {
     this.#jobs = jobs;
     this.#done = done;
     for (const { id, state } of jobs.list()) {
-      if (state === "plotting" || state === "paused") this.#interrupt(id, SERVER_STOPPED);
+      if (state === "plotting" || state === "paused") this.#interrupt(id, this.#stopped);
     }
+  }
+
+  get #stopped(): string {
+    return this.#parts.stoppedMessage ?? SERVER_STOPPED;
   }
 
   isBusy(plotterId: string): boolean {
@@ -252,7 +256,7 @@ export class RunningPlots {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
       this.#jobs.apply(id, { type: "fail", message: end.error.message });
-    } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, SERVER_STOPPED);
+    } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, this.#stopped);
     else if (end.kind === "cancelled") this.#cancelled(id);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.

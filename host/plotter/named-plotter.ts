@@ -1,6 +1,5 @@
-/** The plotter that the server stores: a plotter driver with an id, a name and a machine. */
-import { PlotwrightError } from "../../src/index.js";
-import { findMachine, machineOf, controllerOf, type Springs } from "../../src/internal.js";
+/** A plotter that is stored: a plotter driver with an id, a name and a machine. */
+import { findMachine, type Springs } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
@@ -11,19 +10,13 @@ import type { HandMove } from "./hand-moves.js";
 import { PlotterDriver, type PlotterOptions } from "./plotter-driver.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import type { LivePlotRun, PlotStart } from "./types.js";
-import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
-import type { PlotterRow } from "../storage/store.js";
+import type { ManagedPlotter } from "./plotter-port.js";
+import type { PlotterRow } from "../storage.js";
 
-export interface DeviceChoice {
-  /** Serial path or "virtual"; default: the first EiBotBoard. */
-  readonly device?: string | undefined;
-  readonly virtualSpeed?: number | undefined;
-}
-
-/** Id of a server's first plotter. It is stored with every job, so it must never change. */
+/** Id of the first plotter. It is stored with every job, so it must never change. */
 export const FIRST_PLOTTER = "main";
 
-export interface NamedPlotterOptions {
+export interface NamedPlotterOptions extends Pick<PlotterOptions, "clock" | "devices"> {
   readonly virtualSpeed?: number | undefined;
   readonly virtualSprings?: Springs | undefined;
   /** Whether another plotter uses this port. */
@@ -38,19 +31,19 @@ const knownMachine = (settings: PlotSettings): PlotSettings =>
   findMachine(settings) === null ? DEFAULT_PLOT_SETTINGS : settings;
 
 /**
- * Opens a plotter that connects in the background: a server without a board still shows the queue and the
+ * Opens a plotter that connects in the background: a host without a board still shows the queue and the
  * error.
  */
 export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions): ManagedPlotter {
-  const { virtualSpeed, virtualSprings, isTaken, withMachine, log } = options;
+  const { virtualSpeed, virtualSprings, isTaken, withMachine, log, clock, devices } = options;
   const { machine } = row;
   const settingsOf = (id: string | null): PlotSettings =>
     knownMachine(
       id === null ? DEFAULT_PLOT_SETTINGS : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: id }),
     );
   const settings = settingsOf(machine);
-  const driverOptions = { device: row.device, virtualSpeed, virtualSprings, isTaken, settings };
-  const plotter = new NamedPlotter(row, driverOptions, settingsOf);
+  const parts = { clock, devices, isTaken, virtualSpeed, virtualSprings };
+  const plotter = new NamedPlotter(row, { ...parts, device: row.device, settings }, settingsOf);
   let last: string | null = null;
   plotter.onChange(({ name, connection, message, device }) => {
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
@@ -62,30 +55,7 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
   return plotter;
 }
 
-/**
- * Connects one plotter for a command; throws `no-board` if that fails. It never falls back to the virtual
- * board: a command that silently draws nothing would look as if it had worked.
- */
-export async function openPlotter(choice: DeviceChoice, settings: PlotSettings): Promise<PlotterPort> {
-  const { device = "auto", virtualSpeed } = choice;
-  const plotter = new NamedPlotter(
-    { id: FIRST_PLOTTER, name: null, machine: null },
-    { device, virtualSpeed, virtualIfNone: false, settings },
-  );
-  await plotter.start();
-  const { connection, message } = plotter.snapshot();
-  if (connection === "idle") return plotter;
-  await plotter.close();
-  if (connection === "absent" && device === "auto" && controllerOf(machineOf(settings)).usbIds.length > 0) {
-    throw new PlotwrightError(
-      "no-board",
-      "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",
-    );
-  }
-  throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
-}
-
-class NamedPlotter implements ManagedPlotter {
+export class NamedPlotter implements ManagedPlotter {
   readonly id: string;
   readonly #driver: PlotterDriver;
   readonly #listeners: ((plotter: Plotter) => void)[] = [];

@@ -1,5 +1,4 @@
 /** A new job, and the timer that measures how long it moves. */
-import { randomUUID } from "node:crypto";
 import type { Job } from "../../src/schema/index.js";
 
 /** A new queued job with a new id; plotter, name, settings and figures come from `from`. */
@@ -8,7 +7,7 @@ export function queuedJob(
   nowIso: string,
 ): Job {
   return {
-    id: randomUUID(),
+    id: crypto.randomUUID(),
     plotterId: from.plotterId,
     name: from.name,
     state: "queued",

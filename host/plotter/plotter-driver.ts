@@ -24,8 +24,8 @@ import {
   type PlotSettings,
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
-import { nodeClock } from "../serial/node-clock.js";
 import { connect, type Connection } from "./connection.js";
+import type { Devices } from "./devices.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
@@ -49,7 +49,8 @@ export interface PlotterOptions {
   readonly firmware?: string | undefined;
   /** Settings for manual moves before the first job. */
   readonly settings?: PlotSettings | undefined;
-  readonly clock?: Clock | undefined;
+  readonly clock: Clock;
+  readonly devices: Devices;
 }
 
 export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
@@ -82,7 +83,7 @@ export class PlotterDriver {
 
   constructor(options: PlotterOptions) {
     this.#options = options;
-    this.#clock = options.clock ?? nodeClock;
+    this.#clock = options.clock;
     this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
     const isVirtual = options.device === "virtual";
     this.#current = {
@@ -287,6 +288,7 @@ export class PlotterDriver {
     try {
       const connection = await connect({
         device: this.#options.device,
+        devices: this.#options.devices,
         isTaken: this.#options.isTaken,
         virtualIfNone: this.#options.virtualIfNone !== false && !this.#hadSerial,
         clock: this.#clock,

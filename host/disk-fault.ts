@@ -6,7 +6,7 @@ export const DISK_FULL =
 /** SQLite also reports "disk I/O error" when a write finds no space. */
 export function isDiskFault(error: unknown): boolean {
   if (!(error instanceof Error)) return false;
-  const { code } = error as NodeJS.ErrnoException;
+  const { code } = error as Error & { readonly code?: string };
   return (
     ["ENOSPC", "EDQUOT", "EROFS", "EIO"].includes(code ?? "") ||
     /database or disk is full|disk I\/O error/.test(error.message)

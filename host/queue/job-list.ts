@@ -8,11 +8,10 @@
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
-import { DISK_FULL, isDiskFault } from "../storage/disk-fault.js";
-import type { StoredDrawing } from "../storage/drawing-files.js";
+import { DISK_FULL, isDiskFault } from "../disk-fault.js";
 import { applyJobEvent, type JobEvent } from "./job-machine.js";
 import type { QueueParts } from "./queue-parts.js";
-import type { WatchedFile } from "../storage/store.js";
+import type { StoredDrawing, WatchedFile } from "../storage.js";
 
 type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
@@ -31,7 +30,7 @@ export class JobList {
   readonly #jobs = new Map<string, Job>();
   /** Jobs whose last change could not be stored, by id, each in its stored state. */
   readonly #unsaved = new Map<string, Job | null>();
-  #retry: NodeJS.Timeout | null = null;
+  #retry: ReturnType<typeof setTimeout> | null = null;
 
   constructor(parts: ListParts) {
     this.#parts = parts;
@@ -129,7 +128,7 @@ export class JobList {
     const announced = { ...job, message: withDiskFull(job.message) };
     this.#jobs.set(job.id, announced);
     this.#parts.announce({ type: "job", job: announced });
-    this.#retry ??= setTimeout(() => this.#saveUnsaved(), RETRY_MS).unref();
+    this.#retry ??= setTimeout(() => this.#saveUnsaved(), RETRY_MS);
     return announced;
   }
 
@@ -143,7 +142,7 @@ export class JobList {
       }
       this.announceOrder();
     } catch {
-      this.#retry = setTimeout(() => this.#saveUnsaved(), RETRY_MS).unref();
+      this.#retry = setTimeout(() => this.#saveUnsaved(), RETRY_MS);
     }
   }
 

@@ -1,5 +1,5 @@
 /**
- * The plotters of a server, stored in its database. They can be added, changed and removed while it runs.
+ * The plotters, as stored. They can be added, changed and removed while it runs.
  * Every change is stored before it is announced.
  */
 import { PlotwrightError } from "../../src/index.js";
@@ -13,14 +13,11 @@ import {
   type ServerEvent,
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
-import type { PlotterRow, Store } from "../storage/store.js";
-import type { FoundBoard } from "../serial/find-boards.js";
+import type { PlotterRow, PlotterStore } from "../storage.js";
+import type { FoundBoard } from "./devices.js";
 
 export interface RegistryParts {
-  readonly store: Pick<
-    Store,
-    "plotters" | "savePlotter" | "removePlotter" | "plotterSettings" | "savePlotterSettings"
-  >;
+  readonly store: PlotterStore;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
   /** Throws `bad-setting` for an unknown machine id. */
@@ -144,6 +141,25 @@ export class PlotterRegistry {
     }
     this.#announce();
     return this.#find(id).port.snapshot();
+  }
+
+  /** The plotter as it is stored. */
+  stored(id: string): PlotterRow | undefined {
+    return this.#rows.get(id);
+  }
+
+  /** Closes the plotter and connects it again. Throws `busy` while a job is being plotted. */
+  reconnect(id: string, use: PlotterUse): Promise<Plotter> {
+    return this.#inTurn(async () => {
+      const { row, port } = this.#find(id);
+      if (use.isBusy(id)) {
+        throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
+      }
+      await port.close();
+      if (!this.#isClosed) this.#open(row);
+      this.#announce();
+      return this.#find(id).port.snapshot();
+    });
   }
 
   /** Throws `conflict` while it has jobs that have not ended, and for the last plotter. */

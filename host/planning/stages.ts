@@ -1,0 +1,82 @@
+/**
+ * Plans a job in the planner's thread. The machine is passed as a profile, so custom machines need no lookup
+ * here. Must not import zod, so that the thread starts fast.
+ */
+import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "../../src/index.js";
+import { pointCount, strokeCount } from "../../src/internal.js";
+import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import { faultOf, type FromWorker, type ToWorker } from "./messages.js";
+import type { Measured } from "./planning.js";
+import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+
+/** What the planner's thread was started with. */
+export interface ThreadInput {
+  readonly settings: PlotSettings;
+  readonly machine: MachineProfile;
+}
+
+/** The answer of the planner's thread to a message. Never throws. */
+export function answerOf(
+  prepared: Prepared,
+  warnings: readonly string[],
+  input: ThreadInput,
+  message: ToWorker,
+): FromWorker {
+  const { id } = message;
+  try {
+    if (message.type === "plan") {
+      return { type: "planned", id, plot: planAndCompile(prepared, message.request, input.machine) };
+    }
+    return { type: "measured", id, ...measurePrepared(prepared, warnings, input, message.firmware) };
+  } catch (error) {
+    return { type: "failed", id, ...faultOf(error) };
+  }
+}
+
+/** The trajectory and commands for a request, in a form that can be sent between threads. */
+export function planAndCompile(
+  prepared: Pick<Prepared, "strokes">,
+  { settings, ...options }: PlanRequest,
+  machine: MachineProfile,
+): PlannedPlot {
+  const job = planJob(prepared, settings, machine, options);
+  return { trajectory: job.trajectory, commands: job.commands() };
+}
+
+/**
+ * Compiles too, although only the figures are needed: so anything the board can't do shows now, not during
+ * the plot.
+ */
+function measurePrepared(
+  prepared: Prepared,
+  warnings: readonly string[],
+  { settings, machine }: ThreadInput,
+  firmware: string | null,
+): Measured {
+  const job = planJob(prepared, settings, machine, { firmware });
+  const { trajectory } = job;
+  const figures = trajectoryStats(trajectory);
+  const stats: JobStats = {
+    strokeCount: strokeCount(prepared.strokes),
+    pointCount: pointCount(prepared.strokes),
+    drawMm: figures.drawMm,
+    travelMm: figures.travelMm,
+    penLiftCount: figures.penLiftCount,
+    durationS: figures.durationS,
+  };
+  return { stats, warnings: [...warnings, ...job.commands().warnings] };
+}
+
+/** The buffer of every array, once each, to transfer them: columns may share a buffer. */
+export function buffersOf(value: object): ArrayBuffer[] {
+  const found = new Set<ArrayBuffer>();
+  const visit = (part: unknown): void => {
+    if (ArrayBuffer.isView(part)) {
+      if (part.buffer instanceof ArrayBuffer) found.add(part.buffer);
+    } else if (typeof part === "object" && part !== null) {
+      Object.values(part).forEach(visit);
+    }
+  };
+  visit(value);
+  return [...found];
+}

@@ -1,0 +1,81 @@
+/**
+ * What the queue and the plotters need of storage. The server stores by SQLite and files
+ * (server/storage/store.ts), the page without a server by IndexedDB (web/backend/browser/stored-model.ts).
+ *
+ * The methods are synchronous. The server returns from a change only after it is on disk. The browser returns
+ * at once, and its host holds back answers and events until the change is stored.
+ */
+import type { Job } from "../src/schema/index.js";
+
+export interface StoredDrawing {
+  readonly id: string;
+  readonly bytes: number;
+}
+
+/** A file of the watched folder. The same name with different content is a different file. */
+export interface WatchedFile {
+  readonly name: string;
+  readonly sha256: string;
+}
+
+/** A plotter as stored; without a name, the name is derived from its device. */
+export interface PlotterRow {
+  readonly id: string;
+  readonly name: string | null;
+  readonly device: string;
+  readonly machine: string | null;
+}
+
+/** JSON values by name. */
+export interface SettingStore {
+  /** A JSON value stored under a name, or undefined; parse it with its schema. */
+  setting(key: string): unknown;
+  saveSetting(key: string, value: unknown): void;
+}
+
+export interface JobStore extends SettingStore {
+  /** Queue order first, then history, newest first. */
+  jobs(): Job[];
+  /** Ids in the order of jobs(). */
+  order(): string[];
+  /** The id of the job's drawing; throws `not-found`. */
+  drawingOf(id: string): string;
+  /** Stores everything `work` writes, or nothing. A nested call joins the outer transaction. */
+  together(work: () => void): void;
+  /** Adds a job before another job of the queue, or last. */
+  addJob(job: Job, drawing: StoredDrawing, beforeId?: string | null): void;
+  saveJob(job: Job): void;
+  /**
+   * Sets the expected time of a plotter's queued jobs to planned time × `ratio`. Returns the changed times by
+   * job id.
+   */
+  saveExpected(plotterId: string, ratio: number): Record<string, number>;
+  /** Moves a job before another job of the queue; null: to the end. Throws `not-found`. */
+  moveJob(id: string, beforeId: string | null): void;
+  /** Removes the job; returns its drawing's id if no other job uses it, else null. */
+  removeJob(id: string): string | null;
+  /** Stores how far a job has got. */
+  saveJournal(id: string, entry: unknown): void;
+  journal(id: string): unknown;
+  clearJournal(id: string): void;
+  /** Only for jobs from a watched folder. */
+  saveSeen(file: WatchedFile): void;
+  /** Only for jobs from a shared queue. */
+  saveShared(id: string, jobId: string): void;
+}
+
+export interface PlotterStore {
+  /** Empty on the first start. */
+  plotters(): PlotterRow[];
+  /** Adds a new plotter last, or updates a stored one. */
+  savePlotter(row: PlotterRow): void;
+  removePlotter(id: string): void;
+  /** What was stored for each plotter, by its id; parse it with its schema. */
+  plotterSettings(): Record<string, unknown>;
+  savePlotterSettings(id: string, settings: unknown): void;
+}
+
+/** Drawings are added before their job; the queue removes those that no job uses any more. */
+export interface DrawingStore {
+  remove(id: string): Promise<void>;
+}

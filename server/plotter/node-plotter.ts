@@ -1,0 +1,24 @@
+/** The plotter driver on Node: by the computer's clock and its serial ports. */
+import type { Clock } from "../../src/index.js";
+import type { Devices } from "../../host/plotter/devices.js";
+import * as host from "../../host/plotter/plotter-driver.js";
+import { findBoards } from "../serial/find-boards.js";
+import { nodeClock } from "../serial/node-clock.js";
+import { openSerial } from "../serial/serial-transport.js";
+
+export type { PlotterState } from "../../host/plotter/plotter-driver.js";
+
+const serialDevices: Devices = { find: findBoards, open: openSerial };
+
+/** What a plotter needs of this computer. */
+export const NODE_PARTS = { clock: nodeClock, devices: serialDevices } as const;
+
+export interface PlotterOptions extends Omit<host.PlotterOptions, "clock" | "devices"> {
+  readonly clock?: Clock | undefined;
+}
+
+export class PlotterDriver extends host.PlotterDriver {
+  constructor(options: PlotterOptions) {
+    super({ ...options, clock: options.clock ?? nodeClock, devices: serialDevices });
+  }
+}

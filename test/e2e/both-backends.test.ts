@@ -1,0 +1,132 @@
+/** Queue, settings and recovery: the same with plotwright's server and without one. */
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { BACKENDS, startPage, type StartedPage } from "../support/backends.js";
+import { launchBrowser } from "../support/browser.js";
+import {
+  dropFile,
+  historyPanel,
+  openView,
+  plotBar,
+  queuePanel,
+  statusCard,
+  waitForPlan,
+} from "../support/page-actions.js";
+
+const PATIENCE_MS = 90_000;
+
+/** Long lines that do not touch each other. */
+const comb = (lines: number): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="150mm" viewBox="0 0 150 150" fill="none" stroke="black">${Array.from(
+    { length: lines },
+    (_, i) => `<path d="M20 ${20 + 3 * i}h100"/>`,
+  ).join("")}</svg>`;
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launchBrowser();
+});
+afterAll(() => browser.close());
+
+async function lay(page: Page, name: string, lines: number): Promise<void> {
+  await dropFile(page, `${name}.svg`, comb(lines));
+  await page.getByText(name, { exact: true }).first().waitFor({ state: "attached" });
+  await waitForPlan(page);
+}
+
+/** Names of the waiting jobs, in their order. */
+const waiting = (page: Page): Promise<string[]> =>
+  queuePanel(page)
+    .getByRole("button", { name: /^Start / })
+    .evaluateAll((buttons) => buttons.map((button) => (button.getAttribute("aria-label") ?? "").slice(6)));
+
+const expectWaiting = (page: Page, names: readonly string[]): Promise<void> =>
+  expect.poll(() => waiting(page), { timeout: PATIENCE_MS }).toEqual(names);
+
+const expectState = (page: Page, words: RegExp): Promise<void> =>
+  expect.poll(() => page.locator(".machine-state").innerText(), { timeout: PATIENCE_MS }).toMatch(words);
+
+async function choose(page: Page, name: string, what: string): Promise<void> {
+  await queuePanel(page)
+    .getByRole("button", { name: `More for ${name}` })
+    .click();
+  await page.getByRole("button", { name: `${what} ${name}` }).click();
+}
+
+describe.each(BACKENDS)("the page's backend %s", (backend) => {
+  let started: StartedPage;
+  beforeEach(async () => {
+    started = await startPage(backend, browser);
+  });
+  afterEach(() => started.close());
+
+  it("keeps the queue, its order and the history", { timeout: 300_000 }, async () => {
+    let { page } = started;
+    for (const [name, lines] of [
+      ["one", 1],
+      ["two", 2],
+      ["three", 3],
+    ] as const) {
+      await lay(page, name, lines);
+      await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      await expect.poll(() => waiting(page), { timeout: PATIENCE_MS }).toContain(name);
+    }
+    await choose(page, "three", "Move earlier:");
+    await expectWaiting(page, ["one", "three", "two"]);
+    await started.killAndReopen();
+    ({ page } = started);
+    await expectWaiting(page, ["one", "three", "two"]);
+    await choose(page, "three", "Remove");
+    await expectWaiting(page, ["one", "two"]);
+    await queuePanel(page).getByRole("button", { name: "Start one" }).click();
+    await openView(page, "Prepare");
+    await historyPanel(page).getByText("Done", { exact: true }).waitFor();
+    await started.killAndReopen();
+    ({ page } = started);
+    await expectWaiting(page, ["two"]);
+    await historyPanel(page).getByText("Done", { exact: true }).waitFor();
+  });
+
+  it("keeps the plotter's model and presets", { timeout: 300_000 }, async () => {
+    let { page } = started;
+    await lay(page, "one", 1);
+    await openGroup(page, "Model and position");
+    await page.getByLabel("Model", { exact: true }).selectOption({ label: "AxiDraw V3/A3" });
+    await openGroup(page, "Presets");
+    await page.getByLabel("Name of this preset").fill("fine liner");
+    await page.getByRole("button", { name: "Keep", exact: true }).click();
+    await page.getByText("fine liner").first().waitFor();
+    // Changes of the plotter's settings are stored a moment later.
+    await page.waitForTimeout(3_000);
+    await started.killAndReopen();
+    ({ page } = started);
+    await openGroup(page, "Model and position");
+    const model = page.getByLabel("Model", { exact: true });
+    await expect
+      .poll(() => model.evaluate((select) => (select as HTMLSelectElement).selectedOptions[0]?.label))
+      .toBe("AxiDraw V3/A3");
+    await openGroup(page, "Presets");
+    await page.getByText("fine liner").first().waitFor();
+  });
+
+  it("continues a plot that was killed", { timeout: 300_000 }, async () => {
+    let { page } = started;
+    await lay(page, "comb", 30);
+    await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
+    await expectState(page, /^Plotting: comb\s+[1-9]\d\s*%$/);
+    await started.killAndReopen();
+    ({ page } = started);
+    await expectState(page, /^Interrupted: comb/);
+    const bar = statusCard(page).getByRole("progressbar");
+    expect(Number(await bar.getAttribute("aria-valuenow"))).toBeGreaterThanOrEqual(5);
+    await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
+    await expectState(page, /^Paused: comb/);
+    await statusCard(page).getByRole("button", { name: "Resume" }).click();
+    await historyPanel(page).getByText("Done", { exact: true }).waitFor({ timeout: 120_000 });
+  });
+});
+
+async function openGroup(page: Page, title: string): Promise<void> {
+  const head = page.locator(".group-head").filter({ has: page.getByText(title, { exact: true }) });
+  if ((await head.getAttribute("aria-expanded")) !== "true") await head.click();
+}

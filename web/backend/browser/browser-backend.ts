@@ -1,0 +1,132 @@
+/** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
+import type { HandMove } from "../../../host/plotter/hand-moves.js";
+import type { PlotSettings, Plotter } from "../../../src/schema/index.js";
+import { contentOf, type DrawingText } from "../../worker/drawing-text.js";
+import { BackendFault, type Backend, type HandBackend, type StudioBackend } from "../backend.js";
+import { HostClient } from "./host-client.js";
+import { sampleList, sampleText, type SampleFiles } from "./samples.js";
+import { browserText } from "./text.js";
+import { watchOverPlots } from "./while-plotting.js";
+
+/** `?virtual-speed=50`: how many times faster than real time the virtual board runs. */
+const virtualSpeed = (): number => {
+  const speed = Number(new URLSearchParams(location.search).get("virtual-speed") ?? 1);
+  return speed >= 1 && speed <= 1_000 ? speed : 1;
+};
+
+/** `sampleFiles`: what the build has of samples/. */
+export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
+  const client = new HostClient(virtualSpeed());
+  const { remote, tab } = client;
+  watchOverPlots(client);
+  return {
+    features: { sharing: false, asksForPort: true },
+    listen: (listener) => client.listen(listener),
+
+    addJob: (job, drawing) => remote.addJob(job, drawing),
+    patchJob: (id, patch) => remote.patchJob(id, patch),
+    actOnJob: (id, action) => remote.actOnJob(id, action),
+    changeJob: (id, change) => remote.changeJob(id, change),
+    movePlace: (id, by) => remote.movePlace(id, by),
+    moveJob: (id, beforeId) => remote.moveJob(id, beforeId),
+    duplicateJob: (id) => remote.duplicateJob(id),
+    removeJob: (id) => remote.removeJob(id),
+    jobDrawing: (id) => remote.jobDrawing(id),
+    setQueue: (plotterId, settings) => remote.setQueue(plotterId, settings),
+
+    me: () => Promise.resolve({ role: "operate", id: tab, name: null }),
+    takeOver: async () => {
+      await client.takeOver();
+      return { id: tab, name: "" };
+    },
+    dismissNotice: (id) => remote.dismissNotice(id),
+
+    savePlotterSettings: (id, settings) => remote.savePlotterSettings(id, settings),
+    setPlotterMachine: (id, machine) => remote.patchPlotter(id, { machine }),
+    movePen: (id, request) => remote.movePen(id, request),
+    motorsOff: (id) => remote.motorsOff(id),
+    home: (id, settings) => remote.moveByHand(id, { kind: "home" }, settings),
+    connect: async (id) => {
+      await askForPort(client);
+      return remote.reconnect(id);
+    },
+    log: (id) => remote.log(id),
+
+    machines: () => remote.machines(),
+    saveMachine: (profile) => remote.saveMachine(profile),
+    removeMachine: (id) => remote.removeMachine(id),
+
+    samples: () => Promise.resolve(sampleList(sampleFiles)),
+    sample: (name) => sampleText(sampleFiles, name),
+    svgOf: async ({ of, id }, maxBytes) => {
+      const drawing = of === "job" ? await remote.jobDrawing(id) : await sampleText(sampleFiles, id);
+      const text = textUpTo(drawing, maxBytes);
+      return text !== null && /<svg[\s>]/i.test(text.slice(0, 20_000)) ? text : null;
+    },
+
+    hand: () => Promise.resolve(handOf(client)),
+    studio: () => Promise.resolve(studioOf(client)),
+  };
+};
+
+const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
+  const size = typeof drawing === "string" ? drawing.length : drawing.byteLength;
+  if (size > maxBytes) return null;
+  const content = typeof drawing === "string" ? drawing : contentOf(drawing);
+  return typeof content === "string" ? content : new TextDecoder().decode(content);
+};
+
+/** The browser's own dialog. It opens only in answer to a click. */
+const askForPort = async ({ remote }: HostClient): Promise<void> => {
+  const { serial } = navigator as { serial?: Serial };
+  if (serial === undefined) throw new BackendFault("not-allowed", browserText.noSerial);
+  const filters = (await remote.usbIds()).map(({ vendorId, productId }) => ({
+    usbVendorId: Number.parseInt(vendorId, 16),
+    usbProductId: Number.parseInt(productId, 16),
+  }));
+  try {
+    await serial.requestPort({ filters });
+  } catch {
+    throw new BackendFault("no-board", browserText.noneChosen);
+  }
+};
+
+const handOf = ({ remote }: HostClient): HandBackend => {
+  const move = (id: string, settings: PlotSettings, wanted: HandMove): Promise<Plotter> =>
+    remote.moveByHand(id, wanted, settings);
+  return {
+    walk: (id, settings, xMm, yMm) => move(id, settings, { kind: "walk", xMm, yMm }),
+    jog: (id, settings, dxMm, dyMm) => move(id, settings, { kind: "jog", dxMm, dyMm }),
+    setHome: (id, settings) => move(id, settings, { kind: "set-home" }),
+    cyclePen: (id, settings) => move(id, settings, { kind: "cycle-pen" }),
+    testLine: (id, settings) => move(id, settings, { kind: "test-line" }),
+    testPatch: (id, settings) => move(id, settings, { kind: "test-patch" }),
+    frameBox: (id, settings, boxMm) => move(id, settings, { kind: "frame", boxMm }),
+    square: (id, settings, sizeMm) => move(id, settings, { kind: "square", sizeMm }),
+    servo: (id, settings, pos) => move(id, settings, { kind: "servo", pos }),
+    command: (id, line) => remote.command(id, line),
+  };
+};
+
+/** What the page does not show without a server still answers, with what to do. */
+const studioOf = ({ remote }: HostClient): StudioBackend => {
+  const needsServer = (): Promise<never> =>
+    Promise.reject(new BackendFault("not-allowed", browserText.needsServer));
+  return {
+    devices: () => remote.devices(),
+    patchPlotter: (id, patch) => remote.patchPlotter(id, patch),
+    sharedJobs: () => Promise.resolve(null),
+    addPlotter: needsServer,
+    removePlotter: needsServer,
+    pairing: needsServer,
+    access: needsServer,
+    addKey: needsServer,
+    revoke: needsServer,
+    webhooks: needsServer,
+    addWebhook: needsServer,
+    removeWebhook: needsServer,
+    shareJob: needsServer,
+    giveBackShared: needsServer,
+    withdrawShared: needsServer,
+  };
+};

@@ -1,0 +1,138 @@
+/**
+ * IndexedDB, written behind: a change is queued at once, and all changes of one turn of the event loop go into
+ * one transaction. `written` resolves when everything queued so far is stored.
+ *
+ * Strict durability, except where only journals change: as on the server, these survive a crash of the browser
+ * but not of the computer, and the stream to the board never waits for the disk.
+ */
+
+/** Where the keys of each kind of record are ids; their values are plain JSON, drawings are text or bytes. */
+export const STORES = ["jobs", "plotters", "settings", "journals", "machines", "drawings"] as const;
+export type StoreName = (typeof STORES)[number];
+
+const VERSION = 1;
+const RETRY_MS = 5_000;
+
+interface Change {
+  readonly store: StoreName;
+  readonly key: string;
+  /** Undefined: the record is removed. */
+  readonly value: unknown;
+}
+
+export class Database {
+  readonly #db: IDBDatabase;
+  readonly #onFault: (error: unknown) => void;
+  /** Changes that no transaction has taken yet, by store and key. */
+  #queued = new Map<string, Change>();
+  #running: Promise<void> = Promise.resolve();
+  /** The transaction after the running one; it takes all that is queued when it begins. */
+  #next: Promise<void> | null = null;
+  #last: Promise<void> = Promise.resolve();
+
+  private constructor(db: IDBDatabase, onFault: (error: unknown) => void) {
+    this.#db = db;
+    this.#onFault = onFault;
+  }
+
+  /** `onFault`: called for each transaction that failed; its changes are tried again. */
+  static async open(name: string, onFault: (error: unknown) => void): Promise<Database> {
+    const request = indexedDB.open(name, VERSION);
+    request.onupgradeneeded = () => {
+      for (const store of STORES) {
+        if (!request.result.objectStoreNames.contains(store)) request.result.createObjectStore(store);
+      }
+    };
+    return new Database(await settled(request), onFault);
+  }
+
+  /** Everything that is stored, without the drawings. */
+  async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
+    const found = this.#db.transaction(store).objectStore(store);
+    const [keys, values] = await Promise.all([settled(found.getAllKeys()), settled(found.getAll())]);
+    return new Map(keys.map((key, index) => [String(key), values[index] as unknown]));
+  }
+
+  async readDrawing(id: string): Promise<unknown> {
+    return settled(this.#db.transaction("drawings").objectStore("drawings").get(id));
+  }
+
+  async drawingIds(): Promise<string[]> {
+    return (await settled(this.#db.transaction("drawings").objectStore("drawings").getAllKeys())).map(String);
+  }
+
+  put(store: StoreName, key: string, value: unknown): void {
+    this.#change({ store, key, value });
+  }
+
+  remove(store: StoreName, key: string): void {
+    this.#change({ store, key, value: undefined });
+  }
+
+  /** Resolves when all changes so far are stored; rejects if that failed. */
+  written(): Promise<void> {
+    return this.#last;
+  }
+
+  async close(): Promise<void> {
+    await this.written().catch(() => undefined);
+    this.#db.close();
+  }
+
+  #change(change: Change): void {
+    this.#queued.set(`${change.store}/${change.key}`, change);
+    this.#last = this.#nextWrite();
+    // Reported by onFault, and to each caller of `written`.
+    this.#last.catch(() => undefined);
+  }
+
+  #nextWrite(): Promise<void> {
+    this.#next ??= this.#running
+      .catch(() => undefined)
+      .then(() => {
+        this.#next = null;
+        this.#running = this.#write();
+        return this.#running;
+      });
+    return this.#next;
+  }
+
+  async #write(): Promise<void> {
+    const changes = this.#queued;
+    this.#queued = new Map();
+    if (changes.size === 0) return;
+    try {
+      await this.#transact([...changes.values()]);
+    } catch (error) {
+      // Newer changes of the same records win.
+      this.#queued = new Map([...changes, ...this.#queued]);
+      setTimeout(() => void this.#nextWrite().catch(() => undefined), RETRY_MS);
+      this.#onFault(error);
+      throw error;
+    }
+  }
+
+  #transact(changes: readonly Change[]): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const isJournal = changes.every(({ store }) => store === "journals");
+      const transaction = this.#db.transaction([...STORES], "readwrite", {
+        durability: isJournal ? "relaxed" : "strict",
+      });
+      transaction.oncomplete = () => resolve();
+      transaction.onabort = () => reject(transaction.error ?? new Error("The transaction was aborted."));
+      for (const { store, key, value } of changes) {
+        const records = transaction.objectStore(store);
+        if (value === undefined) records.delete(key);
+        else records.put(value, key);
+      }
+      // Without this, the commit would wait for the answers of all requests, and a tab that dies would lose it.
+      transaction.commit();
+    });
+  }
+}
+
+const settled = <T>(request: IDBRequest<T>): Promise<T> =>
+  new Promise((resolve, reject) => {
+    request.onsuccess = () => resolve(request.result);
+    request.onerror = () => reject(request.error ?? new Error("IndexedDB did not answer."));
+  });

@@ -1,0 +1,99 @@
+/**
+ * The worker that every page starts. The one that gets the Web Lock is the host; the others wait for it. When the
+ * host's page is closed or dies, its lock is free, and the next worker takes over from what is stored.
+ */
+import { faultOf } from "../../../host/planning/messages.js";
+import { PlotwrightError } from "../../../src/index.js";
+import type { JobAction } from "../backend.js";
+import { openHost, type Host } from "./host.js";
+import { READING, STOPPING, type HostMethod } from "./host-api.js";
+import {
+  CHANNEL,
+  HOST_LOCK,
+  type Answer,
+  type FromHost,
+  type Message,
+  type ToHost,
+  type WorkerStart,
+} from "./protocol.js";
+
+type Call = Extract<ToHost, { type: "call" }>;
+
+const start = JSON.parse(self.name) as WorkerStart;
+const channel = new BroadcastChannel(CHANNEL);
+let host: Host | null = null;
+/** Ends this worker's time as the host. */
+let release: () => void = () => undefined;
+/** The page to which another host has handed over. */
+let next: string | null = null;
+
+/** Without `to` and `host`, which every message has. */
+type Sent = FromHost extends infer One ? (One extends FromHost ? Omit<One, "to" | "host"> : never) : never;
+const post = (message: Sent): void =>
+  channel.postMessage({ to: "pages", host: start.tab, ...message });
+
+channel.onmessage = ({ data }: MessageEvent<Message>) => {
+  if (data.to === "pages") {
+    if (data.type === "handed-over") next = data.next;
+  } else if (host !== null && data.type === "hello") sendSnapshot(host, data.tab);
+  else if (host !== null && data.type === "call") void answer(host, data);
+};
+
+function sendSnapshot({ snapshot }: Host, tab?: string): void {
+  post({
+    type: "event",
+    event: { type: "snapshot", snapshot: snapshot() },
+    ...(tab === undefined ? {} : { tab }),
+  });
+}
+
+async function answer(from: Host, call: Call): Promise<void> {
+  const { tab, id, method } = call;
+  const result = await resultOf(from, call);
+  post({ type: "answer", tab, id, answer: result });
+  if (method !== "handOver" || !result.ok || tab === start.tab || host !== from) return;
+  host = null;
+  await from.close();
+  post({ type: "handed-over", next: tab });
+  release();
+}
+
+async function resultOf({ api, written }: Host, { tab, method, args }: Call): Promise<Answer> {
+  try {
+    if (tab !== start.tab && !isOpenToAll(api, method, args)) {
+      throw new PlotwrightError(
+        "not-operator",
+        "Another tab is operating. Take over to change something; you can stop a plot without taking over.",
+      );
+    }
+    const run = api[method] as (...args: readonly unknown[]) => unknown;
+    const value = await run(...args);
+    await written();
+    return { ok: true, value };
+  } catch (error) {
+    return { ok: false, ...faultOf(error) };
+  }
+}
+
+/** A queued job may be cancelled by the operator only; one that is being plotted by all. */
+function isOpenToAll(api: Host["api"], method: HostMethod, args: readonly unknown[]): boolean {
+  if (READING.includes(method)) return true;
+  const [id, action] = args;
+  return method === "actOnJob" && STOPPING.includes(action as JobAction) && api.isRunning(String(id));
+}
+
+async function serve(): Promise<void> {
+  for (;;) {
+    await navigator.locks.request(HOST_LOCK, async () => {
+      const isForAnother = next !== null && next !== start.tab;
+      next = null;
+      if (isForAnother) return;
+      const released = new Promise<void>((resolve) => (release = resolve));
+      host = await openHost(start, (event) => post({ type: "event", event }));
+      sendSnapshot(host);
+      await released;
+    });
+  }
+}
+
+serve().catch((error: unknown) => post({ type: "failed", message: faultOf(error).message }));

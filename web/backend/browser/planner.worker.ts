@@ -1,0 +1,33 @@
+/** The host's planner: prepares one drawing, then plans it on request. Its own thread, so that the stream never waits. */
+import { importDrawing } from "../../../src/index.js";
+import { prepareJob, textOfBytes } from "../../../src/internal.js";
+import { faultOf, type FromWorker, type ToWorker } from "../../../host/planning/messages.js";
+import { answerOf, buffersOf, type ThreadInput } from "../../../host/planning/stages.js";
+import type { DrawingText } from "../../worker/drawing-text.js";
+
+/** The first message. All others are `ToWorker`. */
+export interface PlannerStart extends ThreadInput {
+  readonly drawing: DrawingText;
+}
+
+const scope = globalThis as unknown as {
+  postMessage(message: FromWorker, transfer?: ArrayBuffer[]): void;
+  onmessage: ((event: MessageEvent<unknown>) => void) | null;
+};
+
+scope.onmessage = ({ data }) => {
+  const input = data as PlannerStart;
+  try {
+    const { drawing } = input;
+    const text = typeof drawing === "string" ? drawing : textOfBytes(new Uint8Array(drawing));
+    // Without a file name the format is detected from the content.
+    const { prepared, warnings } = prepareJob(importDrawing("", text), input.settings, input.machine);
+    scope.onmessage = (event) => {
+      const answer = answerOf(prepared, warnings, input, event.data as ToWorker);
+      scope.postMessage(answer, answer.type === "planned" ? buffersOf(answer.plot) : []);
+    };
+    scope.postMessage({ type: "ready", strokes: prepared.strokes, warnings });
+  } catch (error) {
+    scope.postMessage({ type: "failed", id: null, ...faultOf(error) });
+  }
+};

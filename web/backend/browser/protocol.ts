@@ -1,0 +1,66 @@
+/**
+ * What the pages of one browser and the host say to each other over one BroadcastChannel. The host is a worker
+ * of one of the pages; every page hears all its events, and calls it in the same way, its own page too.
+ */
+import type { ErrorCode } from "../../../src/index.js";
+import type { ServerEvent } from "../../../src/schema/index.js";
+import type { HostApi, HostMethod } from "./host-api.js";
+
+/** Changes with the messages, so that pages of different versions do not misunderstand each other. */
+export const CHANNEL = "plotwright-1";
+/** The worker that has this Web Lock is the host. It is free once that worker is gone. */
+export const HOST_LOCK = "plotwright-host";
+export const DATABASE = "plotwright-host";
+
+/** Passed to the worker as its name, which it knows from its first line on. */
+export interface WorkerStart {
+  /** The page's id; the host has the id of its page. */
+  readonly tab: string;
+  readonly virtualSpeed: number;
+}
+
+export type ToHost =
+  /** A page has opened: it needs a snapshot. */
+  | { readonly to: "host"; readonly type: "hello"; readonly tab: string }
+  | {
+      readonly to: "host";
+      readonly type: "call";
+      readonly tab: string;
+      readonly id: number;
+      readonly method: HostMethod;
+      readonly args: readonly unknown[];
+    };
+
+export type FromHost =
+  /** `tab`: the only page that is meant; default: all. */
+  | {
+      readonly to: "pages";
+      readonly type: "event";
+      readonly host: string;
+      readonly tab?: string;
+      readonly event: ServerEvent;
+    }
+  | {
+      readonly to: "pages";
+      readonly type: "answer";
+      readonly host: string;
+      readonly tab: string;
+      readonly id: number;
+      readonly answer: Answer;
+    }
+  /** The host ends, so that the worker of page `next` becomes the host. */
+  | { readonly to: "pages"; readonly type: "handed-over"; readonly host: string; readonly next: string }
+  /** The host can't start. */
+  | { readonly to: "pages"; readonly type: "failed"; readonly host: string; readonly message: string };
+
+export type Answer =
+  | { readonly ok: true; readonly value: unknown }
+  | { readonly ok: false; readonly code: ErrorCode; readonly message: string };
+
+export type Message = ToHost | FromHost;
+/** How a page calls the host: the same methods, each with a promise. */
+export type Remote = {
+  readonly [Name in HostMethod]: (
+    ...args: Parameters<HostApi[Name]>
+  ) => Promise<Awaited<ReturnType<HostApi[Name]>>>;
+};
