@@ -3,7 +3,7 @@
  * below a path, as on a host that has several projects.
  */
 import { spawnSync } from "node:child_process";
-import { existsSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { readFileSync, readdirSync, rmSync, statSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
 import type { Browser, Page } from "playwright-core";
@@ -209,10 +209,7 @@ describe("a reader", () => {
   });
 });
 
-/** Without it the app of the site is the server's page, which can only report that its server is missing. */
-const HAS_BROWSER_BACKEND = existsSync(path.join(ROOT, "web", "backend", "browser"));
-
-describe.runIf(HAS_BROWSER_BACKEND)("the app of the site", () => {
+describe("the app of the site", () => {
   const openApp = async (page: Page, host: StaticSite): Promise<void> => {
     await page.goto(`${host.url}app/index.html`);
     await page.getByText("Drop a drawing here").waitFor();

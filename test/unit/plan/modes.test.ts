@@ -215,7 +215,7 @@ describe("settings beyond speed and acceleration", () => {
       [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
       [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
       [{}, { dropPctPerS: 0 }, /sinks at/],
-      [{}, { contactPct: 120 }, /leaves the paper at is 120/],
+      [{}, { contactPct: 120 }, /tip touches at is 120/],
       [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
     ];
