@@ -18,7 +18,7 @@ const CHANGED: SvgSettings = {
     accelYMmPerS2: 300,
     layers: { ink: { speedMmPerS: 20, cornerMm: 0.1 } },
   },
-  pen: { ...DEFAULT_PEN, overlap: "safe", liftPctPerS: 100 },
+  pen: { ...DEFAULT_PEN, overlap: "fast", liftPctPerS: 100 },
 };
 const START = `${GRBL.name} does not use these settings, because its controller plans by itself: `;
 
