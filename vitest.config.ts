@@ -9,6 +9,9 @@ const LOAD = ["test/serial/load.test.ts"];
 /** Tests of functions. */
 const FUNCTIONS = ["test/unit/**/*.test.ts", "test/property/**/*.test.ts", "test/architecture/**/*.test.ts"];
 
+/** Tests of the command line. They replace modules, so each file has a process of its own. */
+const COMMANDS = ["test/cli/**/*.test.ts"];
+
 /** Tests of the built product, in processes of their own, and in a browser. */
 const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test/**/*.alone.test.ts"];
 
@@ -47,9 +50,19 @@ export default defineConfig({
           ...WAITING,
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-          exclude: [...FUNCTIONS, ...PROCESSES, ...REAL_TIME],
+          exclude: [...FUNCTIONS, ...COMMANDS, ...PROCESSES, ...REAL_TIME],
           ...limits(60_000),
           ...SHARED,
+        },
+      },
+      {
+        test: {
+          ...COMMON,
+          ...WAITING,
+          name: "commands",
+          include: COMMANDS,
+          exclude: PROCESSES,
+          ...limits(60_000),
         },
       },
       {

@@ -26,7 +26,7 @@ const CHECKS = [
 ];
 
 /** The projects of vitest.config.ts that may run in parallel with the checks, and those that run after them. */
-const SHARED_RUNS = ["functions", "together", "processes"];
+const SHARED_RUNS = ["functions", "together", "commands", "processes"];
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
 

@@ -82,6 +82,9 @@ export class SharedStore {
       pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: timeoutMs });
       const logError = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", logError);
+      // The pool listens to idle connections only. A busy one's query fails too, but without a listener its event
+      // would end the process.
+      pool.on("connect", (client) => void client.on("error", () => undefined));
       await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
       boss.on("error", logError);
