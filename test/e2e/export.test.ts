@@ -94,6 +94,7 @@ describe("saving", () => {
         machine,
         firmware,
         speed: Infinity,
+        servo: {},
       });
       const errors: string[] = [];
       board.onSend((bytes) => {

@@ -15,7 +15,7 @@ let test: PageTest;
 beforeAll(async () => {
   test = await PageTest.firstVisit("quality");
   await test.drop("steps", STEPS);
-  for (const title of ["Drawing", "Paper", "Layers"]) await test.group(title, false);
+  for (const title of ["Drawing", "Paper", "Layers and pens"]) await test.group(title, false);
   await test.group("Speed");
 }, PATIENCE_MS);
 

@@ -54,7 +54,7 @@ describe("the installed package", () => {
         ...["dist", "docs", "package.json", "samples"],
       ].sort(),
     );
-    expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["server", "src", "web"]);
+    expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["host", "server", "src", "web"]);
     expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
   });
 

@@ -11,7 +11,7 @@ export class FakeSerial {
 
   /** `speed`: board seconds per second. */
   constructor(speed = 1) {
-    this.board = new VirtualBoard({ clock: nodeClock, speed });
+    this.board = new VirtualBoard({ clock: nodeClock, speed, servo: {} });
   }
 
   /** Whether a page has the port open. */

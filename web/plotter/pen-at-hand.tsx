@@ -158,7 +158,6 @@ const Heights = ({ onTry }: { onTry(): void }) => {
             <button
               type="button"
               className="button"
-              aria-label={words.touchLabel}
               disabled={!isFollowing}
               onClick={() => touch(pen.contactPct)}
             >

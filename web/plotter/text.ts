@@ -54,7 +54,6 @@ export const penText = {
   motorsOff: "Motors off",
   home: "Home",
   touch: "Try",
-  touchLabel: "Lower the pen to where the tip touches",
   touchHint:
     "Put paper under the pen and lower this until the tip just marks. 100 % is Height up, 0 % Height down: find it again when you change them.",
   testLine: "Draw a test line",
