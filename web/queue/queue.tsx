@@ -71,7 +71,9 @@ const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   const { totalS, isRunning } = queueTime(jobs, runsOn);
   const total = words.total(jobs.length, formatDuration(totalS));
   return (
-    <span className="note">{isRunning && isSeen ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}</span>
+    <span className="note">
+      {isRunning && isSeen ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}
+    </span>
   );
 };
 

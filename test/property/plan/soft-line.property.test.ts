@@ -17,7 +17,11 @@ const limits = (speed: number): RunLimits => ({
   accel: 500,
   jerk: Infinity,
   corner: DELTA,
-  motorSpeed: Infinity, speedX: Infinity, speedY: Infinity, stretchX: 1, stretchY: 1,
+  motorSpeed: Infinity,
+  speedX: Infinity,
+  speedY: Infinity,
+  stretchX: 1,
+  stretchY: 1,
   mixed: false,
   easeSpeed: Infinity,
 });

@@ -13,7 +13,11 @@ const LIMITS: RunLimits = {
   accel: 500,
   jerk: Infinity,
   corner: 0.025,
-  motorSpeed: Infinity, speedX: Infinity, speedY: Infinity, stretchX: 1, stretchY: 1,
+  motorSpeed: Infinity,
+  speedX: Infinity,
+  speedY: Infinity,
+  stretchX: 1,
+  stretchY: 1,
   mixed: false,
   easeSpeed: Infinity,
 };

@@ -29,8 +29,7 @@ let next: string | null = null;
 
 /** Without `to` and `host`, which every message has. */
 type Sent = FromHost extends infer One ? (One extends FromHost ? Omit<One, "to" | "host"> : never) : never;
-const post = (message: Sent): void =>
-  channel.postMessage({ to: "pages", host: start.tab, ...message });
+const post = (message: Sent): void => channel.postMessage({ to: "pages", host: start.tab, ...message });
 
 channel.onmessage = ({ data }: MessageEvent<Message>) => {
   if (data.to === "pages") {
