@@ -73,7 +73,7 @@ export default defineConfig({
     rolldownOptions: {
       output: {
         // What the first load needs anyway in one file, where it packs better than in ten small ones.
-        advancedChunks: {
+        codeSplitting: {
           groups: [
             {
               name: "index",
