@@ -46,13 +46,15 @@ interface Job {
   readonly machine?: MachineProfile;
 }
 
-function marksOf(
-  { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3", machine = unmeasured }: Job,
-  servo: TipServo,
-): TipMarks {
+/** Plans and compiles a job. The result answers what the tip of a servo draws. */
+function planned(job: Job): (servo: TipServo) => TipMarks {
+  const { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3", machine = unmeasured } = job;
   const trajectory = plan(strokes, motionForFirmware(motion, firmware), pen, { machine });
-  return tipMarks(trajectory, compile(trajectory, { machine, firmware, pen }), machine, pen, servo);
+  const stream = compile(trajectory, { machine, firmware, pen });
+  return (servo) => tipMarks(trajectory, stream, machine, pen, servo);
 }
+
+const marksOf = (job: Job, servo: TipServo): TipMarks => planned(job)(servo);
 
 /** Strokes near together and far apart: the next one begins at a random distance from the last one's end. */
 const arbitraryStrokes: fc.Arbitrary<StrokeSet> = fc
@@ -193,7 +195,7 @@ describe("random drawings", { timeout: TIMEOUT_MS }, () => {
           expect(marks.lateMm).toBeLessThanOrEqual(mm);
           expect(marks.brokenCount).toBe(0);
         }),
-        { numRuns: cases() },
+        { numRuns: cases(1_000, 60) },
       );
     },
   );
@@ -207,6 +209,7 @@ const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
 
 describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
   const strokes = sampleStrokes(file);
+  const safe = planned({ strokes, pen: penOf("safe") });
 
   it.each([
     { speed: 0.8, phaseMs: 1, contact: 0.55 },
@@ -214,7 +217,7 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
     { speed: 0.8, phaseMs: 23, contact: 0.45 },
     { speed: 1.2, phaseMs: 7, contact: 0.45 },
   ])("is drawn safely by a servo of $speed times the speed that touches at $contact", (servo) => {
-    const marks = marksOf({ strokes, pen: penOf("safe") }, servo);
+    const marks = safe(servo);
     expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
     expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
     expect(marks.brokenCount).toBe(0);
