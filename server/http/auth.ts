@@ -15,6 +15,11 @@ const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 
 /** Requests per minute from one address of the network; a page makes at most about one per second. */
 const MAX_REQUESTS = 600;
+/**
+ * The page's own files, per minute from one address. A first visit fetches about 100, since the service worker
+ * keeps all of them; with one of them refused it is not installed. Behind a proxy all visitors have one address.
+ */
+const MAX_FILES = 6_000;
 const MAX_PAIRINGS = 10;
 
 export function roleOf(request: IncomingMessage, access: Access): Role | null {
@@ -93,7 +98,11 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
 }
 
 /** Limits requests from the network; this computer is not limited. */
-export const limitRequests = (access: Access): RequestHandler => limitBy(MAX_REQUESTS, access);
+export const limitRequests = (access: Access): RequestHandler => {
+  const [ofFiles, ofRest] = [limitBy(MAX_FILES, access), limitBy(MAX_REQUESTS, access)];
+  return (request, response, next) =>
+    (request.path.startsWith("/assets/") ? ofFiles : ofRest)(request, response, next);
+};
 
 function limitBy(limit: number, access: Access): RequestHandler {
   return rateLimit({

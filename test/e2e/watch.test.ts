@@ -131,6 +131,8 @@ describe("the queue", { timeout: PATIENCE_MS }, () => {
     const row = queuePanel(page).getByRole("listitem");
     await row.getByText("×3").waitFor();
     expect(await row.count()).toBe(1);
+    // The plotter's panel stands before the queue, and only a row in sight fetches its picture.
+    await row.scrollIntoViewIfNeeded();
     await row.locator(".thumb img").waitFor();
     const more = row.getByRole("button", { name: `More for ${OTHER}` });
     await more.click();
