@@ -171,6 +171,7 @@ describe("the page without a server", () => {
       // As a user of a busy computer would: the tests run beside others.
       const speed = page.locator(".group-head").filter({ has: page.getByText("Speed", { exact: true }) });
       if ((await speed.getAttribute("aria-expanded")) !== "true") await speed.click();
+      await page.locator("#group-motion").getByText("Details", { exact: true }).click();
       await page.getByLabel("Sent ahead", { exact: true }).fill("1000");
       await plotComb(page, IS_FULL ? 150 : 20);
       await expect.poll(() => app.serial.board.statistics().movingS).toBeGreaterThan(1);
