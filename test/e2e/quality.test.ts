@@ -80,7 +80,8 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     await section().evaluate((element) => element.scrollIntoView());
     for (const colorScheme of ["light", "dark"] as const) {
       await test.page.emulateMedia({ colorScheme });
-      expect(await seriousFindings(test.page)).toEqual([]);
+      // A busy computer is still adding the queued job to the page.
+      await expect.poll(() => seriousFindings(test.page), { timeout: 20_000 }).toEqual([]);
     }
     await step("Fine").check();
     expect(await step("Custom").count()).toBe(0);
