@@ -69,9 +69,14 @@ export default defineConfig({
         test: {
           ...COMMON,
           ...WAITING,
+          ...SHARED,
           name: "processes",
           include: PROCESSES,
-          globalSetup: ["test/support/built.ts", "test/support/shared-browser.ts"],
+          globalSetup: [
+            "test/support/built.ts",
+            "test/support/built-site.ts",
+            "test/support/shared-browser.ts",
+          ],
           ...limits(120_000),
         },
       },

@@ -118,10 +118,20 @@ function* filesBelow(relative) {
   }
 }
 
-/** One hash over the name and content of everything that decides what is in dist/. */
-function sourceStamp() {
+const SITE_INPUTS = [
+  ...BUILD_INPUTS,
+  "docs",
+  "scripts/build-site.ts",
+  "scripts/site",
+  "ARCHITECTURE.md",
+  "CHANGELOG.md",
+  "CONTRIBUTING.md",
+];
+
+/** One hash over the name and content of everything that decides what is built. */
+function stampOf(inputs) {
   const hash = createHash("sha256");
-  for (const file of BUILD_INPUTS.flatMap((input) => [...filesBelow(input)]).sort()) {
+  for (const file of inputs.flatMap((input) => [...filesBelow(input)]).sort()) {
     hash
       .update(file)
       .update("\0")
@@ -131,17 +141,41 @@ function sourceStamp() {
   return hash.digest("hex");
 }
 
-export function ensureBuild() {
-  const stampFile = inRoot("dist", ".stamp");
-  const stamp = sourceStamp();
+/** Calls `build`, which fills `folder`, unless the folder was built from the same content of all `inputs`. */
+function buildOnce(folder, inputs, build) {
+  const stampFile = path.join(folder, ".stamp");
+  const stamp = stampOf(inputs);
   if (existsSync(stampFile) && readFileSync(stampFile, "utf8") === stamp) return;
   mustBeWritable();
-  console.log("plotwright: building …");
-  // A test runner's NODE_ENV would bring React's development version.
-  const env = { ...process.env, NODE_ENV: "production" };
-  if (runNpm(["run", "--silent", "build"], { env, stdio: "pipe", maxBuffer: 100e6 }) !== 0) {
-    giveUp("the build failed; its message is above. In an unmodified checkout this is a bug in plotwright.");
-  }
-  mkdirSync(inRoot("dist"), { recursive: true });
+  build();
+  mkdirSync(folder, { recursive: true });
   writeFileSync(stampFile, stamp);
+}
+
+/** A test runner's NODE_ENV would bring React's development version. */
+const forProduction = () => ({
+  env: { ...process.env, NODE_ENV: "production" },
+  stdio: "pipe",
+  maxBuffer: 100e6,
+});
+
+export function ensureBuild() {
+  buildOnce(inRoot("dist"), BUILD_INPUTS, () => {
+    console.log("plotwright: building …");
+    if (runNpm(["run", "--silent", "build"], forProduction()) === 0) return;
+    giveUp("the build failed; its message is above. In an unmodified checkout this is a bug in plotwright.");
+  });
+}
+
+/** Where tests find the web site, which has the page without a server in app/, and the site's path on a host. */
+export const TEST_SITE = { folder: inRoot("dist", ".test-site"), base: "/plots/" };
+
+export function ensureTestSite() {
+  const { folder, base } = TEST_SITE;
+  buildOnce(folder, SITE_INPUTS, () => {
+    console.log("plotwright: building the web site for the tests …");
+    const script = [nodeModule("tsx", "dist", "cli.mjs"), inRoot("scripts", "build-site.ts")];
+    if (run(process.execPath, [...script, "--out", folder, "--base", base], forProduction()) === 0) return;
+    giveUp("the web site could not be built; the message is above.");
+  });
 }

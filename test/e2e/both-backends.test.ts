@@ -97,7 +97,9 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     await page.getByRole("button", { name: "Keep", exact: true }).click();
     await page.getByText("fine liner").first().waitFor();
     // Changes of the plotter's settings are stored a moment later.
-    await page.waitForTimeout(3_000);
+    await expect
+      .poll(() => started.storedPlotters(), { timeout: PATIENCE_MS })
+      .toMatch(/(?=.*fine liner)(?=.*axidraw-v3-a3)/s);
     await started.killAndReopen();
     ({ page } = started);
     await openGroup(page, "Model and position");

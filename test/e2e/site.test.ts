@@ -2,52 +2,37 @@
  * The web site of `npm run build:site`: its links, every page of the documentation, and the app in Chromium. It is served
  * below a path, as on a host that has several projects.
  */
-import { spawnSync } from "node:child_process";
-import { readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { readFileSync, readdirSync, statSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { ROOT } from "../../scripts/setup.mjs";
+import { TEST_SITE } from "../../scripts/setup.mjs";
 import { PAGES } from "../../scripts/site/pages.js";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
 import { IS_FULL } from "../support/full-run.js";
 import { chooseSample, waitForPicture } from "../support/page-actions.js";
-import { temporaryFolder } from "../support/server-process.js";
 import { serveFolder, type StaticSite } from "../support/static-site.js";
 
-const BASE = "/plots/";
-const folder = temporaryFolder("site");
+const { base: BASE, folder } = TEST_SITE;
 const DOC_FILES = PAGES.map(({ file }) => `docs/${file}`);
 
 let browser: Browser;
 let site: StaticSite;
 
 beforeAll(async () => {
-  const script = path.join(ROOT, "scripts", "build-site.ts");
-  const args = [
-    path.join(ROOT, "node_modules/tsx/dist/cli.mjs"),
-    script,
-    "--out",
-    folder.path,
-    "--base",
-    BASE,
-  ];
-  const { status, stderr } = spawnSync(process.execPath, args, { cwd: ROOT, encoding: "utf8" });
-  expect(`${status} ${status === 0 ? "" : stderr}`).toBe("0 ");
   browser = await launchBrowser();
-  site = await serveFolder(folder.path, BASE);
+  site = await serveFolder(folder, BASE);
 });
 afterAll(async () => {
   await site.close();
   await browser.close();
-  rmSync(folder.path, { recursive: true, force: true });
 });
 
-const read = (file: string): string => readFileSync(path.join(folder.path, file), "utf8");
+const read = (file: string): string => readFileSync(path.join(folder, file), "utf8");
 const htmlFiles = (): string[] =>
-  readdirSync(folder.path, { recursive: true, encoding: "utf8" })
+  readdirSync(folder, { recursive: true, encoding: "utf8" })
     .map((file) => file.replaceAll("\\", "/"))
     .filter((file) => file.endsWith(".html"));
 
@@ -61,7 +46,7 @@ function faultOf(from: string, link: string): string | null {
   }
   if (!target.pathname.startsWith(BASE)) return `${from}: ${link} leaves the site`;
   const file = decodeURIComponent(target.pathname.slice(BASE.length));
-  const isThere = statSync(path.join(folder.path, file), { throwIfNoEntry: false })?.isFile() ?? false;
+  const isThere = statSync(path.join(folder, file), { throwIfNoEntry: false })?.isFile() ?? false;
   if (!isThere) return `${from}: ${link} leads nowhere`;
   const id = decodeURIComponent(target.hash.slice(1));
   if (id !== "" && !read(file).includes(` id="${id}"`)) return `${from}: ${link} has no such heading`;
@@ -90,8 +75,8 @@ describe("the files of the site", () => {
   });
 
   it("have pictures of at most 200 kB, each with a description", () => {
-    const sizes = readdirSync(path.join(folder.path, "docs", "screenshots")).map(
-      (name) => statSync(path.join(folder.path, "docs", "screenshots", name)).size,
+    const sizes = readdirSync(path.join(folder, "docs", "screenshots")).map(
+      (name) => statSync(path.join(folder, "docs", "screenshots", name)).size,
     );
     expect(sizes.length).toBeGreaterThanOrEqual(3);
     expect(Math.max(...sizes)).toBeLessThanOrEqual(200_000);
@@ -107,7 +92,7 @@ describe("the files of the site", () => {
   });
 
   it("load little: a page of the documentation is at most 60 kB gzipped, with style and script", () => {
-    const bytes = (file: string): number => gzipSync(readFileSync(path.join(folder.path, file))).length;
+    const bytes = (file: string): number => gzipSync(readFileSync(path.join(folder, file))).length;
     const shared = bytes("docs/site.css") + bytes("docs/site.js") + bytes("docs/icon.svg");
     expect(Math.max(...DOC_FILES.map((file) => shared + bytes(file)))).toBeLessThanOrEqual(60_000);
   });
@@ -188,7 +173,7 @@ describe("a reader", () => {
   it("can read every page without a network after one visit", async () => {
     const context = await browser.newContext();
     const page = await context.newPage();
-    const host = await serveFolder(folder.path, BASE);
+    const host = await serveFolder(folder, BASE);
     await page.goto(`${host.url}docs/index.html`);
     await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
     await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
@@ -220,7 +205,7 @@ describe("the app of the site", () => {
     page.on("response", (response) => {
       if (!response.url().startsWith(site.url)) return;
       const file = new URL(response.url()).pathname.slice(BASE.length);
-      loaded.set(file, gzipSync(readFileSync(path.join(folder.path, file))).length);
+      loaded.set(file, gzipSync(readFileSync(path.join(folder, file))).length);
     });
     await openApp(page, site);
     await page.waitForLoadState("networkidle");
@@ -239,7 +224,7 @@ describe("the app of the site", () => {
   it("opens and plans a sample without a network after one visit", async () => {
     const context = await browser.newContext();
     const page = await context.newPage();
-    const host = await serveFolder(folder.path, BASE);
+    const host = await serveFolder(folder, BASE);
     await openApp(page, host);
     await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
     await page.waitForFunction(() => navigator.serviceWorker.controller !== null);

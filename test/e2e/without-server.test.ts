@@ -8,24 +8,31 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { importDrawing, type StrokeSet } from "../../src/index.js";
 import { machineOf, prepareJob } from "../../src/internal.js";
 import { jobSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
-import { crash } from "../support/backends.js";
+import { crash, storedRecords } from "../support/backends.js";
 import { launchBrowser } from "../support/browser.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { FAKE_SERIAL_SCRIPT } from "../support/fake-serial-script.js";
-import { countFor, IS_FULL } from "../support/full-run.js";
+import { cases, countFor, IS_FULL } from "../support/full-run.js";
 import { plotting, seeded } from "../support/live-plot.js";
 import { dropFile, historyPanel, plotBar, statusCard, waitForPlan } from "../support/page-actions.js";
-import { buildStaticApp, startStaticApp, type StaticApp } from "../support/static-app.js";
+import { startStaticApp, type StaticApp } from "../support/static-app.js";
 
 const PATIENCE_MS = 90_000;
 /** The samples take ten minutes each on a real board. */
 const SAMPLE_SPEED = 30;
-const HIDDEN_S = IS_FULL ? 360 : 20;
-const KILLS = countFor("PLOTWRIGHT_KILLS", 20, 3);
+const HIDDEN_S = cases(360, 10);
+const KILLS = countFor("PLOTWRIGHT_KILLS", 20, 1);
+/** `npm test` plots the first one. */
+const SAMPLES = (
+  [
+    ["Hello paper", "hello-paper"],
+    ["Whirling triangles", "whirling-triangles"],
+    ["Flower meadow", "flower-meadow"],
+  ] as const
+).slice(0, cases(3, 1));
 /** Missing or doubled where the board kept its counters. */
 const MAX_OFF_MM = 0.05;
 
-const built = buildStaticApp();
 let browser: Browser;
 let app: StaticApp;
 let context: BrowserContext;
@@ -33,17 +40,14 @@ let context: BrowserContext;
 beforeAll(async () => {
   browser = await launchBrowser();
 });
-afterAll(async () => {
-  await browser.close();
-  built.remove();
-});
+afterAll(() => browser.close());
 afterEach(async () => {
   await context.close();
   await app.close();
 });
 
 async function start(boardSpeed: number): Promise<Page> {
-  app = await startStaticApp(built.path, boardSpeed);
+  app = await startStaticApp(boardSpeed);
   context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
   await context.addInitScript(FAKE_SERIAL_SCRIPT);
   return openPage(boardSpeed);
@@ -80,20 +84,7 @@ const done = (page: Page): Promise<void> =>
 
 /** The jobs as they are stored in the browser. */
 async function storedJobs(page: Page): Promise<Job[]> {
-  const rows = await page.evaluate(
-    () =>
-      new Promise<unknown[]>((resolve, reject) => {
-        const opening = indexedDB.open("plotwright-host");
-        opening.onerror = () => reject(new Error("no database"));
-        opening.onsuccess = () => {
-          const reading = opening.result.transaction("jobs").objectStore("jobs").getAll();
-          reading.onsuccess = () => {
-            opening.result.close();
-            resolve(reading.result as unknown[]);
-          };
-        };
-      }),
-  );
+  const rows = await storedRecords(page, "jobs");
   return rows.map((row) => jobSchema.parse((row as { job: unknown }).job));
 }
 
@@ -135,11 +126,7 @@ async function recover(page: Page): Promise<void> {
 }
 
 describe("the page without a server", () => {
-  it.each([
-    ["Hello paper", "hello-paper"],
-    ["Whirling triangles", "whirling-triangles"],
-    ["Flower meadow", "flower-meadow"],
-  ])("plots the sample %s to the step", { timeout: 400_000 }, async (title, file) => {
+  it.each(SAMPLES)("plots the sample %s to the step", { timeout: 400_000 }, async (title, file) => {
     const page = await start(SAMPLE_SPEED);
     await page.getByRole("button", { name: title }).click();
     await waitForPlan(page);

@@ -2,7 +2,7 @@
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { startServerProcess, temporaryFolder } from "./server-process.js";
-import { buildStaticApp, startStaticApp } from "./static-app.js";
+import { startStaticApp } from "./static-app.js";
 
 export const BACKENDS = ["server", "browser"] as const;
 export type BackendName = (typeof BACKENDS)[number];
@@ -14,12 +14,15 @@ export interface StartedPage {
    * page that has nothing in its localStorage.
    */
   killAndReopen(): Promise<void>;
+  /** What the backend has stored about its plotters, as JSON. */
+  storedPlotters(): Promise<string>;
   close(): Promise<void>;
 }
 
 const PATIENCE_MS = 90_000;
-/** Board seconds per second on the virtual board. */
+/** Board seconds per second on the virtual board, at first and after `killAndReopen`. */
 const VIRTUAL_SPEED = 10;
+const SPEED_AFTER_KILL = 50;
 
 export async function startPage(backend: BackendName, browser: Browser): Promise<StartedPage> {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
@@ -32,28 +35,27 @@ export async function startPage(backend: BackendName, browser: Browser): Promise
   };
 
   if (backend === "browser") {
-    const built = buildStaticApp();
-    const app = await startStaticApp(built.path);
-    const url = `${app.url}/?virtual-speed=${VIRTUAL_SPEED}`;
+    const app = await startStaticApp();
+    const urlAt = (speed: number): string => `${app.url}/?virtual-speed=${speed}`;
     const started: StartedPage = {
-      page: await open(url),
+      page: await open(urlAt(VIRTUAL_SPEED)),
       killAndReopen: async () => {
         await started.page.evaluate(() => localStorage.clear());
         await crash(started.page);
-        started.page = await open(url);
+        started.page = await open(urlAt(SPEED_AFTER_KILL));
       },
+      storedPlotters: async () => JSON.stringify(await storedRecords(started.page, "plotters")),
       close: async () => {
         await context.close();
         await app.close();
-        built.remove();
       },
     };
     return started;
   }
 
   const data = temporaryFolder("backends");
-  const serve = () => startServerProcess({ dataDir: data.path, virtualSpeed: VIRTUAL_SPEED });
-  let server = await serve();
+  const serve = (virtualSpeed: number) => startServerProcess({ dataDir: data.path, virtualSpeed });
+  let server = await serve(VIRTUAL_SPEED);
   const started: StartedPage = {
     page: await open(server.url),
     killAndReopen: async () => {
@@ -62,9 +64,10 @@ export async function startPage(backend: BackendName, browser: Browser): Promise
       await ended;
       await started.page.close();
       // Another port is another origin, so nothing is in localStorage.
-      server = await serve();
+      server = await serve(SPEED_AFTER_KILL);
       started.page = await open(server.url);
     },
+    storedPlotters: async () => (await fetch(`${server.url}/api/v1/state`)).text(),
     close: async () => {
       await context.close();
       await server.stop();
@@ -82,3 +85,21 @@ export async function crash(page: Page): Promise<void> {
   session.send("Page.crash").catch(() => undefined);
   await crashed;
 }
+
+/** All records of a store in the database of the page's own backend. */
+export const storedRecords = (page: Page, store: "jobs" | "plotters"): Promise<unknown[]> =>
+  page.evaluate(
+    (name) =>
+      new Promise<unknown[]>((resolve, reject) => {
+        const opening = indexedDB.open("plotwright-host");
+        opening.onerror = () => reject(new Error("no database"));
+        opening.onsuccess = () => {
+          const reading = opening.result.transaction(name).objectStore(name).getAll();
+          reading.onsuccess = () => {
+            opening.result.close();
+            resolve(reading.result as unknown[]);
+          };
+        };
+      }),
+    store,
+  );

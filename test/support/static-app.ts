@@ -1,13 +1,11 @@
-/** The page without a server, built and served as static files, as on a site. */
-import { execFileSync } from "node:child_process";
+/** The page without a server, served as static files, as on a site. */
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import path from "node:path";
-import { ROOT } from "../../scripts/setup.mjs";
+import { TEST_SITE } from "../../scripts/setup.mjs";
 import { FakeSerial } from "./fake-serial.js";
 import { FAKE_SERIAL_SCRIPT } from "./fake-serial-script.js";
-import { temporaryFolder } from "./server-process.js";
 
 const TYPES: Readonly<Record<string, string>> = {
   ".html": "text/html",
@@ -16,6 +14,8 @@ const TYPES: Readonly<Record<string, string>> = {
   ".svg": "image/svg+xml",
 };
 
+const FOLDER = path.join(TEST_SITE.folder, "app");
+
 export interface StaticApp {
   readonly url: string;
   /** The board on the fake `navigator.serial` of all pages and workers. */
@@ -23,19 +23,8 @@ export interface StaticApp {
   close(): Promise<void>;
 }
 
-/** Builds it into a folder of its own. */
-export function buildStaticApp(): { readonly path: string; readonly remove: () => void } {
-  const built = temporaryFolder("static-app");
-  execFileSync(
-    process.execPath,
-    ["node_modules/vite/bin/vite.js", "build", "--config", "web/vite.config.ts", "--outDir", built.path],
-    { cwd: ROOT, env: { ...process.env, VITE_BACKEND: "browser" }, stdio: "pipe" },
-  );
-  return built;
-}
-
 /** `boardSpeed`: board seconds per second of the board on the serial port. */
-export async function startStaticApp(folder: string, boardSpeed = 1): Promise<StaticApp> {
+export async function startStaticApp(boardSpeed = 1): Promise<StaticApp> {
   const serial = new FakeSerial(boardSpeed);
   const server = createServer((request, response) => {
     const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
@@ -48,8 +37,8 @@ export async function startStaticApp(folder: string, boardSpeed = 1): Promise<St
       setTimeout(() => response.end(), 1_000 * Number(searchParams.get("s")));
       return;
     }
-    const file = path.join(folder, pathname === "/" ? "index.html" : pathname);
-    if (!file.startsWith(folder) || !existsSync(file)) {
+    const file = path.join(FOLDER, pathname === "/" ? "index.html" : pathname);
+    if (!file.startsWith(FOLDER) || !existsSync(file)) {
       response.writeHead(404).end();
       return;
     }

@@ -1,7 +1,6 @@
 /** Serves a folder as a web host does, below a path of its own, and 404.html for unknown addresses. */
 import { once } from "node:events";
 import type { AddressInfo } from "node:net";
-import path from "node:path";
 import express from "express";
 
 export interface StaticSite {
@@ -14,7 +13,7 @@ export async function serveFolder(folder: string, base: string): Promise<StaticS
   const app = express();
   app.use(base, express.static(folder));
   app.use((_request, response) => {
-    response.status(404).sendFile(path.join(folder, "404.html"));
+    response.status(404).sendFile("404.html", { root: folder });
   });
   const server = app.listen(0, "127.0.0.1");
   await once(server, "listening");
