@@ -7,7 +7,7 @@
  */
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { setPriority, tmpdir } from "node:os";
 import path from "node:path";
 import { findBrowser, installBrowser } from "./find-browser.mjs";
 import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
@@ -25,10 +25,17 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** The projects of vitest.config.ts that may run in parallel with the checks, and those that run after them. */
-const SHARED_RUNS = ["functions", "together", "commands", "processes"];
+/** A little below normal: the tests that run beside them respond in time. */
+const CHECKS_PRIORITY = 5;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
-const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
+
+/**
+ * The projects of vitest.config.ts, one after the other. The checks run in parallel from the beginning: first
+ * beside the tests at the speed of a real board, which mostly wait. The last one runs alone.
+ */
+const RUNS = ["functions", "together", "commands", "processes"];
+if (HAS_PSEUDO_TERMINALS) RUNS.unshift("real-time");
+const LAST_RUN = HAS_PSEUDO_TERMINALS ? "load" : null;
 
 const failures = [];
 let passedCount = 0;
@@ -40,12 +47,13 @@ function fail(what, count = 1) {
 }
 
 /**
- * Runs a Node program in the project's folder; returns its exit code. `isQuiet`: its output is shown when it
- * ends.
+ * Runs a Node program in the project's folder; returns its exit code. `isBackground`: at a lower priority, and
+ * its output is shown when it ends.
  */
-function runNode(args, isQuiet) {
+function runNode(args, isBackground) {
   return new Promise((resolve, reject) => {
-    const child = spawn(process.execPath, args, { cwd: ROOT, stdio: isQuiet ? "pipe" : "inherit" });
+    const child = spawn(process.execPath, args, { cwd: ROOT, stdio: isBackground ? "pipe" : "inherit" });
+    if (isBackground && child.pid !== undefined) setPriority(child.pid, CHECKS_PRIORITY);
     let output = "";
     for (const stream of [child.stdout, child.stderr]) stream?.on("data", (chunk) => (output += chunk));
     child.once("error", reject);
@@ -121,10 +129,10 @@ ensureBuild();
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
-  for (const name of SHARED_RUNS) await runTests(name, filters, folder);
+  for (const name of RUNS) await runTests(name, filters, folder);
   await checks;
-  if (!HAS_PSEUDO_TERMINALS) console.log("Left out on Windows, which has no pseudo-terminals: test/serial");
-  for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
+  if (LAST_RUN !== null) await runTests(LAST_RUN, filters, folder);
+  else console.log("Left out on Windows, which has no pseudo-terminals: test/serial");
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }

@@ -1,5 +1,5 @@
 /**
- * The samples × every generation of firmware × every mode, three plots in a row each without homing. All of
+ * The samples × every generation of firmware × every mode, several plots in a row each without homing. All of
  * it takes minutes: PLOTWRIGHT_MATRIX=all (npm run test:matrix, and test:full), or one firmware version.
  * Otherwise a part in which each sample, and each firmware in each mode, occurs at least once.
  */
@@ -15,10 +15,11 @@ import {
   type MatrixRow,
   type Sample,
 } from "../support/plot-matrix.js";
-import { IS_FULL } from "../support/full-run.js";
+import { cases, IS_FULL } from "../support/full-run.js";
 
 const asked = process.env["PLOTWRIGHT_MATRIX"] ?? (IS_FULL ? "all" : undefined);
 const isWhole = asked !== undefined;
+const PLOTS = cases(3, 2);
 /** The quick ones are used where any sample will do. */
 const QUICK: readonly Sample[] = ["hello-paper", "three-colour-hills"];
 const rows: MatrixRow[] = [];
@@ -34,10 +35,10 @@ const combinations = FIRMWARE.flatMap((firmware, f) => {
   });
 });
 
-describe("a sample plotted three times in a row", () => {
+describe(`a sample plotted ${PLOTS} times in a row`, () => {
   it.each(combinations)("is $sample, exact to the step on firmware $firmware in $mode", (combination) => {
     const { sample, firmware, mode } = combination;
-    const row = plotOften(sample, firmware, mode);
+    const row = plotOften(sample, firmware, mode, PLOTS);
     rows.push(row);
     expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
     expect(row.timeShare).toBeLessThan(0.002);

@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import type { PenSettings, VirtualBoard } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { cases } from "../support/full-run.js";
 import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 import { strokesOf } from "../support/local-planner.js";
 
@@ -104,7 +105,7 @@ describe("changes while it runs", () => {
 
   it.each(MOTION_MODES)("draws each stroke once whenever one is requested, in %s mode", async (mode) => {
     const random = seeded(MOTION_MODES.indexOf(mode) + 1);
-    for (let i = 0; i < 50; i++) {
+    for (let i = 0; i < cases(50, 15); i++) {
       const { world, board, run } = await plotting(mode, MORSE);
       await world.advance(0.1 + 7 * random());
       await world.run(run.change({ speedPct: 40 + 100 * random() }));
@@ -119,7 +120,7 @@ describe("changes while it runs", () => {
     "draws each stroke once whenever a %s follows one at once",
     async (stop) => {
       const random = seeded(11);
-      for (let i = 0; i < 80; i++) {
+      for (let i = 0; i < cases(80, 20); i++) {
         const { world, board, run } = await plotting("scurve", MORSE);
         await world.advance(0.1 + 7 * random());
         const changed = run.change({ speedPct: 60 });

@@ -23,7 +23,10 @@ afterEach(async () => {
   for (const step of undo.splice(0).reverse()) await step();
 });
 
-describe("a job claimed by a server", () => {
+/** Three servers and a database start in turn. */
+const LIMIT_MS = 120_000;
+
+describe("a job claimed by a server", { timeout: LIMIT_MS }, () => {
   it("is returned when that server has gone and has not begun it, and is added once", async () => {
     const database = await SharedDatabase.open();
     undo.push(() => database.close());

@@ -2,11 +2,14 @@
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 
-/** Serious and critical findings, one line each: the rule, and the elements concerned. */
+/**
+ * Serious and critical findings, one line each: the rule, and the elements concerned. While a sheet is open,
+ * of the sheet alone: nothing else can be used then.
+ */
 export async function seriousFindings(page: Page): Promise<string[]> {
   await page.evaluate(axe.source);
   const { violations } = await page.evaluate(() =>
-    (window as unknown as { axe: typeof axe }).axe.run(document, {
+    (window as unknown as { axe: typeof axe }).axe.run(document.querySelector("dialog:modal") ?? document, {
       runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
     }),
   );

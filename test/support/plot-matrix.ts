@@ -77,7 +77,7 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
 });
 
 /** Plots a sample that many times in a row, without homing in between. */
-export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, plots = 3): MatrixRow {
+export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, plots: number): MatrixRow {
   const { strokes, grid } = strokesOf(sample);
   const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
   const trajectory = plan(strokes, motion, DEFAULT_PEN, { machine: MACHINE });

@@ -202,26 +202,34 @@ describe("random drawings", { timeout: TIMEOUT_MS }, () => {
 });
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
-const samples = readdirSync(FOLDER).filter((name) => name.endsWith(".svg"));
+/** Moonrise takes longer than all the others together: only the full run has it here. */
+const samples = readdirSync(FOLDER).filter(
+  (name) => name.endsWith(".svg") && (IS_FULL || name !== "moonrise.svg"),
+);
 const sampleStrokes = (file: string): StrokeSet =>
   prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes;
 const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
+/** As slow and as fast as the pen's settings allow for; the full run also has them with the other contact. */
+const EXTREMES: readonly TipServo[] = [
+  { speed: 0.8, phaseMs: 1, contact: 0.55 },
+  { speed: 1.2, phaseMs: 7, contact: 0.45 },
+  { speed: 1.2, phaseMs: 13, contact: 0.55 },
+  { speed: 0.8, phaseMs: 23, contact: 0.45 },
+].slice(0, cases(4, 2));
 
 describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
   const strokes = sampleStrokes(file);
   const safe = planned({ strokes, pen: penOf("safe") });
 
-  it.each([
-    { speed: 0.8, phaseMs: 1, contact: 0.55 },
-    { speed: 1.2, phaseMs: 13, contact: 0.55 },
-    { speed: 0.8, phaseMs: 23, contact: 0.45 },
-    { speed: 1.2, phaseMs: 7, contact: 0.45 },
-  ])("is drawn safely by a servo of $speed times the speed that touches at $contact", (servo) => {
-    const marks = safe(servo);
-    expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
-    expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
-    expect(marks.brokenCount).toBe(0);
-  });
+  it.each(EXTREMES)(
+    "is drawn safely by a servo of $speed times the speed that touches at $contact",
+    (servo) => {
+      const marks = safe(servo);
+      expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
+      expect(marks.lateMm).toBeLessThanOrEqual(SAFE_MM);
+      expect(marks.brokenCount).toBe(0);
+    },
+  );
 
   it("is drawn fast by a servo that is as stated", () => {
     const marks = marksOf({ strokes, pen: penOf("fast") }, STATED);
@@ -241,7 +249,7 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
 
 describe("the check itself", () => {
   it("finds a planner that takes the tip to be clear at 30 % of the way", () => {
-    const strokes = sampleStrokes("moonrise.svg");
+    const strokes = sampleStrokes("flower-meadow.svg");
     const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 30 }) }, STATED);
     expect(marks.strayMm).toBeGreaterThan(SAFE_MM);
   });
