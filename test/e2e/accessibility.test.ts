@@ -14,6 +14,7 @@ import {
   queuePanel,
   statusCard,
   waitForPlan,
+  waitForPlotButton,
   waitForSamples,
 } from "../support/page-actions.js";
 import { DESK, inStates, LOOKS, PHONE, type Look } from "../support/in-states.js";
@@ -68,6 +69,7 @@ describe("someone without a mouse", () => {
     // From the top, not from where the sample was clicked.
     await page.reload();
     await waitForPlan(page);
+    await waitForPlotButton(page);
     const names = new Set<string>();
     for (let press = 0; press < 120; press++) {
       await page.keyboard.press("Tab");

@@ -1,6 +1,6 @@
 /** The ways to look at a drawing, and what can be done with one of its strokes. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, openView, statusCard } from "../support/page-actions.js";
+import { colorCounts, nextFrames, openView, statusCard } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 /** Three lines across the page, the middle one wide and blue. */
@@ -77,7 +77,10 @@ describe("a stroke", () => {
     const x = box.x + box.width / 2;
     const tip = test.page.getByRole("tooltip").getByText("2 of 3");
     let y = box.y + 40;
-    for (; y < box.y + box.height - 60 && !(await tip.isVisible()); y += 4) await test.page.mouse.move(x, y);
+    for (; y < box.y + box.height - 60 && !(await tip.isVisible()); y += 4) {
+      await test.page.mouse.move(x, y);
+      await nextFrames(test.page);
+    }
     await test.page.mouse.click(x, y - 4);
     await card().getByText("Stroke 2 of 3").waitFor();
     expect(await card().innerText()).toMatch(/Length\s*257\s*mm/);

@@ -36,7 +36,6 @@ async function openPage(): Promise<void> {
     colorScheme: "light",
   });
   page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE_MS);
   await page.goto(server.url);
 }
 

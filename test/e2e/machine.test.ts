@@ -27,7 +27,6 @@ beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2 });
   page = await (await browser.newContext({ viewport: { width: 900, height: 600 } })).newPage();
-  page.setDefaultTimeout(90_000);
   await page.goto(server.url);
   await chooseSample(page);
 });

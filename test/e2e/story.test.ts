@@ -16,7 +16,9 @@ import {
   historyPanel,
   plotBar,
   queuePanel,
+  waitForPicture,
   waitForPlan,
+  waitForPlotButton,
 } from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
@@ -55,6 +57,7 @@ afterAll(async () => {
 
 /** Preview colours that only a drawing's lines can have, and the number of pixels of each. */
 async function inked(target: Page): Promise<[color: number, count: number][]> {
+  await waitForPicture(target);
   const counts = await colorCounts(target.getByRole("img", { name: "Preview" }));
   return [...counts].filter(([color]) => saturation(rgbFromNumber(color)) > 60);
 }
@@ -91,10 +94,7 @@ describe("a newcomer with a drawing", () => {
 
   it("puts a sample on it with one click, ready to plot", async () => {
     await chooseSample(page);
-    await plotBar(page)
-      .getByRole("button", { name: "Plot", exact: true })
-      .and(page.locator(":enabled"))
-      .waitFor();
+    await waitForPlotButton(page);
     expect(pixelCount(await inked(page))).toBeGreaterThan(2_000);
   });
 

@@ -1,6 +1,6 @@
 /** On a desktop screen the page is as high as the window and does not scroll; its columns scroll separately. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { nextFrames, plotBar } from "../support/page-actions.js";
+import { plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const SIZES = [
@@ -40,11 +40,13 @@ describe.each(SIZES)("a window of $width × $height", (size) => {
       const box = (await page.locator(column).boundingBox())!;
       await page.mouse.move(box.x + 20, box.y + box.height / 2);
       for (let turn = 0; turn < 12; turn++) await page.mouse.wheel(0, 1_000);
-      await nextFrames(page);
-      await page
-        .locator(column)
-        .evaluate((element) => element.scrollTop + element.clientHeight >= element.scrollHeight - 1)
-        .then((isAtEnd) => expect(isAtEnd).toBe(true));
+      await expect
+        .poll(() =>
+          page
+            .locator(column)
+            .evaluate((element) => element.scrollTop + element.clientHeight >= element.scrollHeight - 1),
+        )
+        .toBe(true);
     }
     expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
     await page.locator(".column-run").evaluate((element) => (element.scrollTop = 0));

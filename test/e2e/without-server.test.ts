@@ -55,7 +55,6 @@ async function start(boardSpeed: number): Promise<Page> {
 
 async function openPage(boardSpeed: number): Promise<Page> {
   const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE_MS);
   // Asked before a page that plots is closed or reloaded.
   page.on("dialog", (dialog) => void dialog.accept());
   await page.goto(`${app.url}/?virtual-speed=${boardSpeed}`);

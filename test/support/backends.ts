@@ -19,7 +19,6 @@ export interface StartedPage {
   close(): Promise<void>;
 }
 
-const PATIENCE_MS = 90_000;
 /** Board seconds per second on the virtual board, at first and after `killAndReopen`. */
 const VIRTUAL_SPEED = 10;
 const SPEED_AFTER_KILL = 50;
@@ -28,7 +27,6 @@ export async function startPage(backend: BackendName, browser: Browser): Promise
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
   const open = async (url: string): Promise<Page> => {
     const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE_MS);
     page.on("dialog", (dialog) => void dialog.accept());
     await page.goto(url);
     return page;

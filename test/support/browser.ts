@@ -2,6 +2,9 @@
 import { chromium, type Browser, type LaunchOptions } from "playwright-core";
 import { findBrowser } from "../../scripts/find-browser.mjs";
 
+/** How long the page may take to show something: it is slow if the computer is busy. */
+const PATIENCE_MS = 90_000;
+
 /** Throws, with advice, if no browser is installed: a browser test is never skipped. */
 export async function browserOptions(): Promise<LaunchOptions> {
   const executablePath = await findBrowser();
@@ -21,5 +24,9 @@ export async function browserOptions(): Promise<LaunchOptions> {
  */
 export async function launchBrowser(): Promise<Browser> {
   const shared = process.env["PLOTWRIGHT_BROWSER"];
-  return shared === undefined ? chromium.launch(await browserOptions()) : chromium.connect(shared);
+  const browser = await (shared === undefined
+    ? chromium.launch(await browserOptions())
+    : chromium.connect(shared));
+  browser.on("context", (context) => context.setDefaultTimeout(PATIENCE_MS));
+  return browser;
 }

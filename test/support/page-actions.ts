@@ -56,6 +56,10 @@ export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
+/** Waits until Plot can be pressed. After a load the server may answer later than the plan is there. */
+export const waitForPlotButton = (page: Page): Promise<void> =>
+  plotBar(page).getByRole("button", { name: "Plot", exact: true, disabled: false }).waitFor();
+
 /** Waits until the empty sheet of a first visit offers the samples, with the pictures of those in view. */
 export async function waitForSamples(page: Page): Promise<void> {
   await page.locator(".sample").nth(5).waitFor({ state: "attached" });

@@ -15,8 +15,6 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-/** Time-out for what the page has to show: it is slow if the computer is busy. */
-const PATIENCE_MS = 90_000;
 const DESKTOP = { width: 1440, height: 900 };
 
 export class PageTest {
@@ -55,7 +53,6 @@ export class PageTest {
     const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
     const context = await browser.newContext({ viewport: DESKTOP, colorScheme: "light", ...options });
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
-    test.page.setDefaultTimeout(PATIENCE_MS);
     await test.page.goto(server.url);
     return test;
   }
