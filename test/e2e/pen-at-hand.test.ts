@@ -118,7 +118,7 @@ describe("a first plot", () => {
         .getByRole("button", { name: "Plot", exact: true })
         .and(page.locator(":enabled"))
         .click();
-      await expect.poll(async () => (await state()).jobs[0]?.state, { timeout: 60_000 }).toBe("done");
+      await expect.poll(async () => (await state()).jobs[0]?.state).toBe("done");
       expect(
         await page.evaluate(() => (window as unknown as { clickCount: number }).clickCount),
       ).toBeLessThanOrEqual(8);
@@ -141,9 +141,7 @@ describe("a first plot", () => {
         .and(page.locator(":enabled"))
         .click();
       await expect
-        .poll(async () => (await state()).jobs.filter(({ state: now }) => now === "done").length, {
-          timeout: 60_000,
-        })
+        .poll(async () => (await state()).jobs.filter(({ state: now }) => now === "done").length)
         .toBe(2);
       const after = await page.evaluate(() => (window as unknown as { clickCount: number }).clickCount);
       expect(after - before).toBeLessThanOrEqual(2);

@@ -85,9 +85,7 @@ describe("the second sheet", { timeout: PATIENCE_MS }, () => {
       .getByText(/^Plotting line [1-6] of 6…$/)
       .waitFor();
     await expect
-      .poll(async () => (await named(/^Ringing, /)).filter(({ state }) => state === "done").length, {
-        timeout: 60_000,
-      })
+      .poll(async () => (await named(/^Ringing, /)).filter(({ state }) => state === "done").length)
       .toBe(6);
     await dialog().getByRole("button", { name: "Plot the six lines" }).waitFor();
     const jobs = await named(/^Ringing, /);

@@ -15,7 +15,13 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-const DESKTOP = { width: 1440, height: 900 };
+/** A desktop without what costs time and is not tested here: CSS transitions, and storing the page for offline use. */
+const PLAIN: BrowserContextOptions = {
+  viewport: { width: 1440, height: 900 },
+  colorScheme: "light",
+  reducedMotion: "reduce",
+  serviceWorkers: "block",
+};
 
 export class PageTest {
   /** Messages of the browser's console. */
@@ -51,7 +57,7 @@ export class PageTest {
     prepareData(data.path);
     const browser = await launchBrowser();
     const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
-    const context = await browser.newContext({ viewport: DESKTOP, colorScheme: "light", ...options });
+    const context = await browser.newContext({ ...PLAIN, ...options });
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
     await test.page.goto(server.url);
     return test;
