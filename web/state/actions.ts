@@ -1,4 +1,4 @@
-/** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
+/** The user's actions as functions on the store: settings, drawings, jobs, the plotter. */
 import type { MachineProfile, StrokeSet } from "../../src/index.js";
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
 import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
@@ -37,7 +37,7 @@ import {
 export type Actions = ReturnType<typeof createActions>;
 
 const UNDO_DEPTH = 100;
-/** Changes of the same thing within this time are one step of undo: a slider's way is one change. */
+/** Changes of the same thing within this time are one undo step, so that dragging a slider is one step. */
 const COALESCE_MS = 800;
 const INFO_MS = 5_000;
 const HEAD_LENGTH = 4_096;
@@ -59,29 +59,29 @@ export const createActions = (deps: ActionDeps) => {
   const { store, backend, planner } = deps;
   let nextNotice = 1;
   let nextDrawing = 1;
-  /** What lay on the paper, until the file opened over it has been read. */
+  /** The drawing before the one being opened, to return to if the new file can't be read. */
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
-  /** A drawing that has just been opened, until its page is known. */
+  /** A drawing that has just been opened, until its page size is known. */
   let unplacedKey: string | null = null;
   let lastChange = { what: "", atMs: -Infinity };
 
-  const notify = (kind: Notice["kind"], words: string): void => {
-    const notice = { id: nextNotice++, kind, text: words };
+  const notify = (kind: Notice["kind"], text: string): void => {
+    const notice = { id: nextNotice++, kind, text };
     store.setState(({ notices }) => ({
-      notices: [...notices.filter((n) => n.text !== words), notice].slice(-4),
+      notices: [...notices.filter((n) => n.text !== text), notice].slice(-4),
     }));
     if (kind === "info") deps.after(INFO_MS, () => dismiss(notice.id));
   };
   const dismiss = (id: number): void =>
     store.setState(({ notices }) => ({ notices: notices.filter((notice) => notice.id !== id) }));
 
-  /** What went wrong is over as soon as something goes right. */
+  /** A successful action makes earlier error messages obsolete. */
   const clearErrors = (): void =>
     store.setState(({ notices }) => ({ notices: notices.filter(({ kind }) => kind !== "error") }));
 
   const asOperator = createAsOperator(store, backend);
 
-  /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
+  /** Sends a request to the server. A failure becomes a notice. The button called `name` is disabled meanwhile. */
   const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
     store.setState({ busyAction: name });
     try {
@@ -109,7 +109,7 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** `what` names the thing that is about to change, for undo. */
+  /** Stores the state for undo. `what` names the thing that is about to change. */
   const noteStep = (what: string): UndoStep => {
     const { settings, presets, undoStack } = store.getState();
     const before = { settings, presets };
@@ -173,7 +173,7 @@ export const createActions = (deps: ActionDeps) => {
     unplacedKey = isOther ? key : null;
     store.setState({
       drawing: { key, name, text: svg, jobId, sourceId: jobId },
-      // A file that was changed and opened again keeps what was said about its layers and its place.
+      // A file that was edited and opened again keeps its layer settings and its place.
       settings: isOther ? forOtherDrawing(settings) : settings,
       planned: null,
       fault: null,
@@ -184,7 +184,7 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** The page of the drawing is known: one that was just opened is laid on the paper by it, as one step of undo. */
+  /** Called when the drawing's page size is known. Places a drawing that was just opened, as one undo step. */
   const placeForPage = (drawingKey: string, page: PaperSize): void => {
     lastGood = null;
     if (drawingKey !== unplacedKey) return;
@@ -194,7 +194,7 @@ export const createActions = (deps: ActionDeps) => {
     if (prepare !== settings.prepare) changeSettings("place for page", (now) => ({ ...now, prepare }));
   };
 
-  /** Whether a drawing lay on the paper that came back, because the one opened over it can't be read. */
+  /** Returns to the previous drawing if the one just opened can't be read. False: there is none to return to. */
   const wentBack = ({ stage, message }: PlanFault): boolean => {
     const { drawing: unread } = store.getState();
     if (stage !== "import" || !lastGood || !unread) return false;
@@ -205,7 +205,7 @@ export const createActions = (deps: ActionDeps) => {
     return true;
   };
 
-  /** A drawing of the last visit, for which the settings are as they were left. */
+  /** Shows the drawing of the last visit. The settings were restored before. */
   const restoreDrawing = (kept: Omit<OpenDrawing, "key">): void => {
     store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
     replan();
@@ -221,7 +221,7 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** A drawing that came back as a job's has that job's settings, whatever another tab has kept meanwhile. */
+  /** If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile. */
   const takeJobSettings = (): void => {
     const { drawing, jobs, settings } = store.getState();
     if (!drawing || drawing.jobId === null) return;
@@ -284,7 +284,7 @@ export const createActions = (deps: ActionDeps) => {
     redo: () => step("redoStack", "undoStack"),
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
-    /** The job that has the plotter is watched; `jobId` names another one, which had it. */
+    /** Watch shows the running job; `jobId` names an ended job to show instead. */
     showView: (pageView: PageView, jobId?: string): void =>
       store.setState(({ watchedId }) => ({ pageView, watchedId: jobId ?? watchedId, isFullScreen: false })),
     openDrawing,
@@ -300,7 +300,7 @@ export const createActions = (deps: ActionDeps) => {
       const job = await addToQueue(copies);
       if (job) notify("info", stateText.added(job.name));
     },
-    /** From a place on, it waits there with the pen up until it is resumed. */
+    /** With `from`, the plot waits at that place with the pen up until it is resumed. */
     plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
       const job = await addToQueue(1, from);
       if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
@@ -318,7 +318,7 @@ export const createActions = (deps: ActionDeps) => {
       attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
     changeJob: (id: string, change: JobChange) =>
       attempt(`change ${id}`, () => backend.changeJob(id, change)),
-    movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, way)),
+    movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, move)),
     moveJob: (id: string, beforeId: string | null) =>
       attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
     duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
@@ -327,10 +327,7 @@ export const createActions = (deps: ActionDeps) => {
       if (id) await attempt("queue", () => backend.setQueue(id, settings));
     },
     takeOver: () => attempt("take-over", () => backend.takeOver()),
-    /**
-     * This browser's identity; requested again with each connection, because a restarted server may have
-     * forgotten it.
-     */
+    /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
     meet: async (): Promise<void> => {
       try {
         store.setState({ me: await backend.me(), isUnpaired: false });
@@ -351,17 +348,17 @@ export const createActions = (deps: ActionDeps) => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("motors-off", () => backend.motorsOff(id));
     },
-    /** Where the page itself opens the plotter's port: lets the user choose it. */
+    /** Lets the user choose the port, where the page itself opens it. */
     connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
     home: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("home", () => backend.home(id, store.getState().settings));
     },
-    /** For this page's settings, and for the plotter, which takes it for moves by hand and keeps it. */
+    /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
     chooseMachine: (profile: MachineProfile | null): void => {
       if (profile) changeSettings("machine", (settings) => withMachine(settings, profile));
     },
-    /** Looks at another plotter; its model, heights, pens and presets come with it. */
+    /** Shows another plotter with its model, heights, pens and presets. */
     choosePlotter: (id: string): void => {
       store.setState({ plotterId: id });
       sync.follow();
@@ -373,12 +370,12 @@ export const createActions = (deps: ActionDeps) => {
       if (machines) store.setState({ machines });
     },
     savePreset: (name: string): void =>
-      changePresets(`keep ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
+      changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
     /**
-     * Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. Null: it
-     * could not be added, and the user has been told.
+     * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be
+     * added, and the user has seen why.
      */
     plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
       const plotterId = currentPlotter(store.getState())?.id;
@@ -393,8 +390,8 @@ export const createActions = (deps: ActionDeps) => {
       return job;
     },
     removePreset: (name: string): void =>
-      changePresets(`forget ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
-    /** The strokes of the plan on the paper, to simulate the pen on them; not while another plan is made. */
+      changePresets(`remove ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
+    /** Gets the strokes of the current plan, to simulate the pen on them. Not answered while another plan is made. */
     askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
