@@ -1,7 +1,7 @@
-/** Words of the controls and frames that every panel uses. */
+/** Texts of the controls and frames that all panels use. */
 export const appName = "plotwright";
 
-/** In which the names of days and months are written. */
+/** The language of the names of days and months. */
 export const language = "en-GB";
 
 export const hintText = {
@@ -16,7 +16,7 @@ export const fieldText = {
 export const errorText = {
   close: "Close",
   title: "Something went wrong",
-  unexpected: "The page met an error it did not expect. Reload it; the queue is safe on the server.",
+  unexpected: "The page has failed unexpectedly. Reload it; the queue is safe on the server.",
   reload: "Reload",
-  partMissing: "This part of the page could not be fetched.",
+  partMissing: "This part of the page could not be loaded.",
 };
