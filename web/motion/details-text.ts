@@ -1,10 +1,10 @@
-/** Words of the numbers behind a quality. */
+/** Texts of the numbers behind a quality. */
 export const detailsText = {
   drawing: "Pen down",
   travelling: "Pen up",
   cornerHint:
-    "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
-  jerkHint: "How fast the acceleration may change. Less is softer and slower.",
+    "How far the line may be off the drawing at corners and in tight curves. More is faster and gentler.",
+  jerkHint: "How fast the acceleration may change. Less is gentler and slower.",
   mode: "Corners",
   shaper: "Against swinging",
   shapers: {
