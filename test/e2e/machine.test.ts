@@ -82,10 +82,10 @@ describe("moving by hand", () => {
   it("moves to a position, and makes it home", async () => {
     await page.getByLabel("From home, right").fill("50");
     await page.getByLabel("From home, down").fill("30");
-    close(await move(() => button("Walk there").click()), 50, 30);
+    close(await move(() => button("Go there").click()), 50, 30);
     close(await move(() => button("Set home here").click()), 0, 0);
     close(await move(() => button("Right by 1 mm").click()), 1, 0);
-    close(await move(() => button("Walk home").click()), 0, 0);
+    close(await move(() => button("Go home").click()), 0, 0);
   });
 
   it("traces the frame of the drawing, cycles the pen, and draws a test patch", async () => {
@@ -146,19 +146,19 @@ describe("setting a plotter up", () => {
     close(await move(() => press("Move 20 mm nearer"), "/jog"), 0, 20);
     await press("Left");
     close(await move(() => press("Right"), "/jog"), 20, 0);
-    await press("Yes, it goes there");
+    await press("Yes, both are right");
     await move(() => press("Draw the square"));
     await wizard().getByLabel("Measured width").fill("80");
     await wizard().getByLabel("Measured height").fill("80");
     await wizard().getByText("100 steps are one millimetre").waitFor();
-    await press("Take this");
+    await press("Use this");
     await wizard().getByRole("radio", { name: "B2 (brushless)" }).check();
     await move(() => wizard().getByLabel("Highest").fill("20000"));
     await move(() => wizard().getByLabel("Lowest").fill("12000"));
     await press("Next");
     await wizard().getByLabel("Name").fill("Old Friend");
     await wizard().getByLabel("Right", { exact: true }).fill("290");
-    await press("Save and use it");
+    await press("Save and use");
     await wizard().waitFor({ state: "detached" });
 
     const { machines } = machineListSchema.parse(await (await fetch(`${server.url}/api/v1/machines`)).json());
@@ -219,11 +219,11 @@ describe("machines as files", () => {
       mimeType: "application/json",
       buffer: Buffer.from(JSON.stringify(content)),
     });
-    const chooser = sheet.getByLabel("Read a machine from a file");
+    const chooser = sheet.getByLabel("Load a machine from a file");
     await chooser.setInputFiles(file({ ...profile, stepsPerMm: -1 }));
     await sheet.getByText(/stepsPerMm/).waitFor();
     await chooser.setInputFiles(file(profile));
-    await sheet.getByLabel("Steps for one mm").fill("120");
+    await sheet.getByLabel("Steps per mm").fill("120");
     await button("Save and use", sheet).click();
     await button("Edit A1 clone", sheet).waitFor();
     const download = page.waitForEvent("download");

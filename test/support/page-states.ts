@@ -230,9 +230,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Machines…" }).click();
-      await page
-        .getByRole("button", { name: "Make a machine of your own from AxiDraw V3", exact: true })
-        .click();
+      await page.getByRole("button", { name: "Copy AxiDraw V3 to a new machine", exact: true }).click();
       await page.getByText("Pen servo").waitFor();
     },
   },
@@ -332,7 +330,7 @@ export const PAGE_STATES: readonly PageState[] = [
       }
       await openTab(page, "Queue");
       await queuePanel(page).getByRole("button", { name: "More for hello" }).click();
-      await page.getByText("Lay on the paper").waitFor();
+      await page.getByRole("button", { name: "Open hello" }).waitFor();
     },
   },
   {
@@ -350,11 +348,11 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page, openOther }) => {
       const other = await openOther();
       await openTab(other, "Queue");
-      await queuePanel(other).getByRole("radio", { name: "Run on" }).click();
+      await queuePanel(other).getByRole("radio", { name: "Start the next" }).click();
       await page.getByText("is operating.").waitFor();
       await openTab(page, "Queue");
       await queuePanel(page).getByRole("radio", { name: "Wait for paper" }).click();
-      await page.getByRole("dialog", { name: "Another browser operates" }).waitFor();
+      await page.getByRole("dialog", { name: "Another browser is operating" }).waitFor();
     },
   },
   {

@@ -98,7 +98,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
   const follow = useMemo(
     () =>
       servoFollower(
-        ({ isUp, pct }) => movePen(isUp, pct),
+        ({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct),
         (delayMs, callback) => void setTimeout(callback, delayMs),
       ),
     [movePen],
