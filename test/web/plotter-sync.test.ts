@@ -20,7 +20,7 @@ class Plotters {
   readonly stored: Record<string, PlotterSettings> = {};
   machine: string | null = null;
   refuses = false;
-  /** Another browser operates. */
+  /** Another browser is the operator. */
   isOthers = false;
   putCount = 0;
   readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];

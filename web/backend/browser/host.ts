@@ -1,4 +1,4 @@
-/** Opens the host of a browser: the queue and the plotters, stored in IndexedDB. */
+/** Opens a browser's host: the queue and the plotters, stored in IndexedDB. */
 import { PlotwrightError } from "../../../src/index.js";
 import { machineOf } from "../../../src/internal.js";
 import {
@@ -32,13 +32,13 @@ const PROGRESS_MS = 100;
 export interface Host {
   readonly api: HostApi;
   snapshot(): Snapshot;
-  /** Resolves when all changes so far are stored; rejects with what to do if they can't be. */
+  /** Resolves when all changes so far are stored. Rejects with a message for the user if that fails. */
   written(): Promise<void>;
-  /** Stops what is plotting, stores everything and gives the port back. */
+  /** Stops a running plot, stores everything and releases the port. */
   close(): Promise<void>;
 }
 
-/** `send` gets every event once what it reports is stored, in order. */
+/** `send` gets every event in order, after the change that it reports is stored. */
 export async function openHost(start: WorkerStart, send: (event: ServerEvent) => void): Promise<Host> {
   const nowIso = (): string => new Date().toISOString();
   let isFaultKnown = false;
@@ -91,7 +91,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
       return id;
     },
     read: async (id: string): Promise<DrawingText> => {
-      // A plot begins by reading its drawing: by then its new state is stored.
+      // A plot begins by reading its drawing. Waiting here makes sure that its new state is stored before.
       await db.written();
       const drawing = await db.readDrawing(id);
       if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
@@ -140,7 +140,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
   };
 }
 
-/** Holds each event back until all changes before it are stored, and sends progress ten times a second. */
+/** Sends each event after all changes before it are stored, and progress ten times a second. */
 function announcer(db: Database, send: (event: ServerEvent) => void): (event: ServerEvent) => void {
   let last: Promise<void> = Promise.resolve();
   let progressAtMs = -Infinity;
@@ -149,13 +149,13 @@ function announcer(db: Database, send: (event: ServerEvent) => void): (event: Se
       if (performance.now() - progressAtMs < PROGRESS_MS) return;
       progressAtMs = performance.now();
     }
-    // What can't be stored is announced all the same, with a notice: a plot must not become invisible.
+    // A change that can't be stored is announced too, with a notice: a plot must not become invisible.
     const stored = db.written().catch(() => undefined);
     last = last.then(() => stored).then(() => send(event));
   };
 }
 
-/** Drawings whose job was never added, because the page was closed before. */
+/** Removes drawings without a job, left by a page that was closed before it added the job. */
 async function removeUnused(db: Database, store: StoredModel): Promise<void> {
   for (const id of await db.drawingIds()) if (!store.isUsed(id)) db.remove("drawings", id);
 }
