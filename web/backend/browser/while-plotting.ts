@@ -1,4 +1,4 @@
-/** While the page's own worker plots: keeps the screen on, and asks before the page is closed. */
+/** While this page runs a plot: keeps the screen on, and asks before the page is closed. */
 import type { ServerEvent } from "../../../src/schema/index.js";
 import type { HostClient } from "./host-client.js";
 
@@ -12,7 +12,7 @@ export const watchOverPlots = (client: HostClient): void => {
       void wakeLock?.then((sentinel) => sentinel?.release());
       wakeLock = null;
     } else if (wakeLock === null && "wakeLock" in navigator && document.visibilityState === "visible") {
-      // If it is refused (low battery), the computer's own settings apply.
+      // Where it is refused (a low battery), the computer's own settings apply.
       wakeLock = navigator.wakeLock.request("screen").catch(() => null);
     }
   };
@@ -30,7 +30,7 @@ export const watchOverPlots = (client: HostClient): void => {
   };
 
   client.listen({ onEvent, onLink: () => undefined });
-  // The browser releases the lock when the page is hidden.
+  // The browser takes the lock back when the page is hidden.
   document.addEventListener("visibilitychange", () => {
     if (document.visibilityState === "visible") {
       wakeLock = null;
