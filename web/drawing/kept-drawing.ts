@@ -22,7 +22,7 @@ export const readKeptDrawing = async (storage: DrawingStorage): Promise<KeptDraw
   return parsed.success ? parsed.data : null;
 };
 
-/** Stores each drawing after its first plan, so that one that can't be read is never restored. */
+/** Keeps each drawing once it has been planned: one that can't be read is nothing to come back to. */
 export const keepDrawing = (store: PageStore, storage: DrawingStorage): (() => void) => {
   let kept = "";
   return store.subscribe(({ drawing, planned }) => {
@@ -51,7 +51,7 @@ export const browserDrawings = (): DrawingStorage => {
       try {
         await answerOf((await table("readwrite")).put(drawing, KEY));
       } catch {
-        // No room for this one. An older drawing must not be restored instead.
+        // No room for this one: an older drawing must not come back in its place.
         await answerOf((await table("readwrite")).delete(KEY));
       }
     },

@@ -3,8 +3,8 @@ export const detailsText = {
   drawing: "Pen down",
   travelling: "Pen up",
   cornerHint:
-    "How far the line may be off the drawing at corners and in tight curves. More is faster and gentler.",
-  jerkHint: "How fast the acceleration may change. Less is gentler and slower.",
+    "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
+  jerkHint: "How fast the acceleration may change. Less is softer and slower.",
   mode: "Corners",
   shaper: "Against swinging",
   shapers: {

@@ -65,7 +65,7 @@ const QualityChoice = ({ chosen }: { chosen: Quality | "custom" }) => {
   );
 };
 
-/** The machine's measured swing, or why to measure it. */
+/** How the machine swings, or why to measure it. */
 const Swing = () => {
   const springs = useSprings();
   const store = usePageStore();

@@ -15,7 +15,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
-/** `children`: the settings for lifting the pen, which are in the pens' folder. */
+/** `children`: how the pen is lifted, which the pens' folder has. */
 export const MachinePanel = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);

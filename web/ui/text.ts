@@ -16,7 +16,7 @@ export const fieldText = {
 export const errorText = {
   close: "Close",
   title: "Something went wrong",
-  unexpected: "The page has failed unexpectedly. Reload it; the queue is safe on the server.",
+  unexpected: "The page met an error it did not expect. Reload it; the queue is safe on the server.",
   reload: "Reload",
-  partMissing: "This part of the page could not be loaded.",
+  partMissing: "This part of the page could not be fetched.",
 };

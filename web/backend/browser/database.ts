@@ -23,7 +23,7 @@ interface Change {
 export class Database {
   readonly #db: IDBDatabase;
   readonly #onFault: (error: unknown) => void;
-  /** Changes that are not in a transaction yet, by store and key. */
+  /** Changes that no transaction has taken yet, by store and key. */
   #queued = new Map<string, Change>();
   #running: Promise<void> = Promise.resolve();
   /** The transaction after the running one. When it begins, it takes all queued changes. */
@@ -35,7 +35,7 @@ export class Database {
     this.#onFault = onFault;
   }
 
-  /** `onFault` is called for each transaction that failed. Its changes are tried again. */
+  /** `onFault`: called for each transaction that failed; its changes are tried again. */
   static async open(name: string, onFault: (error: unknown) => void): Promise<Database> {
     const request = indexedDB.open(name, VERSION);
     request.onupgradeneeded = () => {
@@ -46,7 +46,7 @@ export class Database {
     return new Database(await settled(request), onFault);
   }
 
-  /** All records of a store. Drawings are read one by one, because they may be large. */
+  /** Everything that is stored, without the drawings. */
   async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
     const found = this.#db.transaction(store).objectStore(store);
     const [keys, values] = await Promise.all([settled(found.getAllKeys()), settled(found.getAll())]);

@@ -38,7 +38,7 @@ export interface Host {
   close(): Promise<void>;
 }
 
-/** `send` gets every event in order, after the change that it reports is stored. */
+/** `send` gets every event once what it reports is stored, in order. */
 export async function openHost(start: WorkerStart, send: (event: ServerEvent) => void): Promise<Host> {
   const nowIso = (): string => new Date().toISOString();
   let isFaultKnown = false;
@@ -140,7 +140,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
   };
 }
 
-/** Sends each event after all changes before it are stored, and progress ten times a second. */
+/** Holds each event back until all changes before it are stored, and sends progress ten times a second. */
 function announcer(db: Database, send: (event: ServerEvent) => void): (event: ServerEvent) => void {
   let last: Promise<void> = Promise.resolve();
   let progressAtMs = -Infinity;
@@ -155,7 +155,7 @@ function announcer(db: Database, send: (event: ServerEvent) => void): (event: Se
   };
 }
 
-/** Removes drawings without a job, left by a page that was closed before it added the job. */
+/** Drawings whose job was never added, because the page was closed before. */
 async function removeUnused(db: Database, store: StoredModel): Promise<void> {
   for (const id of await db.drawingIds()) if (!store.isUsed(id)) db.remove("drawings", id);
 }

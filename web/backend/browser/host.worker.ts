@@ -22,7 +22,7 @@ type Call = Extract<ToHost, { type: "call" }>;
 const start = JSON.parse(self.name) as WorkerStart;
 const channel = new BroadcastChannel(CHANNEL);
 let host: Host | null = null;
-/** Releases the lock, so that this worker is no longer the host. */
+/** Ends this worker's time as the host. */
 let release: () => void = () => undefined;
 /** The page that another host has handed over to. */
 let next: string | null = null;

@@ -6,7 +6,7 @@ import type { ErrorCode } from "../../../src/index.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
 import type { HostApi, HostMethod } from "./host-api.js";
 
-/** Change this when the messages change, so that pages of different versions do not talk to each other. */
+/** Changes with the messages, so that pages of different versions do not misunderstand each other. */
 export const CHANNEL = "plotwright-1";
 /** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
 export const HOST_LOCK = "plotwright-host";
