@@ -64,7 +64,9 @@ const OperatorStrip = () => {
   );
 };
 
-/** Server errors that no request of this page caused, such as a bad file in the watched folder. Shown until dismissed. */
+/**
+ * Server errors that no request of this page caused, such as a bad file in the watched folder. Shown until dismissed.
+ */
 const ServerNotices = () => {
   const notices = usePageState((state) => state.serverNotices);
   const { dismissServerNotice } = useActions();

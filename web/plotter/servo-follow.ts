@@ -1,4 +1,7 @@
-/** Lets the pen follow a slider: one move at a time, at most five a second. Of the positions in between only the last counts. */
+/**
+ * Lets the pen follow a slider: one move at a time, at most five a second. Of the positions in between only the last
+ * counts.
+ */
 
 const INTERVAL_MS = 200;
 

@@ -221,7 +221,9 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile. */
+  /**
+   * If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile.
+   */
   const takeJobSettings = (): void => {
     const { drawing, jobs, settings } = store.getState();
     if (!drawing || drawing.jobId === null) return;

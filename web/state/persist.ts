@@ -71,7 +71,9 @@ export const parseRemembered = (stored: string | null): Remembered => {
   return { settings: settingsOr(recordOf(root.settings)), view: partOr(viewSchema, DEFAULT_VIEW, root.view) };
 };
 
-/** Parses each part (paper and fill, speeds, pen, machine …) separately, so that one bad part does not reset the rest. */
+/**
+ * Parses each part (paper and fill, speeds, pen, machine …) separately, so that one bad part does not reset the rest.
+ */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [

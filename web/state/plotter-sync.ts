@@ -174,7 +174,10 @@ export interface KeptHere {
   readonly settings: PlotterSettings;
 }
 
-/** A job's settings as the page opens them. A running job keeps its own; another one gets the plotter's heights and pens. */
+/**
+ * A job's settings as the page opens them. A running job keeps its own; another one gets the plotter's heights and
+ * pens.
+ */
 export const openedSettings = (state: PageState, job: Job): PlotSettings => {
   const plotter = currentPlotter(state);
   const own = plotter && state.plotterSettings[plotter.id];

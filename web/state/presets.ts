@@ -1,4 +1,6 @@
-/** Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server. */
+/**
+ * Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server.
+ */
 import { findMachine } from "../../src/internal.js";
 import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
 import { plannable } from "./motion-of-machine.js";

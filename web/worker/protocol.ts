@@ -86,7 +86,9 @@ export interface Planned {
   readonly scene: Scene;
   /** The mean distance between neighbouring lines, where there are lines. */
   readonly lineGapMm: number;
-  /** A copy of the scene's pieces, to be transferred to the drawing thread. Made in the worker, to save the page time. */
+  /**
+   * A copy of the scene's pieces, to be transferred to the drawing thread. Made in the worker, to save the page time.
+   */
   readonly picture: Picture;
   /** The worker's time per stage, ms. */
   readonly tookMs: {

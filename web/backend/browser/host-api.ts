@@ -1,4 +1,7 @@
-/** The methods that pages call on the host. As in the server's routes, arguments are checked by the schemas of src/schema. */
+/**
+ * The methods that pages call on the host. As in the server's routes, arguments are checked by the schemas of
+ * src/schema.
+ */
 import { z } from "zod";
 import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
 import { usbIds } from "../../../src/internal.js";

@@ -1,4 +1,6 @@
-/** The serial ports that the user has allowed this page to use. A worker can open them; only a page can ask for more. */
+/**
+ * The serial ports that the user has allowed this page to use. A worker can open them; only a page can ask for more.
+ */
 import { PlotwrightError } from "../../../src/index.js";
 import { usbIds, type UsbId } from "../../../src/internal.js";
 import type { Devices, FoundBoard } from "../../../host/plotter/devices.js";
