@@ -106,7 +106,7 @@ async function start(page: Page, name: string, text: string): Promise<void> {
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 
-/** Of a job: on the status card where it is watched, else in the queue, on a phone in the bar under the thumb. */
+/** A job's buttons: on the status card in Watch, otherwise in the queue, on a phone in the bar at the bottom. */
 const button = (page: Page, name: string | RegExp) =>
   statusCard(page).or(queuePanel(page)).or(plotBar(page)).getByRole("button", { name });
 
@@ -398,7 +398,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openTab(page, "Set up");
       const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
-      // On a phone the sheet may lie over the one to be pressed.
+      // On a phone the sheet may cover the button.
       while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
     },
   },

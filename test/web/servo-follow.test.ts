@@ -26,7 +26,7 @@ describe("a pen that follows a slider", () => {
     expect(moves.at(-1)?.[1]).toBe(79);
     const gapsMs = moves.slice(1).map(([atMs], k) => atMs - moves[k][0]);
     expect(Math.min(...gapsMs)).toBeGreaterThanOrEqual(200);
-    // A move that takes long holds the next one back.
+    // A slow move delays the next one.
     expect(Math.max(...gapsMs)).toBeGreaterThanOrEqual(700);
     expect(moves.length).toBeLessThanOrEqual(6);
   });

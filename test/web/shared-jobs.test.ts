@@ -36,7 +36,7 @@ describe("a shared job", () => {
     expect(possibleAction(there, NOW_MS)).toBeNull();
   });
 
-  it("can be returned when its server has gone, unless its plot has begun", () => {
+  it("can be given to another server when its own does not answer, unless its plot has begun", () => {
     const lost = { ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS + 1_000) };
     expect(possibleAction(job(lost), NOW_MS)).toBe("give-back");
     expect(possibleAction(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");

@@ -84,7 +84,7 @@ describe("strokes drawn by a worker", () => {
     expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
   });
 
-  it("copy the page's own if the copy was given away before", () => {
+  it("copy the page's own if the copy was transferred before", () => {
     const copy = picture();
     setUp().strokes.setScene(scene(), copy);
     const { worker, strokes } = setUp();
