@@ -1,31 +1,20 @@
-/** The user's actions as functions on the store: settings, drawings, jobs, the plotter. */
+/** The user's actions as functions on the store. Those for jobs and the plotter are in job-actions.ts. */
 import type { MachineProfile, StrokeSet } from "../../src/index.js";
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
-import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
-import type {
-  Job,
-  JobChange,
-  JobPlace,
-  JobPatch,
-  MovePlace,
-  NewJob,
-  PlotSettings,
-  Preset,
-  QueueSettings,
-} from "../../src/schema/index.js";
+import { BackendFault, type Backend } from "../backend/backend.js";
+import type { Job, PlotSettings, Preset } from "../../src/schema/index.js";
 import { stateText } from "./text.js";
 import type { Planner } from "../worker/planner.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { ExportFormat, PlanFault } from "../worker/protocol.js";
+import { createJobActions } from "./job-actions.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, openedSettings, withMachine } from "./plotter-sync.js";
 import { fromPreset, withPreset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
 import {
-  activeJob,
   boardFirmware,
-  currentPlotter,
   type Notice,
   type OpenDrawing,
   type PageState,
@@ -257,25 +246,6 @@ export const createActions = (deps: ActionDeps) => {
     showJobSettings(job);
   };
 
-  const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
-    const state = store.getState();
-    const { drawing, settings } = state;
-    if (!drawing) return null;
-    const plotterId = currentPlotter(state)?.id;
-    const newJob = {
-      name: drawing.name,
-      settings,
-      ...(plotterId ? { plotterId } : {}),
-      ...(copies > 1 ? { copies } : {}),
-      ...(from ? { from } : {}),
-    };
-    const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
-    if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
-      store.setState({ drawing: { ...drawing, jobId: job.id } });
-    }
-    return job;
-  };
-
   return {
     notify,
     dismiss,
@@ -298,36 +268,7 @@ export const createActions = (deps: ActionDeps) => {
     openPasted,
     openSample,
     openJob,
-    queueDrawing: async (copies = 1): Promise<void> => {
-      const job = await addToQueue(copies);
-      if (job) notify("info", stateText.added(job.name));
-    },
-    /** With `from`, the plot waits at that place with the pen up until it is resumed. */
-    plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
-      const job = await addToQueue(1, from);
-      if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
-    },
-    saveToJob: async (id: string): Promise<void> => {
-      const { settings } = store.getState();
-      const job = await attempt("save", () => backend.patchJob(id, { settings }));
-      if (!job) return;
-      notify("info", stateText.saved(job.name));
-      store.setState(({ drawing, settings: now }) =>
-        drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
-      );
-    },
-    actOnJob: (id: string, action: JobAction) =>
-      attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
-    changeJob: (id: string, change: JobChange) =>
-      attempt(`change ${id}`, () => backend.changeJob(id, change)),
-    movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, move)),
-    moveJob: (id: string, beforeId: string | null) =>
-      attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
-    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
-    setQueue: async (settings: QueueSettings): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("queue", () => backend.setQueue(id, settings));
-    },
+    ...createJobActions({ store, backend, attempt, notify }),
     takeOver: () => attempt("take-over", () => backend.takeOver()),
     /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
     meet: async (): Promise<void> => {
@@ -339,23 +280,6 @@ export const createActions = (deps: ActionDeps) => {
       }
     },
     dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
-    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
-    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
-    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (!id) return notify("error", stateText.needsServer);
-      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
-    },
-    motorsOff: async (): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("motors-off", () => backend.motorsOff(id));
-    },
-    /** Lets the user choose the port, where the page itself opens it. */
-    connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
-    home: async (): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("home", () => backend.home(id, store.getState().settings));
-    },
     /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
     chooseMachine: (profile: MachineProfile | null): void => {
       if (profile) changeSettings("machine", (settings) => withMachine(settings, profile));
@@ -375,22 +299,6 @@ export const createActions = (deps: ActionDeps) => {
       changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
-    /**
-     * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be
-     * added, and the user has seen why.
-     */
-    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
-      const plotterId = currentPlotter(store.getState())?.id;
-      const job = await attempt("add", () =>
-        backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
-      );
-      if (!job) return null;
-      store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
-      if (activeJob(store.getState()) === null)
-        await attempt("plot", () => backend.actOnJob(job.id, "start"));
-      else notify("info", stateText.added(job.name));
-      return job;
-    },
     removePreset: (name: string): void =>
       changePresets(`remove ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
     /** Gets the strokes of the current plan, to simulate the pen on them. Not answered while another plan is made. */
