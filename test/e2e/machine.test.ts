@@ -107,10 +107,10 @@ describe("moving by hand", () => {
     await waitForPlan(page);
     await button("Plot", plotBar(page)).click();
     await queuePanel(page).getByRole("progressbar").waitFor();
-    await page.getByText("Moves by hand come back when it ends").waitFor();
+    await page.getByText("You can move by hand again when it ends").waitFor();
     expect(await button(/^Right by/).isDisabled()).toBe(true);
     await button("Console", machinePanel()).click();
-    await page.getByText("commands typed in between would spoil it").waitFor();
+    await page.getByText("Commands sent now would spoil it").waitFor();
     expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
     await page.keyboard.press("Escape");
     await button("Cancel", statusCard(page)).click();
@@ -150,7 +150,7 @@ describe("setting a plotter up", () => {
     await move(() => press("Draw the square"));
     await wizard().getByLabel("Measured width").fill("80");
     await wizard().getByLabel("Measured height").fill("80");
-    await wizard().getByText("100 steps are one millimetre").waitFor();
+    await wizard().getByText("100 steps per mm").waitFor();
     await press("Use this");
     await wizard().getByRole("radio", { name: "B2 (brushless)" }).check();
     await move(() => wizard().getByLabel("Highest").fill("20000"));

@@ -119,7 +119,7 @@ describe("two browsers and a watcher", () => {
   });
 
   it("the watcher sees the plot and who operates, may stop it, and has nothing to change", async () => {
-    await watcher.getByText("this device watches").waitFor();
+    await watcher.getByText("this device can watch").waitFor();
     expect(await plotButton(watcher).count()).toBe(0);
     expect(await watcher.getByLabel("Choose a drawing").isVisible()).toBe(false);
     expect(await watcher.getByRole("button", { name: "Prepare" }).count()).toBe(0);

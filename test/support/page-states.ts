@@ -300,7 +300,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await start(page, "lines", ruledSheet());
       await page.getByRole("button", { name: "Full screen" }).click();
-      await page.getByRole("button", { name: "End full screen" }).waitFor();
+      await page.getByRole("button", { name: "Exit full screen" }).waitFor();
     },
   },
   {

@@ -13,7 +13,7 @@ export const motionText = {
   figures: (speed: string, accel: string, corner: string) =>
     `Pen down: up to ${speed} mm/s, ${accel} mm/s², corners rounded by ${corner}`,
   unmeasured:
-    "For Fine and Fast, plotwright has to know how your plotter swings. Measuring it takes ten minutes and makes plots faster and more exact.",
+    "For Fine and Fast, plotwright has to know how your plotter swings. Ten minutes with the ringing sheet make plots faster and more exact.",
   measured: (x: string, y: string) => `This plotter swings at ${x} Hz along x and ${y} Hz along y.`,
   measure: "Measure ringing…",
   measureAgain: "Measure again…",

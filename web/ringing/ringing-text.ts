@@ -21,7 +21,7 @@ export const ringingText = {
   axes: {
     x: { legend: "Sideways swing (x)", hint: "On the vertical parts, after the corner at their top." },
     y: {
-      legend: "Swing up and down the page (y)",
+      legend: "Swing to and fro (y)",
       hint: "On the horizontal parts, after the corner at their left.",
     },
   },
