@@ -23,7 +23,7 @@ export async function dropFile(
 
 export const plotBar = (page: Page): Locator => page.getByRole("region", { name: "Plot", exact: true });
 export const queuePanel = (page: Page): Locator => page.getByRole("region", { name: "Queue" });
-/** In Watch: the plot's progress and its buttons. */
+/** In Watch: how far the plot is, and its buttons. */
 export const statusCard = (page: Page): Locator => page.getByRole("region", { name: "Plot under way" });
 export const historyPanel = (page: Page): Locator => page.getByRole("region", { name: "History" });
 
@@ -31,7 +31,7 @@ export const historyPanel = (page: Page): Locator => page.getByRole("region", { 
 export const openView = (page: Page, name: "Prepare" | "Watch"): Promise<void> =>
   page.getByRole("group", { name: "View" }).getByRole("button", { name, exact: true }).click();
 
-/** Opens a tab on a phone's width. On a wide screen there are no tabs, and this does nothing. */
+/** On a phone's width the columns are tabs; on a desk everything stands side by side and there is nothing to do. */
 export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"): Promise<void> {
   const tab = page.getByRole("navigation", { name: "Panels" }).getByRole("button", { name, exact: true });
   if (await tab.isVisible()) await tab.click();
@@ -56,7 +56,7 @@ export async function waitForPlan(page: Page): Promise<void> {
   await plotBar(page).getByText("Time", { exact: true }).waitFor({ state: "attached" });
 }
 
-/** Waits until the empty sheet of a first visit shows the samples, with the visible ones' pictures. */
+/** Waits until the empty sheet of a first visit offers the samples, with the pictures of those in view. */
 export async function waitForSamples(page: Page): Promise<void> {
   await page.locator(".sample").nth(5).waitFor({ state: "attached" });
   await page.locator(".sample img").first().waitFor();

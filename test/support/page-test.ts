@@ -15,7 +15,7 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-/** Time limit for the page to show something, because it is slow on a busy computer. */
+/** Time-out for what the page has to show: it is slow if the computer is busy. */
 const PATIENCE_MS = 90_000;
 const DESKTOP = { width: 1440, height: 900 };
 
@@ -93,7 +93,7 @@ export class PageTest {
     if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
   }
 
-  /** Chooses a look of the drawing. */
+  /** Looks at the drawing that way. */
   async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();
