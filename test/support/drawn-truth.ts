@@ -24,7 +24,8 @@ interface Drawn {
 
 type Interval = readonly [from: number, to: number];
 
-export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): DrawnTruth {
+/** @param besideMm what is drawn farther from the drawing than this is no part of it; `awayMm` reports it */
+export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[], besideMm = Infinity): DrawnTruth {
   const rail = railOf(strokes);
   const intervals: Interval[] = [];
   let awayMm = 0;
@@ -36,7 +37,7 @@ export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): Drawn
       const now = nearest(rail, xy[i], xy[i + 1]);
       awayMm = Math.max(awayMm, now.awayMm);
       // A line between two strokes belongs to neither; `awayMm` reports it.
-      if (before?.stroke === now.stroke) {
+      if (before?.stroke === now.stroke && Math.max(before.awayMm, now.awayMm) <= besideMm) {
         passed.push([Math.min(before.alongMm, now.alongMm), Math.max(before.alongMm, now.alongMm)]);
       }
       before = now;
