@@ -32,18 +32,19 @@ export function swungPlace(
   axisX.rate += carriage.vx;
   axisY.rate += carriage.vy;
   const untilS = 1 / (2 * Math.min(springs.xHz, springs.yHz));
+  let [now, furthest] = [place, place];
   for (let s = 0; s < untilS; s += STEP_S) {
     axisX.advance(STEP_S, 0);
     axisY.advance(STEP_S, 0);
     const [x, y] = [carriage.x + axisX.d, carriage.y + axisY.d];
     const pen = { x, y, vx: axisX.rate, vy: axisY.rate };
-    const stepMm = STEP_S * Math.hypot(pen.vx, pen.vy);
-    const next = snappedPlace(strokes, place, pen, 2 * stepMm + NEAR_MM);
-    const on = pointOfPlace(strokes, next);
-    if (next.alongMm < place.alongMm || Math.hypot(on.x - x, on.y - y) > NEAR_MM) break;
-    place = next;
+    now = snappedPlace(strokes, now, pen, STEP_S * Math.hypot(pen.vx, pen.vy) + NEAR_MM);
+    // Turned back, it stays where it was.
+    const on = pointOfPlace(strokes, now);
+    if (Math.hypot(on.x - x, on.y - y) > NEAR_MM) break;
+    if (now.alongMm > furthest.alongMm) furthest = now;
   }
-  return place;
+  return furthest;
 }
 
 /** The pen's swing about the carriage at an instant of a run. */
