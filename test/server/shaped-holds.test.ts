@@ -1,4 +1,7 @@
-/** Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped. swinging-stops.test.ts: on a board with springs. */
+/**
+ * Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped.
+ * swinging-stops.test.ts has what they leave on the paper.
+ */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { Place } from "../../src/index.js";
