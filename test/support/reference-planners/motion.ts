@@ -72,7 +72,11 @@ export function shapedRuns(runs: WritesRuns, kernel: Kernel): WritesRuns {
       for (let i = first; i < out.count; i++) {
         const tS = out.startS[i] - startS + beginS - kernel.meanDelayS;
         while (k + 1 < planned.count && planned.startS[k + 1] <= tS) k++;
-        out.alongMm[i] = planned.alongMm[k];
+        const { durationS, vx, vy, ax, ay, alongMm } = planned;
+        const s = Math.min(durationS[k], Math.max(0, tS - planned.startS[k]));
+        // Exact on straights, which are long; blends are short.
+        const speed = Math.hypot(vx[k] + (s * ax[k]) / 2, vy[k] + (s * ay[k]) / 2);
+        out.alongMm[i] = alongMm[k] + s * speed;
       }
       out.addSegments(path.segmentCount);
     },
