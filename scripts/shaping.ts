@@ -25,7 +25,11 @@ import {
   SHAPERS,
   type Springs,
 } from "../src/internal.js";
+import { shaperKernel } from "../src/plan/shapers.js";
+import type { WritesRuns } from "../src/plan/run-writer.js";
 import { inverseMotion } from "../test/support/inverse-motion.js";
+import { referenceRuns, shapedRuns } from "../test/support/reference-planners/motion.js";
+import { REFERENCE_PLANNERS } from "../test/support/reference-planners/systems.js";
 import { markdownTable } from "./settings-table.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "samples");
@@ -46,13 +50,15 @@ interface Way {
   readonly motion: MotionSettings;
   /** u = q + (2ζ/ω) q′ + q″/ω² of the plan. */
   readonly isInverse?: boolean;
+  /** Another system's rules, instead of ours. */
+  readonly runs?: WritesRuns;
 }
 
-function rowOf(springs: Springs, { name, motion, isInverse }: Way): string[] {
+function rowOf(springs: Springs, { name, motion, isInverse, runs }: Way): string[] {
   const machine = { ...machineById("axidraw-v3"), springs };
   const rows = drawings.map((strokes) => {
     const before = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN, { machine });
-    const planned = plan(strokes, motion, DEFAULT_PEN, { machine });
+    const planned = plan(strokes, motion, DEFAULT_PEN, { machine, runs });
     const after = isInverse ? inverseMotion(planned, springs) : planned;
     const errorOf = (t: Trajectory, factor: number) =>
       penError(strokes, t, { ...springs, xHz: factor * springs.xHz, yHz: factor * springs.yHz });
@@ -95,13 +101,20 @@ const ways: readonly Way[] = [
   ...SHAPERS.map((shaper): Way => ({ name: shaper, motion: { ...fast, shaper } })),
   ...[10_000, 40_000, 160_000].map(inverse),
 ];
-/** Each corner rule at the limits of quality fast, shaped and not; scurve is a filter itself. */
+const kernel = shaperKernel("zv", springs)!;
+/** Every system's rule at the limits of quality fast, shaped and not; scurve is a filter itself. */
 const rules: readonly Way[] = [
-  ...MOTION_MODES.map((mode): Way => ({ name: mode, motion: { ...fast, mode, shaper: "none" } })),
-  ...(["junction", "blend"] as const).map((mode): Way => ({
-    name: `${mode}, shaped`,
-    motion: { ...fast, mode },
-  })),
+  ...REFERENCE_PLANNERS.flatMap((reference): Way[] => {
+    const runs = referenceRuns(reference);
+    return [
+      { name: reference.name, motion: fast, runs },
+      { name: `${reference.name}, shaped`, motion: fast, runs: shapedRuns(runs, kernel) },
+    ];
+  }),
+  ...MOTION_MODES.flatMap((mode): Way[] => [
+    { name: `plotwright ${mode}`, motion: { ...fast, mode, shaper: "none" } },
+    ...(mode === "scurve" ? [] : [{ name: `plotwright ${mode}, shaped`, motion: { ...fast, mode } }]),
+  ]),
 ];
 
 const steps: readonly (readonly [Springs, Way])[] = SPRINGS.flatMap((one) =>

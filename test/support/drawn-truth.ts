@@ -24,7 +24,11 @@ interface Drawn {
 
 type Interval = readonly [from: number, to: number];
 
-export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): DrawnTruth {
+/**
+ * @param besideMm a line that leaves the drawing by more than this is no part of it from there on, even where it crosses
+ *   the drawing again; `awayMm` reports it
+ */
+export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[], besideMm = Infinity): DrawnTruth {
   const rail = railOf(strokes);
   const intervals: Interval[] = [];
   let awayMm = 0;
@@ -32,11 +36,13 @@ export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[]): Drawn
     if (!penDown || xy.length < 4) continue;
     const passed: Interval[] = [];
     let before: Nearest | null = null;
+    let isBeside = false;
     for (let i = 0; i < xy.length; i += 2) {
       const now = nearest(rail, xy[i], xy[i + 1]);
       awayMm = Math.max(awayMm, now.awayMm);
       // A line between two strokes belongs to neither; `awayMm` reports it.
-      if (before?.stroke === now.stroke) {
+      isBeside ||= now.awayMm > besideMm;
+      if (before?.stroke === now.stroke && !isBeside) {
         passed.push([Math.min(before.alongMm, now.alongMm), Math.max(before.alongMm, now.alongMm)]);
       }
       before = now;

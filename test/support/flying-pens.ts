@@ -2,11 +2,7 @@
  * Plots whose pen moves while the carriage does, on a virtual board with a simulated servo. Marks are where its tip
  * touches the paper.
  */
-import { MachinePlot } from "../../host/plotter/plot-run.js";
-import type { LivePlotRun, PlotProgress } from "../../host/plotter/types.js";
 import { DEFAULT_PEN, VirtualBoard, type PenSettings, type StrokeSet } from "../../src/index.js";
-import type { Machine } from "../../src/internal.js";
-import { ebbDriver } from "../../src/drivers/ebb/ebb-driver.js";
 import type { DrawnPolyline, VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import { penMovesOf } from "../../src/plan/pen-moves.js";
 import type { PenMove, Trajectory } from "../../src/plan/trajectory.js";
@@ -14,7 +10,7 @@ import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index
 import { compareDrawn, type DrawnTruth } from "./drawn-truth.js";
 import { strokesOf } from "./local-planner.js";
 import type { ManualClock } from "./manual-clock.js";
-import { KeepingPlanner } from "./stop-truth.js";
+import { plotOnBoard, type PlotOnBoard } from "./plot-on-board.js";
 
 const arc = (x: number, y: number, r: number): number[] =>
   Array.from({ length: 40 }, (_, i) => [x + r * Math.cos(i / 13), y + r * Math.sin(i / 13)]).flat();
@@ -59,13 +55,8 @@ export const penSettings = (overlap: PenSettings["overlap"]): PlotSettings => ({
   pen: { ...DEFAULT_PEN, overlap },
 });
 
-export interface FlyingPlot {
+export interface FlyingPlot extends PlotOnBoard {
   readonly board: VirtualBoard;
-  readonly run: LivePlotRun;
-  readonly machine: Machine;
-  readonly trajectory: Trajectory;
-  /** All that was reported. */
-  readonly reports: PlotProgress[];
 }
 
 /** A plot that has just begun: the clock is at the start of its plan. */
@@ -76,22 +67,7 @@ export async function flyingPlot(
   servo: FlyingServo,
 ): Promise<FlyingPlot> {
   const board = new VirtualBoard({ clock: world, firmware, servo: virtualServo(servo) });
-  const ignore = (): void => undefined;
-  const machine = await world.run(
-    ebbDriver.identify(board.transport(), {
-      clock: world,
-      machineClock: world,
-      speed: 1,
-      events: { changed: ignore, buttonPressed: ignore, supplyRead: ignore, lost: ignore },
-    }),
-  );
-  await world.run(machine.takeOver());
-  const planner = new KeepingPlanner(HOPS);
-  const run = new MachinePlot(machine, planner, penSettings(overlap));
-  const reports: PlotProgress[] = [];
-  run.onProgress((progress) => void reports.push(progress));
-  while (reports.length === 0) await world.advance(0.001);
-  return { board, run, machine, trajectory: planner.plots[0].trajectory, reports };
+  return { board, ...(await plotOnBoard(world, board, HOPS, penSettings(overlap))) };
 }
 
 /** An instant of the plan; mostly while the pen moves, or up to 50 ms before. */

@@ -16,6 +16,12 @@ export const inQuality = (quality: Quality, springs: Springs): MotionSettings =>
   ...motionOfQuality(quality, springs),
 });
 
+export function median(values: readonly number[]): number {
+  const sorted = [...values].sort((a, b) => a - b);
+  const half = sorted.length >> 1;
+  return sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
 const points = (count: number, at: (share: number) => Point): Point[] =>
   Array.from({ length: count + 1 }, (_, i) => at(i / count));
 

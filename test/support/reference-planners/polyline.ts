@@ -25,6 +25,10 @@ export interface ReferencePlanner {
   readonly name: string;
   readonly cornerRule: string;
   readonly profile: string;
+  /** Corners are parabolas (OQUAM); otherwise the velocity jumps there. */
+  readonly blends?: boolean;
+  /** It sends slices of constant speed of about this duration, s. */
+  readonly sliceS?: number;
   plan(points: readonly Point[], limits: Limits): ReferencePlan;
 }
 

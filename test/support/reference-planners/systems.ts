@@ -42,6 +42,7 @@ const AXIDRAW: ReferencePlanner = {
   name: "AxiDraw software",
   cornerRule: "junction deviation",
   profile: "trapezoid cut into slices of constant speed",
+  sliceS: AXIDRAW_SLICE_S,
   plan(points, limits) {
     const plan = planTrapezoids(points, limits, (corner) => junctionDeviation(corner, limits));
     return { ...plan, pieces: Math.max(points.length - 1, Math.ceil(plan.timeS / AXIDRAW_SLICE_S)) };
@@ -70,6 +71,7 @@ export const OQUAM: ReferencePlanner = {
   name: "Oquam",
   cornerRule: "parabolic blend at one speed",
   profile: "trapezoid between blends",
+  blends: true,
   plan(points, limits) {
     const { accel, deviation, speed } = limits;
     const corners = cornersOf(points).map(({ turn, before, after }) => {

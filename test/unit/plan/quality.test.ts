@@ -7,7 +7,7 @@ import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type StrokeSet, type Trajectory } from "../../../src/index.js";
 import { motionOfQuality, penError, qualityOf, type Quality, type Springs } from "../../../src/internal.js";
 import { cases } from "../../support/full-run.js";
-import { FIGURES, inQuality, SPRINGS, swinging } from "../../support/swinging.js";
+import { FIGURES, inQuality, median, SPRINGS, swinging } from "../../support/swinging.js";
 import { sampleStrokes } from "../../support/sample-strokes.js";
 
 const DRAWINGS: readonly StrokeSet[] = [
@@ -17,12 +17,6 @@ const DRAWINGS: readonly StrokeSet[] = [
 
 const motionS = ({ durationS, blockCount }: Trajectory): number =>
   durationS.subarray(0, blockCount).reduce((sum, s) => sum + s, 0);
-
-function median(values: readonly number[]): number {
-  const sorted = [...values].sort((a, b) => a - b);
-  const half = sorted.length >> 1;
-  return sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-}
 
 /** The medians, as shares of the default's. `errors`: with the frequency right, and wrong by −10 % and +10 %. */
 function worth(quality: Quality, springs: Springs) {

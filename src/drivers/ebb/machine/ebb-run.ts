@@ -14,6 +14,7 @@ import { isPenUpBefore } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
 import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
+import { swungPlace } from "../../../plan/swung-place.js";
 import { drawnAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
@@ -281,10 +282,18 @@ export class EbbRun implements MachineRun {
     const { steps1, steps2 } = this.carriage.state!;
     const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
     const { x, y } = this.carriage.place(machineOf(this.settings))!;
-    const place = this.placeOrEnd(at, x, y);
+    const place = this.afterSwing(at, this.placeOrEnd(at, x, y));
     this.stopped = { place };
     this.carriage.penUp = null;
     return place;
+  }
+
+  /** Motors that stop dead make the pen swing on along the line. */
+  private afterSwing({ stream, planS }: StreamPlace, place: Place | null): Place | null {
+    const { springs } = machineOf(this.settings);
+    if (!springs || !place) return place;
+    const { trajectory } = this.progress.partOf(stream);
+    return swungPlace(this.strokes, trajectory, planS, place, springs);
   }
 
   /** One command has not run; the counters still show how far the board came. */
