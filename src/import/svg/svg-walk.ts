@@ -15,7 +15,7 @@ import { Declared } from "./declared.js";
 import { elementTransform } from "./element-transform.js";
 import { lengthPx, type Side } from "./length.js";
 import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
-import { effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
+import { backgroundOf, effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
@@ -119,7 +119,7 @@ export class SvgWalk {
     const { declared } = this;
     this.cascade.collect(0, declared);
     const value = declaredValue(context.style, declared, "clip-path");
-    const effects = effectsOf(context.style, declared);
+    const effects = [...effectsOf(context.style, declared), ...backgroundOf(context.style, declared)];
     const clip = this.clips.clipOf(0, value, context);
     if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, effects);
   }

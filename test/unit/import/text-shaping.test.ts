@@ -19,7 +19,7 @@ const font: TextFont = {
     strikeout: 0.3,
     lineThickness: 0.05,
   },
-  layout: (line, { hasLigatures = true }) => ({
+  layout: (line, { hasLigatures = true, hasKerning = true }) => ({
     glyphs: [...(hasLigatures ? line.replace("fi", "ﬁ") : line)].map((char, at, all) =>
       char === MARK
         ? { path: "M0 0H.2V.2H0Z", x: -0.7, y: -1, advance: 0, at }
@@ -27,7 +27,7 @@ const font: TextFont = {
             path: char === " " ? "" : "M0 0H1V-1H0Z",
             x: 0,
             y: 0,
-            advance: all[at - 1] === "A" ? 0.9 : 1,
+            advance: hasKerning && all[at - 1] === "A" ? 0.9 : 1,
             at,
           },
     ),
@@ -48,6 +48,15 @@ function boxOf(drawing: Drawing, index: number): number[] {
     Math.round(10 * mm),
   );
 }
+
+describe("kerning", () => {
+  it.each([
+    ["auto", 290],
+    ["none", 300],
+  ])("%s places the third letter at %d", (value, left) => {
+    expect(boxOf(drawn(text("AVA", `style="font-kerning:${value}"`)), 2)[0]).toBe(left);
+  });
+});
 
 describe("letters with shifts of their own", () => {
   it("stay as close as the font sets them", () => {
@@ -143,6 +152,14 @@ describe("text as a clip", () => {
       0, 50, 10, 50, 10, 40, 0, 40, 10, 50, 20, 50, 20, 40, 10, 40,
     ]);
     expect(codes(drawing)).toEqual([]);
+  });
+
+  it("reports the styles that the font does not have", () => {
+    const face = { family: "Square", isBold: false, isItalic: false };
+    const bold = clipped.replace("ab", '<tspan font-weight="bold">ab</tspan>');
+    const drawing = draw(bold, { text: "outline", font: { ...font, face } });
+    expect(codes(drawing)).toEqual(["text-style-ignored"]);
+    expect(drawing.warnings[0].message).toContain("bold");
   });
 
   it("is reported where letters have no outlines", () => {
