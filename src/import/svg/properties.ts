@@ -36,6 +36,7 @@ export const PRESENTATION = [
   "opacity",
   "clip-path",
   "mask",
+  "mask-type",
   "filter",
   "mix-blend-mode",
   "paint-order",

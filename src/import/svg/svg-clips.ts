@@ -146,12 +146,22 @@ export class SvgClips {
       this.warnings.add("clip-ignored", undefined, "a clip that contains itself");
       return context.clip;
     }
+    return this.contentClip(target, inner, outside, "clipRule");
+  }
+
+  /** The clip to the shapes inside `target`, each filled by its own rule, and to `outside`. */
+  contentClip(
+    target: number,
+    inner: Context,
+    outside: ClipNode | null,
+    rule: "clipRule" | "fillRule",
+  ): ClipNode | "empty" {
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
     let built = this.built.get(key);
     if (built === undefined) {
       this.open.add(target);
-      built = this.build(target, inner);
+      built = this.build(target, inner, rule);
       this.open.delete(target);
       this.built.set(key, built);
     }
@@ -165,9 +175,9 @@ export class SvgClips {
   }
 
   /** The shapes of a clipPath in page mm; null if it has none. */
-  private build(target: number, context: Context): BuiltClip | null {
+  private build(target: number, context: Context, rule: "clipRule" | "fillRule"): BuiltClip | null {
     const { tree } = this;
-    const collector = new ClipCollector();
+    const collector = new ClipCollector(rule);
     for (let child = tree.firstChildren[target]; child >= 0; child = tree.nextSiblings[child]) {
       this.addChild(child, { ...context, clip: null }, collector);
     }
@@ -211,7 +221,7 @@ export class SvgClips {
   private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
     this.cascade.collect(child, this.declared);
     const shape = this.geometry.geometryOf(child, tag, this.declared, context);
-    addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
+    addClipped(collector, shape, context.map, context.style[collector.rule] === "evenodd", context.clip);
   }
 
   private addText(child: number, context: Context, collector: ClipCollector): void {
@@ -301,6 +311,9 @@ class ClipCollector {
   private readonly rules: number[] = [];
   private readonly shapes: number[] = [];
   private shapeCount = 0;
+
+  /** @param rule the property that says which parts of a shape are inside */
+  constructor(readonly rule: "clipRule" | "fillRule" = "clipRule") {}
 
   add(shape: ShapeBuffer, map: Affine, evenOdd: boolean): void {
     if (shape.isEmpty) return;
