@@ -175,7 +175,7 @@ describe("what spans of a text ask for and do not get is reported", () => {
   it.each([
     ['filter="url(#f)"', "filter effect is ignored"],
     ['clip-path="url(#c)"', "(url(#c) on tspan)"],
-    ['mask="url(#m)"', "mask is ignored"],
+    ['mask="url(#m)"', "mask is not fully drawn"],
     ['opacity=".5"', "partly transparent"],
     ['font-weight="bold"', "(bold)"],
     ['font-style="italic"', "(italic)"],
