@@ -23,7 +23,7 @@ const WORDS = {
   "filter-ignored": (n: number) =>
     `${many(n, "filter effect is", "filter effects are")} ignored: the lines are drawn as they are.`,
   "mask-ignored": (n: number) =>
-    `${many(n, "mask is", "masks are")} ignored, so what they hide is drawn. Use a clip path, or cut the shapes.`,
+    `${many(n, "mask is", "masks are")} not fully drawn: what ${n === 1 ? "it hides or fades" : "they hide or fade"} is drawn in solid lines. Use a clip path, or cut the shapes.`,
   "gradient-stroke": (n: number) =>
     `${many(n, "line", "lines")} with a gradient as colour: drawn in one colour.`,
   "gradient-fill": (n: number) => `${many(n, "fill", "fills")} with a gradient: taken as one colour.`,

@@ -11,10 +11,12 @@ import { ColumnBuffer, PointBuffer } from "../../geometry/growable.js";
 import { AncestorStyles } from "./ancestor-style.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
+import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
 import { Declared } from "./declared.js";
 import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../clip-node.js";
 import { curveBox } from "../curve-box.js";
+import { elementTransform } from "./element-transform.js";
 import { lengthPx } from "./length.js";
 import { mapBox } from "../map-box.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
@@ -22,7 +24,6 @@ import { withStyle, type Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseUrl } from "./style.js";
-import { parseTransform } from "./transform.js";
 import type { Warnings } from "../warnings.js";
 
 const RECTANGLE_VERBS = Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE);
@@ -74,6 +75,8 @@ export class SvgClips {
   ): ClipNode | null | "empty" {
     if (value === undefined || value === "none") return context.clip;
     const { tree, warnings } = this;
+    const shapeClip = this.shapeClip(element, value, context);
+    if (shapeClip !== null) return shapeClip;
     const id = parseUrl(value);
     const target = id === null ? undefined : tree.elementById.get(id);
     if (target === undefined || tagOf(tree, target) !== "clipPath" || nesting > MAX_NESTING) {
@@ -87,6 +90,21 @@ export class SvgClips {
       units = { a: box.x1 - box.x0, b: 0, c: 0, d: box.y1 - box.y0, e: box.x0, f: box.y0 };
     }
     return this.clipTo(element, target, context, units, nesting);
+  }
+
+  /** The clip to a basic shape of CSS; null if `value` is none. */
+  private shapeClip(element: number, value: string, context: Context): ClipNode | "empty" | null {
+    if (!value.includes("(") || value.startsWith("url(")) return null;
+    const { shape: text, isViewBox } = splitReferenceBox(value);
+    const { viewportWidth: x1, viewportHeight: y1 } = context.basis;
+    const box = isViewBox ? { x0: 0, y0: 0, x1, y1 } : this.boxOf(element, context);
+    if (box === null) return null;
+    const clip = cssClipShape(text, box, context.basis);
+    if (clip === null) return null;
+    const collector = new ClipCollector();
+    collector.add(clip.shape, context.map, clip.evenOdd);
+    const shapes = collector.finish();
+    return shapes === null ? "empty" : new ClipNode(context.clip, shapes, rectangleOf(shapes));
   }
 
   /** A clip to a rectangle in user units: a viewport's edge. */
@@ -120,7 +138,7 @@ export class SvgClips {
     // A clipPath with display none does not clip.
     if (declaredValue(style, this.declared, "display") === "none") return context.clip;
     const own = declaredValue(style, this.declared, "clip-path");
-    const transform = parseTransform(declaredValue(style, this.declared, "transform") ?? "") ?? IDENTITY;
+    const transform = elementTransform(style, this.declared, context.basis, () => null) ?? IDENTITY;
     const inner = withStyle(context, style, compose(transform, units));
     const outside = own === undefined ? context.clip : this.clipOf(element, own, context, nesting + 1);
     if (outside === "empty") return "empty";
@@ -128,12 +146,22 @@ export class SvgClips {
       this.warnings.add("clip-ignored", undefined, "a clip that contains itself");
       return context.clip;
     }
+    return this.contentClip(target, inner, outside, "clipRule");
+  }
+
+  /** The clip to the shapes inside `target`, each filled by its own rule, and to `outside`. */
+  contentClip(
+    target: number,
+    inner: Context,
+    outside: ClipNode | null,
+    rule: "clipRule" | "fillRule",
+  ): ClipNode | "empty" {
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
     let built = this.built.get(key);
     if (built === undefined) {
       this.open.add(target);
-      built = this.build(target, inner);
+      built = this.build(target, inner, rule);
       this.open.delete(target);
       this.built.set(key, built);
     }
@@ -147,9 +175,9 @@ export class SvgClips {
   }
 
   /** The shapes of a clipPath in page mm; null if it has none. */
-  private build(target: number, context: Context): BuiltClip | null {
+  private build(target: number, context: Context, rule: "clipRule" | "fillRule"): BuiltClip | null {
     const { tree } = this;
-    const collector = new ClipCollector();
+    const collector = new ClipCollector(rule);
     for (let child = tree.firstChildren[target]; child >= 0; child = tree.nextSiblings[child]) {
       this.addChild(child, { ...context, clip: null }, collector);
     }
@@ -165,7 +193,8 @@ export class SvgClips {
     this.cascade.collect(child, declared);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
-    const transform = parseTransform(declaredValue(style, declared, "transform") ?? "") ?? IDENTITY;
+    const boxOf = (): Box | null => this.boxOf(child, { ...outer, style });
+    const transform = elementTransform(style, declared, outer.basis, boxOf) ?? IDENTITY;
     const moved = withStyle(outer, style, transform);
     const clip = this.clipOfChild(child, declaredValue(style, declared, "clip-path"), moved);
     if (clip === "empty") return;
@@ -192,7 +221,7 @@ export class SvgClips {
   private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
     this.cascade.collect(child, this.declared);
     const shape = this.geometry.geometryOf(child, tag, this.declared, context);
-    addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
+    addClipped(collector, shape, context.map, context.style[collector.rule] === "evenodd", context.clip);
   }
 
   private addText(child: number, context: Context, collector: ClipCollector): void {
@@ -237,8 +266,7 @@ export class SvgClips {
       this.cascade.collect(at, declared);
       const style = computeStyle(context.style, declared, context.basis);
       if (declaredValue(style, declared, "display") === "none") continue;
-      const own =
-        at === element ? IDENTITY : parseTransform(declaredValue(style, declared, "transform") ?? "");
+      const own = at === element ? IDENTITY : elementTransform(style, declared, context.basis, () => null);
       const inner = own === null || own === IDENTITY ? map : compose(map, own);
       if (SHAPE_TAGS.has(tag)) {
         box = uniteBoxes(box, mapBox(inner, curveBox(this.geometry.geometryOf(at, tag, declared, context))));
@@ -283,6 +311,9 @@ class ClipCollector {
   private readonly rules: number[] = [];
   private readonly shapes: number[] = [];
   private shapeCount = 0;
+
+  /** @param rule the property that says which parts of a shape are inside */
+  constructor(readonly rule: "clipRule" | "fillRule" = "clipRule") {}
 
   add(shape: ShapeBuffer, map: Affine, evenOdd: boolean): void {
     if (shape.isEmpty) return;

@@ -1,5 +1,6 @@
 /** Effects that a browser draws and a pen cannot: each gives a warning. */
 import type { Box } from "../../geometry/box.js";
+import { parseColor } from "../color.js";
 import type { Declared } from "./declared.js";
 import { NOT_DRAWN_PROPERTIES, type Property } from "./properties.js";
 import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./style.js";
@@ -10,6 +11,7 @@ import type { WarningCode, Warnings } from "../warnings.js";
 export type Effects = readonly (readonly [code: WarningCode, detail?: string])[];
 
 const NONE: Effects = [];
+const WHITE = "#ffffff";
 
 /** Values of the properties that are not drawn with which nothing is missing. */
 const DRAWS_AS_USUAL =
@@ -42,6 +44,16 @@ export function effectsOf(style: Style, declared: Declared): Effects {
   if (order !== null && /^(stroke|markers)/.test(order))
     effects.push(["paint-order-ignored", order.slice(0, 40)]);
   return effects;
+}
+
+/** The root element's background. White, like most paper, needs no warning. */
+export function backgroundOf(style: Style, declared: Declared): Effects {
+  return (["background", "background-color"] as const).flatMap((name): [WarningCode, string][] => {
+    const value = declaredValue(style, declared, name) ?? "none";
+    const color = parseColor(value);
+    const isPainted = color === null ? value.includes("url(") : color.alpha > 0 && color.hex !== WHITE;
+    return isPainted ? [["effect-ignored", name]] : [];
+  });
 }
 
 /** Whether a mask or filter without content hides the element completely, as in browsers. */

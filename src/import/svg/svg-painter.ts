@@ -71,10 +71,13 @@ export class SvgPainter {
   /** Calls `add` with each visible letter and its map to page mm; false if the font has no outlines. */
   outlinesOf(element: number, context: Context, add: (shape: ShapeBuffer, map: Affine) => void): boolean {
     if (this.font?.kind !== "outline") return false;
-    for (const letter of this.placed(element, context, this.font).letters) {
+    const { letters } = this.placed(element, context, this.font);
+    for (const letter of letters) {
       if (!letter.style.isVisible) continue;
       add(this.shapeOf(letter), mapOf(letter, context));
     }
+    for (const wanted of otherFaces(letters, this.font))
+      this.warnings.add("text-style-ignored", undefined, wanted);
     return true;
   }
 

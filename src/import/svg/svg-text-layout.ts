@@ -172,6 +172,7 @@ function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: stri
   const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily, {
     hasLigatures: !isSeparate && style.letterSpacing === 0,
     isSmallCaps: style.text.isSmallCaps,
+    hasKerning: style.text.hasKerning,
   });
   for (const char of line.missing) missing.push(char);
   const offset = baselineOffset(style.text, size, font.metrics ?? USUAL_METRICS);

@@ -2,15 +2,19 @@
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
+import { curveBox } from "../curve-box.js";
+import { drawPathData } from "../path-data.js";
+import { elementTransform } from "./element-transform.js";
 import { splitLength, lengthPx } from "./length.js";
 import { MeasuredPath, type PathPlace } from "./measured-path.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
-import { declaredValue } from "./style.js";
-import { parseTransform } from "./transform.js";
 import { IDENTITY } from "../../geometry/affine.js";
+
+/** Max error of an arc that letters stand on, in em. */
+const ARC_TOLERANCE = 1e-4;
 
 /**
  * Letters may use one full turn of a closed path. It begins at `startOffset`, is centred on it, or ends
@@ -24,8 +28,6 @@ export class TextPath {
     private readonly path: MeasuredPath,
     /** Distance along the path, in user units. */
     readonly startOffset: number,
-    /** Letters are on the other side and run in the opposite direction. */
-    private readonly isReversed: boolean,
   ) {}
 
   /**
@@ -33,21 +35,15 @@ export class TextPath {
    */
   placeOf(middle: number, anchor: Anchor): PathPlace | null {
     const { length, isClosed } = this.path;
-    if (!isClosed) return middle < 0 || middle > length ? null : this.placeAt(middle);
+    if (!isClosed) return middle < 0 || middle > length ? null : this.path.placeAt(middle);
     const first = this.startOffset + FIRST_OF_LOOP[anchor] * length;
     if (middle < first || middle > first + length) return null;
-    return this.placeAt(((middle % length) + length) % length);
+    return this.path.placeAt(((middle % length) + length) % length);
   }
 
   /** Where text after the path continues. */
   end(): PathPlace | null {
-    return this.placeAt(this.path.length);
-  }
-
-  private placeAt(along: number): PathPlace | null {
-    if (!this.isReversed) return this.path.placeAt(along);
-    const place = this.path.placeAt(this.path.length - along);
-    return place === null ? null : { ...place, angle: place.angle + Math.PI };
+    return this.path.placeAt(this.path.length);
   }
 }
 
@@ -60,8 +56,21 @@ export class SvgTextPaths {
     private readonly geometry: SvgGeometry,
   ) {}
 
-  /** The path of a `textPath` element in a text drawn in `context`; null if it refers to no shape. */
+  /** The path of a `textPath` element in a text drawn in `context`; null if it has none. */
   of(element: number, context: Context): TextPath | null {
+    return this.ownPath(element, context) ?? this.referredPath(element, context);
+  }
+
+  /** The path in its own `path` attribute, which applies before a reference. */
+  private ownPath(element: number, context: Context): TextPath | null {
+    const shape = new ShapeBuffer();
+    drawPathData(shape, attribute(this.tree, element, "path") ?? "", ARC_TOLERANCE * context.style.fontSize);
+    shape.finish();
+    const path = new MeasuredPath(shape);
+    return path.length > 0 ? new TextPath(path, this.startOffset(element, null, path, context)) : null;
+  }
+
+  private referredPath(element: number, context: Context): TextPath | null {
     const { tree, declared } = this;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const target = href.startsWith("#") ? tree.elementById.get(href.slice(1)) : undefined;
@@ -69,20 +78,25 @@ export class SvgTextPaths {
     this.cascade.collect(target, declared);
     const outline = this.geometry.geometryOf(target, tagOf(tree, target), declared, context);
     // The shape's own transform applies, but not that of its ancestors.
-    const map = parseTransform(declaredValue(context.style, declared, "transform") ?? "") ?? IDENTITY;
+    const map = elementTransform(context.style, declared, context.basis, () => curveBox(outline)) ?? IDENTITY;
     const shape = new ShapeBuffer();
     shape.append(outline, map);
     const path = new MeasuredPath(shape);
-    const isReversed = attribute(tree, element, "side")?.trim() === "right";
-    return new TextPath(path, this.startOffset(element, target, path, context), isReversed);
+    const own = Number(attribute(tree, target, "pathLength") ?? NaN);
+    return new TextPath(path, this.startOffset(element, own > 0 ? own : null, path, context));
   }
 
-  private startOffset(element: number, target: number, path: MeasuredPath, context: Context): number {
+  /** @param pathLength the length that the shape declares for itself */
+  private startOffset(
+    element: number,
+    pathLength: number | null,
+    path: MeasuredPath,
+    context: Context,
+  ): number {
     const text = attribute(this.tree, element, "startOffset") ?? "0";
     const parts = splitLength(text);
     if (parts?.unit === "%") return (parts.value / 100) * path.length;
     const offset = lengthPx(text, context.basis, "width") ?? 0;
-    const own = Number(attribute(this.tree, target, "pathLength") ?? NaN);
-    return own > 0 ? (offset * path.length) / own : offset;
+    return pathLength === null ? offset : (offset * path.length) / pathLength;
   }
 }

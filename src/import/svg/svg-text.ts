@@ -120,6 +120,8 @@ class Gatherer {
         if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64) {
           this.effects.push(...effectsOf(own, this.declared));
           const clip = declaredValue(own, this.declared, "clip-path") ?? "none";
+          if (attribute(tree, node, "side")?.trim() === "right")
+            this.effects.push(["text-style-ignored", "textPath side"]);
           if (clip !== "none") this.effects.push(["clip-ignored", `${clip.slice(0, 40)} on ${tag}`]);
           pushChildren(node, own, open, onPath, keepsBlanks, stretch);
         }

@@ -4,7 +4,7 @@ import type { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import type { SvgClips } from "./svg-clips.js";
 import { withViewport, type Context } from "./svg-context.js";
-import { attribute, tagOf, type SvgTree } from "./svg-tree.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue } from "./style.js";
 import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 
@@ -16,12 +16,11 @@ export function viewportInside(
   declared: Declared,
   context: Context,
 ): Context | null {
-  const isSvg = tagOf(tree, element) === "svg";
   // As in browsers, the attributes apply and CSS does not.
   const length = (name: "x" | "y" | "width" | "height", side: Side): number | null =>
     lengthPx(attribute(tree, element, name) ?? "", context.basis, side);
-  const x = isSvg ? (length("x", "width") ?? 0) : 0;
-  const y = isSvg ? (length("y", "height") ?? 0) : 0;
+  const x = length("x", "width") ?? 0;
+  const y = length("y", "height") ?? 0;
   const useSize = context.uses?.target === element ? context.uses.size : null;
   const width = useSize?.width ?? notNegative(length("width", "width")) ?? context.basis.viewportWidth;
   const height = useSize?.height ?? notNegative(length("height", "height")) ?? context.basis.viewportHeight;

@@ -15,12 +15,13 @@ import { Declared } from "./declared.js";
 import { elementTransform } from "./element-transform.js";
 import { lengthPx, type Side } from "./length.js";
 import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
-import { effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
+import { backgroundOf, effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { markerPlaces } from "./markers.js";
 import { isMarked, SvgMarkers } from "./svg-markers.js";
+import { SvgMasks } from "./svg-masks.js";
 import { LayerGroups } from "./svg-layer-groups.js";
 import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
@@ -75,6 +76,7 @@ export class SvgWalk {
   private copiedElements = 0;
   private copiedCoords = 0;
   private readonly markers: SvgMarkers;
+  private readonly masks: SvgMasks;
   private readonly layerGroups: LayerGroups;
   private readonly hasSpeeds: boolean;
   private subtreeEnds: Uint32Array | null = null;
@@ -91,6 +93,7 @@ export class SvgWalk {
     private readonly conditions: SvgConditions,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
+    this.masks = new SvgMasks(tree, cascade, clips);
     this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
     this.hasSpeeds = tree.names.includes(SPEED_ATTRIBUTE);
   }
@@ -119,7 +122,7 @@ export class SvgWalk {
     const { declared } = this;
     this.cascade.collect(0, declared);
     const value = declaredValue(context.style, declared, "clip-path");
-    const effects = effectsOf(context.style, declared);
+    const effects = [...effectsOf(context.style, declared), ...backgroundOf(context.style, declared)];
     const clip = this.clips.clipOf(0, value, context);
     if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, effects);
   }
@@ -167,11 +170,17 @@ export class SvgWalk {
     const transform = this.transformOf(element, style, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
-    const effects = effectsOf(style, this.declared);
+    let effects = effectsOf(style, this.declared);
     if (isErased(this.tree, style, this.declared)) return;
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
+    const mask = this.masks.clipOf(element, declaredValue(style, declared, "mask"), context);
+    if (mask?.clip === "empty") return;
+    if (mask !== null) {
+      context = { ...context, clip: mask.clip };
+      if (!mask.isFaint) effects = effects.filter(([code]) => code !== "mask-ignored");
+    }
     context = this.withSpeed(element, context);
     if (!isContainer) this.visitLeaf(element, tag, context, effects);
     else this.enter(element, tag, context, effects);

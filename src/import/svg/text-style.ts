@@ -10,6 +10,7 @@ export interface TextStyle {
   readonly isVertical: boolean;
   readonly isRightToLeft: boolean;
   readonly isSmallCaps: boolean;
+  readonly hasKerning: boolean;
   readonly transform: string;
   /** Whether blanks are preserved; null if CSS does not specify it. */
   readonly keepsBlanks: boolean | null;
@@ -44,6 +45,7 @@ export const INITIAL_TEXT_STYLE: TextStyle = {
   isVertical: false,
   isRightToLeft: false,
   isSmallCaps: false,
+  hasKerning: true,
   transform: "none",
   keepsBlanks: null,
   dominantBaseline: "auto",
@@ -91,6 +93,7 @@ const PROPERTIES: ReadonlySet<string> = new Set<Property>([
   "writing-mode",
   "direction",
   "font-variant",
+  "font-kerning",
   "text-transform",
   "white-space",
   "dominant-baseline",
@@ -128,6 +131,8 @@ export function computeTextStyle(
   if (direction !== undefined) changes.isRightToLeft = direction === "rtl";
   const variant = valueOf("font-variant");
   if (variant !== undefined) changes.isSmallCaps = /\bsmall-caps\b/.test(variant);
+  const kerning = valueOf("font-kerning");
+  if (kerning !== undefined) changes.hasKerning = kerning !== "none";
   changes.transform = valueOf("text-transform") ?? parent.transform;
   const space = valueOf("white-space");
   if (space !== undefined) changes.keepsBlanks = /^(pre|pre-wrap|break-spaces)$/.test(space);

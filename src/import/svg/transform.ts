@@ -52,6 +52,19 @@ const ACROSS = new Set(["left", "right"]);
 const DOWN = new Set(["top", "bottom"]);
 
 /**
+ * A position as in CSS's `transform-origin`, from the corner of the box that percentages refer to; null if it is
+ * malformed.
+ */
+export function originOf(text: string, basis: LengthBasis): { x: number; y: number } | null {
+  const [first, second = "center"] = text.trim().split(/\s+/);
+  const isSwapped = DOWN.has(first) || ACROSS.has(second);
+  const [across, down] = isSwapped ? [second, first] : [first, second];
+  const x = lengthPx(ORIGINS[across] ?? across, basis, "width");
+  const y = lengthPx(ORIGINS[down] ?? down, basis, "height");
+  return x === null || y === null || DOWN.has(across) || ACROSS.has(down) ? null : { x, y };
+}
+
+/**
  * Applies a CSS `transform-origin` to the map; unchanged if the origin is malformed. Percentages refer to
  * `basis`, whose box begins at `corner`.
  */
@@ -61,14 +74,10 @@ export function aroundOrigin(
   basis: LengthBasis,
   corner = { x: 0, y: 0 },
 ): Affine {
-  const [first, second = "center"] = origin.trim().split(/\s+/);
-  const isSwapped = DOWN.has(first) || ACROSS.has(second);
-  const [across, down] = isSwapped ? [second, first] : [first, second];
-  const dx = lengthPx(ORIGINS[across] ?? across, basis, "width");
-  const dy = lengthPx(ORIGINS[down] ?? down, basis, "height");
-  if (dx === null || dy === null || DOWN.has(across) || ACROSS.has(down)) return map;
-  const x = corner.x + dx;
-  const y = corner.y + dy;
+  const place = originOf(origin, basis);
+  if (place === null) return map;
+  const x = corner.x + place.x;
+  const y = corner.y + place.y;
   const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
   return isFiniteAffine(moved) ? moved : map;
 }

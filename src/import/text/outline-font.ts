@@ -83,6 +83,7 @@ function metricsOf(font: Font): FontMetrics {
 function layOut(font: Font, text: string, style: LetterStyle): ReturnType<TextFont["layout"]> {
   const run = font.layout(text, {
     ...(style.hasLigatures === false ? { liga: false, clig: false } : {}),
+    ...(style.hasKerning === false ? { kern: false } : {}),
     ...(style.isSmallCaps === true ? { smcp: true } : {}),
   });
   let next = 0;

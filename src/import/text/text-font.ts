@@ -21,6 +21,8 @@ export interface LetterStyle {
   readonly family: string;
   /** False where letters are placed one by one. Default: true. */
   readonly hasLigatures?: boolean;
+  /** Whether pairs of letters are moved together or apart. Default: true. */
+  readonly hasKerning?: boolean;
   /** Only for fonts with `hasSmallCaps`. Default: false. */
   readonly isSmallCaps?: boolean;
 }

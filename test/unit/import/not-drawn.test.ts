@@ -4,7 +4,8 @@
  */
 import { describe, expect, it } from "vitest";
 import { NOT_DRAWN_PROPERTIES, PRESENTATION } from "../../../src/import/svg/properties.js";
-import { codes, draw } from "./support/shapes.js";
+import { importSvg } from "../../../src/import/svg/import-svg.js";
+import { codes, draw, page } from "./support/shapes.js";
 
 const LINE = '<path d="M10 10H50" stroke="red"/>';
 
@@ -96,13 +97,22 @@ describe("properties", () => {
     ['stroke-opacity="50%"', "opacity-ignored"],
     ['stroke="rgb(0 0 0 / 0.3)"', "opacity-ignored"],
     ['color="#0008" stroke="currentColor"', "opacity-ignored"],
-    ['clip-path="circle(3px)"', "clip-ignored"],
+    ['clip-path="rect(1px 2px 3px 4px)"', "clip-ignored"],
     ['stroke="color-mix(in srgb, red, blue)"', "color-unknown"],
     ['fill="blu"', "color-unknown"],
     ['stroke="url(#none)"', "paint-missing"],
     ['transform="rotate3d(1 1 1 45deg)"', "attribute-fault"],
   ])("%s is reported as %s", (attributes, code) => {
     expect(codes(draw(`<path d="M10 10H50" ${attributes}/>`))).toContain(code);
+  });
+
+  it.each([
+    ["background-color:red", ["effect-ignored"]],
+    ["background:url(a.png)", ["effect-ignored"]],
+    ["background:#fff", []],
+    ["background-color:transparent", []],
+  ])("%s on the outermost element is reported as %j", (style, expected) => {
+    expect(codes(importSvg(page(LINE, `style="${style}"`)))).toEqual(expected);
   });
 
   it("with a length of an unknown unit are named", () => {

@@ -245,6 +245,14 @@ describe("clips", () => {
     expect(clipsOf(body)).toEqual([[23, 24, 43, 24, 43, 34, 23, 34]]);
   });
 
+  it.each([
+    ["clipPath", 'transform="rotate(90)" transform-origin="center"', ""],
+    ["shape in it", "", 'transform="rotate(90)" transform-origin="center"'],
+  ])("turn about the origin of a %s", (_what, attributes, more) => {
+    const body = `${clip(attributes, more)}<g clip-path="url(#c)">${BOX}</g>`;
+    expect(clipsOf(body)).toEqual([[100, 0, 100, 0.5, 99.5, 0.5, 99.5, 0]]);
+  });
+
   it("of a clipPath are relative to the box of the shape", () => {
     const body = `<clipPath id="d" clip-path="url(#c)"><rect width="90" height="90"/></clipPath>${clip('clipPathUnits="objectBoundingBox"')}<g clip-path="url(#d)">${BOX}</g>`;
     expect(clipsOf(body)).toEqual([[20, 20, 40, 20, 40, 30, 20, 30]]);

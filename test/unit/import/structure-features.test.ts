@@ -34,6 +34,11 @@ describe("copies", () => {
       '<symbol id="a" viewBox="0 0 10 10"><path d="M0 0h10"/></symbol><use href="#a" width="20" height="20"/>',
       ["M0 0L20 0"],
     ],
+    [
+      "of a symbol with a place of its own",
+      '<symbol id="a" x="5" y="6" viewBox="0 0 10 10"><path d="M0 0h10"/></symbol><use href="#a" x="1" width="20" height="20"/>',
+      ["M6 6L26 6"],
+    ],
     ["of a symbol, drawn once", '<symbol id="a"><path d="M0 0h1"/></symbol><use href="#a"/>', ["M0 0L1 0"]],
     [
       "of a nested svg",

@@ -19,7 +19,7 @@ const font: TextFont = {
     strikeout: 0.3,
     lineThickness: 0.05,
   },
-  layout: (line, { hasLigatures = true }) => ({
+  layout: (line, { hasLigatures = true, hasKerning = true }) => ({
     glyphs: [...(hasLigatures ? line.replace("fi", "ﬁ") : line)].map((char, at, all) =>
       char === MARK
         ? { path: "M0 0H.2V.2H0Z", x: -0.7, y: -1, advance: 0, at }
@@ -27,7 +27,7 @@ const font: TextFont = {
             path: char === " " ? "" : "M0 0H1V-1H0Z",
             x: 0,
             y: 0,
-            advance: all[at - 1] === "A" ? 0.9 : 1,
+            advance: hasKerning && all[at - 1] === "A" ? 0.9 : 1,
             at,
           },
     ),
@@ -48,6 +48,15 @@ function boxOf(drawing: Drawing, index: number): number[] {
     Math.round(10 * mm),
   );
 }
+
+describe("kerning", () => {
+  it.each([
+    ["auto", 290],
+    ["none", 300],
+  ])("%s places the third letter at %d", (value, left) => {
+    expect(boxOf(drawn(text("AVA", `style="font-kerning:${value}"`)), 2)[0]).toBe(left);
+  });
+});
 
 describe("letters with shifts of their own", () => {
   it("stay as close as the font sets them", () => {
@@ -145,6 +154,14 @@ describe("text as a clip", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
+  it("reports the styles that the font does not have", () => {
+    const face = { family: "Square", isBold: false, isItalic: false };
+    const bold = clipped.replace("ab", '<tspan font-weight="bold">ab</tspan>');
+    const drawing = draw(bold, { text: "outline", font: { ...font, face } });
+    expect(codes(drawing)).toEqual(["text-style-ignored"]);
+    expect(drawing.warnings[0].message).toContain("bold");
+  });
+
   it("is reported where letters have no outlines", () => {
     expect(codes(draw(clipped))).toEqual(["clip-text", "empty-drawing"]);
   });
@@ -158,7 +175,7 @@ describe("what spans of a text ask for and do not get is reported", () => {
   it.each([
     ['filter="url(#f)"', "filter effect is ignored"],
     ['clip-path="url(#c)"', "(url(#c) on tspan)"],
-    ['mask="url(#m)"', "mask is ignored"],
+    ['mask="url(#m)"', "mask is not fully drawn"],
     ['opacity=".5"', "partly transparent"],
     ['font-weight="bold"', "(bold)"],
     ['font-style="italic"', "(italic)"],

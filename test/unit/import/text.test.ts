@@ -231,12 +231,25 @@ describe("text on a path", () => {
     }
   });
 
-  it("is on the other side and runs backwards with side right", () => {
-    expect(shapesOf(onPath("a", 'href="#level" side="right"'))).toEqual(["M90 50L80 50L80 60L90 60Z"]);
+  it("is on the left side, as in browsers, and another side is reported", () => {
+    const drawing = onPath("a", 'href="#level" side="right"');
+    expect(shapesOf(drawing)).toEqual(["M10 50L20 50L20 40L10 40Z"]);
+    expect(codes(drawing)).toEqual(["text-style-ignored"]);
+  });
+
+  it("may have its path in an attribute, which applies before a reference", () => {
+    expect(shapesOf(onPath("a", 'path="M10 60H90"'))).toEqual(["M10 60L20 60L20 50L10 50Z"]);
+    expect(shapesOf(onPath("a", 'path="M10 60H90" href="#level"'))).toEqual(["M10 60L20 60L20 50L10 50Z"]);
   });
 
   it("follows the shape's own transform, and jumps with its moves", () => {
     expect(shapesOf(onPath("a", 'href="#shifted"'))).toEqual(["M10 70L20 70L20 60L10 60Z"]);
+    const turned =
+      '<path id="t" stroke="none" d="M10 50H90" transform="rotate(90)" transform-origin="center"/>';
+    const body = text('<textPath href="#t">a</textPath>', "");
+    expect(shapesOf(draw(turned + body, { text: "outline", font: square }))).toEqual([
+      "M50 10L50 20L60 20L60 10Z",
+    ]);
     expect(shapesOf(onPath("ab", 'xlink:href="#two"'))[1]).toBe("M45 60L55 60L55 50L45 50Z");
   });
 
