@@ -123,7 +123,11 @@ try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
   for (const name of SHARED_RUNS) await runTests(name, filters, folder);
   await checks;
-  if (!HAS_PSEUDO_TERMINALS) console.log("Left out on Windows, which has no pseudo-terminals: test/serial");
+  if (!HAS_PSEUDO_TERMINALS) {
+    console.log(
+      "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",
+    );
+  }
   for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
 } finally {
   rmSync(folder, { recursive: true, force: true });
