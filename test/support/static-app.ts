@@ -34,8 +34,17 @@ export function buildStaticApp(): { readonly path: string; readonly remove: () =
   return built;
 }
 
+export interface StaticAppOptions {
+  /** Runs first in the host's worker. */
+  readonly workerScript?: string;
+}
+
 /** `boardSpeed`: board seconds per second of the board on the serial port. */
-export async function startStaticApp(folder: string, boardSpeed = 1): Promise<StaticApp> {
+export async function startStaticApp(
+  folder: string,
+  boardSpeed = 1,
+  { workerScript = "" }: StaticAppOptions = {},
+): Promise<StaticApp> {
   const serial = new FakeSerial(boardSpeed);
   const server = createServer((request, response) => {
     const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
@@ -60,7 +69,7 @@ export async function startStaticApp(folder: string, boardSpeed = 1): Promise<St
         "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'",
     });
     // The page gets the fake port by Playwright; a worker can get it only with its file.
-    if (path.basename(file).startsWith("host.worker-")) response.write(FAKE_SERIAL_SCRIPT);
+    if (path.basename(file).startsWith("host.worker-")) response.write(FAKE_SERIAL_SCRIPT + workerScript);
     response.end(readFileSync(file));
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
