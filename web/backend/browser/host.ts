@@ -131,7 +131,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
   // An insecure page says so in the plotter's panel.
   if (db instanceof MemoryRecords && hasLocks()) notices.add(browserText.nothingStored);
   if (store.unreadableCount > 0) {
-    notices.add(`${store.unreadableCount} job(s) of another version of plotwright can't be read.`);
+    notices.add(`Jobs of another version of plotwright that can't be read: ${store.unreadableCount}.`);
   } else await removeUnused(db, store);
   return {
     api: hostApi({ queue, registry, notices, machines, drawings }),
