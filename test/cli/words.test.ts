@@ -131,7 +131,7 @@ describe("a file that cannot be used", () => {
   const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
   afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-  // Only Linux has a folder in which nobody can make anything.
+  // Only Linux has a folder in which nothing can be made.
   const inProc = [
     [
       ["plot", "in", "--data", "/proc/x"],
