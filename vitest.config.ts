@@ -15,6 +15,18 @@ const COMMANDS = ["test/cli/**/*.test.ts"];
 /** Tests of the built product, in processes of their own, and in a browser. */
 const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test/**/*.alone.test.ts"];
 
+/**
+ * Tests that reach a board through a pseudo-terminal, or end processes by signals. Windows has neither, so they are
+ * left out there.
+ */
+const POSIX_ONLY = [
+  ...REAL_TIME,
+  "test/board/virtual-pty.test.ts",
+  "test/cli/moves.test.ts",
+  "test/server/process-ends.alone.test.ts",
+];
+const LEFT_OUT = process.platform === "win32" ? POSIX_ONLY : [];
+
 /** How long a test may take on a busy computer before it counts as hanging. Longer ones have limits of their own. */
 const limits = (limitMs: number) => ({
   testTimeout: limitMs,
@@ -50,7 +62,7 @@ export default defineConfig({
           ...WAITING,
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-          exclude: [...FUNCTIONS, ...COMMANDS, ...PROCESSES, ...REAL_TIME],
+          exclude: [...FUNCTIONS, ...COMMANDS, ...PROCESSES, ...REAL_TIME, ...LEFT_OUT],
           ...limits(60_000),
           ...SHARED,
         },
@@ -61,7 +73,7 @@ export default defineConfig({
           ...WAITING,
           name: "commands",
           include: COMMANDS,
-          exclude: PROCESSES,
+          exclude: [...PROCESSES, ...LEFT_OUT],
           ...limits(60_000),
         },
       },
@@ -72,6 +84,7 @@ export default defineConfig({
           ...SHARED,
           name: "processes",
           include: PROCESSES,
+          exclude: LEFT_OUT,
           globalSetup: [
             "test/support/built.ts",
             "test/support/built-site.ts",

@@ -132,7 +132,11 @@ try {
   for (const name of RUNS) await runTests(name, filters, folder);
   await checks;
   if (LAST_RUN !== null) await runTests(LAST_RUN, filters, folder);
-  else console.log("Left out on Windows, which has no pseudo-terminals: test/serial");
+  else {
+    console.log(
+      "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",
+    );
+  }
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }

@@ -28,7 +28,8 @@ export class Notices {
     return [...this.#list];
   }
 
-  add(message: string): void {
+  /** Returns its id. */
+  add(message: string): string {
     const notice = { id: crypto.randomUUID(), at: this.#parts.nowIso(), message };
     const list = [...this.#list, notice].slice(-MAX_NOTICES);
     try {
@@ -38,6 +39,7 @@ export class Notices {
       this.#list = list;
     }
     this.#parts.announce({ type: "notice", notice });
+    return notice.id;
   }
 
   /** Throws `not-found`. */

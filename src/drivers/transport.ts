@@ -19,6 +19,8 @@ export interface Clock {
   nowS(): number;
   /** Calls `callback` once after `delayS`. Returns a function that cancels it. */
   after(delayS: number, callback: () => void): () => void;
+  /** How much later than usual timers may fire at present; default 0. This much more motion is sent ahead. */
+  latenessS?(): number;
 }
 
 /** Asks a long computation to stop. An AbortSignal fits. */

@@ -81,6 +81,28 @@ describe("a stream on a healthy host", () => {
     expect(mostS).toBeGreaterThan(0.25);
   });
 
+  it("sends more ahead while the clock's timers may be late, and no longer than that", async () => {
+    const rig = await newRig();
+    let latenessS = 0;
+    const clock = {
+      nowS: () => rig.world.nowS(),
+      after: (delayS: number, callback: () => void) => rig.world.after(delayS, callback),
+      latenessS: () => latenessS,
+    };
+    const streamer = new Streamer(rig.session, { clock, ...SHALLOW });
+    const played = streamer.play(makeStream(wavyRows(300, 30)));
+    await rig.world.advance(1);
+    expect(streamer.inFlightS()).toBeLessThanOrEqual(0.33);
+    latenessS = 0.7;
+    await rig.world.advance(1);
+    expect(streamer.inFlightS()).toBeGreaterThan(0.95);
+    latenessS = 0;
+    await rig.world.advance(1);
+    expect(streamer.inFlightS()).toBeLessThanOrEqual(0.33);
+    await rig.world.run(played);
+    expect(streamer.underrunCount).toBe(0);
+  });
+
   it("leaves room in a deep queue, so that a stop is read at once", async () => {
     const rig = await newRig("3.0.3");
     await rig.world.run(rig.session.send("CU,4,32"));

@@ -36,7 +36,7 @@ async function openPort(path: string) {
   return { port, ask };
 }
 
-describe.skipIf(process.platform === "win32")("the virtual board behind a pseudo-terminal", () => {
+describe("the virtual board behind a pseudo-terminal", () => {
   it("answers a real serial port, byte for byte", async () => {
     const ptyBoard = await openPtyBoard({ firmware: "2.8.1", speed: 100 });
     boards.push(ptyBoard);

@@ -1,11 +1,12 @@
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { VirtualBoard, type Clock } from "../../src/index.js";
 import { cli } from "./support.js";
 
-const SAMPLES = new URL("../../samples/", import.meta.url).pathname;
+const SAMPLES = fileURLToPath(new URL("../../samples/", import.meta.url));
 const samples = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
 const sample = (name: string): string => join(SAMPLES, name);
 const [firstSample = ""] = samples;

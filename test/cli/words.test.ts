@@ -131,29 +131,34 @@ describe("a file that cannot be used", () => {
   const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
   afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-  it.each([
+  // Only Linux has a folder in which nothing can be made.
+  const inProc = [
     [
       ["plot", "in", "--data", "/proc/x"],
       /The data folder \/proc\/x can't be created: no folder can be made there/,
     ],
+    [["board", "--pty", "/proc/x"], /\/proc\/x can't be made: there is no such file or folder/],
+  ] as const;
+  it.each([
+    ...(process.platform === "linux" ? inProc : []),
     [["plot", "in", "--data", "in"], /The data folder .* can't be created: a part of this path is a file/],
-    [
-      ["plan", "in", "--svg", "/proc/x.svg"],
-      /\/proc\/x\.svg can't be written: there is no such file or folder/,
-    ],
+    [["plan", "in", "--svg", "no-folder/x.svg"], /x\.svg can't be written: there is no such file or folder/],
     [["plan", "in", "--ebb", "in/x.txt"], /x\.txt can't be written: a part of this path is a file/],
     [["plan", "."], /can't be read: it is a folder/],
-    [["board", "--pty", "/proc/x"], /\/proc\/x can't be made: there is no such file or folder/],
-  ])("stops %j with a message, without the system's codes", { timeout: 60_000 }, async (args, message) => {
-    const drawing = join(folder, "in");
-    writeFileSync(drawing, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 2h9" stroke="red"/></svg>');
-    const board = args[0] === "plot" ? ["--device", "virtual", "--virtual-speed", "100"] : [];
-    const paths = args.map((arg) => (arg === "." ? folder : arg.replace(/^in(?=$|\/)/, drawing)));
-    const { code, err } = await cli(...paths, ...board);
-    expect([code, err]).toEqual([expect.any(Number), expect.stringMatching(message)]);
-    expect(code).toBeGreaterThan(0);
-    expect(err).not.toMatch(/ENO|EACC|EIS/);
-  });
+  ] as const)(
+    "stops %j with a message, without the system's codes",
+    { timeout: 60_000 },
+    async (args, message) => {
+      const drawing = join(folder, "in");
+      writeFileSync(drawing, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 2h9" stroke="red"/></svg>');
+      const board = args[0] === "plot" ? ["--device", "virtual", "--virtual-speed", "100"] : [];
+      const paths = args.map((arg) => (arg === "." ? folder : arg.replace(/^in(?=$|\/)/, drawing)));
+      const { code, err } = await cli(...paths, ...board);
+      expect([code, err]).toEqual([expect.any(Number), expect.stringMatching(message)]);
+      expect(code).toBeGreaterThan(0);
+      expect(err).not.toMatch(/ENO|EACC|EIS/);
+    },
+  );
   const file = (name: string, text: string): string => {
     const path = join(folder, name);
     writeFileSync(path, text);

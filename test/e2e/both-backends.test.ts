@@ -1,5 +1,5 @@
 /** Queue, settings and recovery: the same with plotwright's server and without one. */
-import type { Browser, Page } from "playwright-core";
+import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { BACKENDS, startPage, type StartedPage } from "../support/backends.js";
 import { launchBrowser } from "../support/browser.js";
@@ -46,10 +46,13 @@ const expectWaiting = (page: Page, names: readonly string[]): Promise<void> =>
 const expectState = (page: Page, words: RegExp): Promise<void> =>
   expect.poll(() => page.locator(".machine-state").innerText(), { timeout: PATIENCE_MS }).toMatch(words);
 
-async function choose(page: Page, name: string, what: string): Promise<void> {
-  await queuePanel(page)
+const openMenu = (page: Page, name: string): Promise<void> =>
+  queuePanel(page)
     .getByRole("button", { name: `More for ${name}` })
     .click();
+
+async function choose(page: Page, name: string, what: string): Promise<void> {
+  await openMenu(page, name);
   await page.getByRole("button", { name: `${what} ${name}` }).click();
 }
 
@@ -73,10 +76,25 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     }
     await choose(page, "three", "Move earlier:");
     await expectWaiting(page, ["one", "three", "two"]);
+    // A waiting job is changed on the paper, and saved at its place.
+    await choose(page, "three", "Lay on the paper:");
+    await waitForPlan(page);
+    await page.getByRole("radio", { name: "Portrait" }).check();
+    await waitForPlan(page);
+    const save = plotBar(page).getByRole("button", { name: "Save the changes to three in the queue" });
+    await save.click();
+    await save.waitFor({ state: "detached" });
+    // Two more of it.
+    await choose(page, "three", "Once more:");
+    await queuePanel(page).getByLabel("2 copies").waitFor();
     await started.killAndReopen();
     ({ page } = started);
     await expectWaiting(page, ["one", "three", "two"]);
-    await choose(page, "three", "Remove");
+    await queuePanel(page).getByLabel("2 copies").waitFor();
+    await choose(page, "three", "Lay on the paper:");
+    await expect.poll(() => page.getByRole("radio", { name: "Portrait" }).isChecked()).toBe(true);
+    await openMenu(page, "three");
+    await page.getByRole("button", { name: "Remove all 2" }).click();
     await expectWaiting(page, ["one", "two"]);
     await queuePanel(page).getByRole("button", { name: "Start one" }).click();
     await openView(page, "Prepare");
@@ -85,9 +103,12 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     ({ page } = started);
     await expectWaiting(page, ["two"]);
     await historyPanel(page).getByText("Done", { exact: true }).waitFor();
+    await historyPanel(page).getByRole("button", { name: "More for one" }).click();
+    await page.getByRole("button", { name: "Plot again: one" }).click();
+    await expectWaiting(page, ["two", "one"]);
   });
 
-  it("keeps the plotter's model and presets", { timeout: 300_000 }, async () => {
+  it("keeps the plotter's model, heights and presets", { timeout: 300_000 }, async () => {
     let { page } = started;
     await lay(page, "one", 1);
     await openGroup(page, "Model and position");
@@ -96,6 +117,16 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     await page.getByLabel("Name of this preset").fill("fine liner");
     await page.getByRole("button", { name: "Save", exact: true }).click();
     await page.getByText("fine liner").first().waitFor();
+    const height = (which: string): Locator => page.getByLabel(`Height ${which}`, { exact: true });
+    for (const [which, pct] of [
+      ["down", "22"],
+      ["up", "77"],
+    ] as const) {
+      await height(which).fill(pct);
+      await height(which).blur();
+    }
+    await page.getByRole("button", { name: "Undo" }).click();
+    await expect.poll(() => height("up").inputValue()).toBe("60");
     // Changes of the plotter's settings are stored a moment later.
     await expect
       .poll(() => started.storedPlotters(), { timeout: PATIENCE_MS })
@@ -109,6 +140,8 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
       .toBe("AxiDraw V3/A3");
     await openGroup(page, "Presets");
     await page.getByText("fine liner").first().waitFor();
+    await expect.poll(() => height("down").inputValue()).toBe("22");
+    await expect.poll(() => height("up").inputValue()).toBe("60");
   });
 
   it("continues a plot that was killed", { timeout: 300_000 }, async () => {

@@ -2,6 +2,7 @@ import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { createInterface } from "node:readline";
 import sqlite from "node-sqlite3-wasm";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -140,7 +141,7 @@ describe("a store", () => {
 
 /** What may be on disk after the kill: the last reported state, or the one in progress. */
 async function changeUntilKilled(folder: string, seed: number, lines: number): Promise<string[]> {
-  const script = new URL("./support/store-child.ts", import.meta.url).pathname;
+  const script = fileURLToPath(new URL("./support/store-child.ts", import.meta.url));
   const child = spawn(process.execPath, ["--import", "tsx", script, folder, String(seed)], {
     stdio: ["ignore", "pipe", "inherit"],
   });

@@ -23,8 +23,16 @@ export interface StaticApp {
   close(): Promise<void>;
 }
 
+export interface StaticAppOptions {
+  /** Runs first in the host's worker. */
+  readonly workerScript?: string;
+}
+
 /** `boardSpeed`: board seconds per second of the board on the serial port. */
-export async function startStaticApp(boardSpeed = 1): Promise<StaticApp> {
+export async function startStaticApp(
+  boardSpeed = 1,
+  { workerScript = "" }: StaticAppOptions = {},
+): Promise<StaticApp> {
   const serial = new FakeSerial(boardSpeed);
   const server = createServer((request, response) => {
     const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
@@ -49,7 +57,7 @@ export async function startStaticApp(boardSpeed = 1): Promise<StaticApp> {
         "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'",
     });
     // The page gets the fake port by Playwright; a worker can get it only with its file.
-    if (path.basename(file).startsWith("host.worker-")) response.write(FAKE_SERIAL_SCRIPT);
+    if (path.basename(file).startsWith("host.worker-")) response.write(FAKE_SERIAL_SCRIPT + workerScript);
     response.end(readFileSync(file));
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));

@@ -22,10 +22,11 @@ function makePage() {
       return Promise.resolve();
     },
   };
-  keepDrawing(store, storage);
+  const faults: string[] = [];
+  keepDrawing(store, storage, () => faults.push("not stored"));
   const plan = (drawingKey: string): void =>
     store.setState({ planned: { drawingKey } satisfies Partial<Planned> as unknown as Planned });
-  return { store, storage, written, plan };
+  return { store, storage, written, plan, faults };
 }
 
 describe("the last drawing", () => {
@@ -40,6 +41,16 @@ describe("the last drawing", () => {
     expect(written).toHaveLength(1);
     store.setState({ drawing: { key: "drawing-1", ...SHEET, jobId: "job-7" } });
     expect(await readKeptDrawing(storage)).toEqual({ ...SHEET, jobId: "job-7" });
+  });
+
+  it("which can't be stored is reported, once", async () => {
+    const { store, storage, plan, faults } = makePage();
+    storage.write = () => Promise.reject(new Error("full"));
+    for (const key of ["drawing-1", "drawing-2"]) {
+      store.setState({ drawing: { key, ...SHEET } });
+      plan(key);
+    }
+    await expect.poll(() => faults).toEqual(["not stored"]);
   });
 
   it("stays if another one can't be read", () => {

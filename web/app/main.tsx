@@ -16,7 +16,7 @@ import { applyServerEvent } from "../state/server-events.js";
 import { createPageStore, type PageStore } from "../state/store.js";
 import { openWatch } from "../state/open-watch.js";
 import { PageContext } from "../state/use-store.js";
-import { appName } from "../ui/text.js";
+import { appName, errorText } from "../ui/text.js";
 import { ErrorBoundary } from "../ui/error-boundary.js";
 import { saveFile } from "../ui/save-file.js";
 import { Planner } from "../worker/planner.js";
@@ -74,7 +74,7 @@ const actions = createActions({
 
 const drawings = browserDrawings();
 keepRemembered(store);
-keepDrawing(store, drawings);
+keepDrawing(store, drawings, () => actions.notify("error", errorText.notKept));
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
 listenForShortcuts(shortcuts);

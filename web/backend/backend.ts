@@ -70,6 +70,8 @@ export interface BackendFeatures {
   readonly sharing: boolean;
   /** The user has to allow the page to use the plotter's port, by `connect`. */
   readonly asksForPort: boolean;
+  /** Where `asksForPort`: why the page can't use a port in this browser, and what to do; null: it can. */
+  readonly whyNoPort: string | null;
 }
 
 export interface Backend {

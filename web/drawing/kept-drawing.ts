@@ -22,16 +22,23 @@ export const readKeptDrawing = async (storage: DrawingStorage): Promise<KeptDraw
   return parsed.success ? parsed.data : null;
 };
 
-/** Keeps each drawing once it has been planned: one that can't be read is nothing to come back to. */
-export const keepDrawing = (store: PageStore, storage: DrawingStorage): (() => void) => {
+/**
+ * Stores each drawing once it has been planned; one that can't be read is not needed at the next visit. `onFault`:
+ * called the first time that a drawing can't be stored.
+ */
+export const keepDrawing = (store: PageStore, storage: DrawingStorage, onFault: () => void): (() => void) => {
   let kept = "";
+  let isFaultKnown = false;
   return store.subscribe(({ drawing, planned }) => {
     if (!drawing || planned?.drawingKey !== drawing.key) return;
     const { key, name, text, jobId, sourceId } = drawing;
     const now = JSON.stringify([key, jobId, sourceId]);
     if (now === kept) return;
     kept = now;
-    void storage.write({ name, text, jobId, sourceId }).catch(() => undefined);
+    storage.write({ name, text, jobId, sourceId }).catch(() => {
+      if (!isFaultKnown) onFault();
+      isFaultKnown = true;
+    });
   });
 };
 
@@ -45,14 +52,25 @@ export const browserDrawings = (): DrawingStorage => {
     opened ??= openDatabase();
     return (await opened).transaction(TABLE, mode).objectStore(TABLE);
   };
+  /** Resolves when it is stored: whether there is room shows only at the end of the transaction. */
+  const change = async (make: (table: IDBObjectStore) => void): Promise<void> => {
+    const changed = await table("readwrite");
+    return new Promise((resolve, reject) => {
+      const { transaction } = changed;
+      transaction.oncomplete = () => resolve();
+      transaction.onabort = () => reject(transaction.error ?? new Error("The browser keeps no data."));
+      make(changed);
+    });
+  };
   return {
     read: async () => answerOf((await table("readonly")).get(KEY)),
     write: async (drawing) => {
       try {
-        await answerOf((await table("readwrite")).put(drawing, KEY));
-      } catch {
+        await change((drawings) => drawings.put(drawing, KEY));
+      } catch (error) {
         // No room for this one: an older drawing must not come back in its place.
-        await answerOf((await table("readwrite")).delete(KEY));
+        await change((drawings) => drawings.delete(KEY));
+        throw error;
       }
     },
   };

@@ -21,6 +21,7 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
   const { attempt, connectPlotter } = useActions();
+  const mayConnect = backend.features.asksForPort && backend.features.whyNoPort === null;
   const saveLog = async (id: string): Promise<void> => {
     const log = await attempt("log", () => backend.log(id));
     if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
@@ -29,7 +30,7 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
-      {isMine && plotter?.kind === "virtual" && backend.features.asksForPort && (
+      {isMine && plotter?.kind === "virtual" && mayConnect && (
         <button type="button" className="button" onClick={() => void connectPlotter(plotter.id)}>
           {words.connect}
         </button>
@@ -117,7 +118,8 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
     );
   }
   if (kind === "virtual") {
-    return <p className="note">{features.asksForPort ? words.connectHint : words.virtualHint}</p>;
+    const hint = features.asksForPort ? words.connectHint : words.virtualHint;
+    return <p className="note">{features.whyNoPort ?? hint}</p>;
   }
   return message ? <p className="note">{message}</p> : null;
 };

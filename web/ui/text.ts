@@ -16,7 +16,9 @@ export const fieldText = {
 export const errorText = {
   close: "Close",
   title: "Something went wrong",
-  unexpected: "The page met an error it did not expect. Reload it; the queue is safe on the server.",
+  unexpected: "The page met an error it did not expect. Reload it; the queue is kept.",
   reload: "Reload",
   partMissing: "This part of the page could not be fetched.",
+  notKept:
+    "The browser can’t store this drawing, so it will not be here at the next visit. Save it as a file if you need it.",
 };

@@ -4,6 +4,7 @@ import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";
 import { apiParts, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
@@ -129,7 +130,7 @@ export async function startApp(
     allowedHosts: ["plotter.lan"],
     localName: () => "plotwright-2.local",
     webDir: join(dir, "web"),
-    samplesDir: new URL("../../../samples", import.meta.url).pathname,
+    samplesDir: fileURLToPath(new URL("../../../samples", import.meta.url)),
     access,
     log,
   };

@@ -3,6 +3,7 @@ import type { HandMove } from "../../../host/plotter/hand-moves.js";
 import type { PlotSettings, Plotter } from "../../../src/schema/index.js";
 import { contentOf, type DrawingText } from "../../worker/drawing-text.js";
 import { BackendFault, type Backend, type HandBackend, type StudioBackend } from "../backend.js";
+import { whyNoPort } from "./capabilities.js";
 import { HostClient } from "./host-client.js";
 import { sampleList, sampleText, type SampleFiles } from "./samples.js";
 import { browserText } from "./text.js";
@@ -20,7 +21,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
   const { remote, tab } = client;
   watchOverPlots(client);
   return {
-    features: { sharing: false, asksForPort: true },
+    features: { sharing: false, asksForPort: true, whyNoPort: whyNoPort() },
     listen: (listener) => client.listen(listener),
 
     addJob: (job, drawing) => remote.addJob(job, drawing),
@@ -78,14 +79,14 @@ const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
 
 /** Opens the browser's own dialog, which works only in a click handler. */
 const askForPort = async ({ remote }: HostClient): Promise<void> => {
-  const { serial } = navigator as { serial?: Serial };
-  if (serial === undefined) throw new BackendFault("not-allowed", browserText.noSerial);
+  const reason = whyNoPort();
+  if (reason !== null) throw new BackendFault("not-allowed", reason);
   const filters = (await remote.usbIds()).map(({ vendorId, productId }) => ({
     usbVendorId: Number.parseInt(vendorId, 16),
     usbProductId: Number.parseInt(productId, 16),
   }));
   try {
-    await serial.requestPort({ filters });
+    await (navigator as { serial: Serial }).serial.requestPort({ filters });
   } catch {
     throw new BackendFault("no-board", browserText.noneChosen);
   }

@@ -20,9 +20,29 @@ interface Change {
   readonly value: unknown;
 }
 
-export class Database {
+/** Where the host keeps its records: `Database`, or memory where the browser stores nothing. */
+export interface Records {
+  /** Everything that is stored, without the drawings. */
+  read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>>;
+  readDrawing(id: string): Promise<unknown>;
+  drawingIds(): Promise<string[]>;
+  put(store: StoreName, key: string, value: unknown): void;
+  remove(store: StoreName, key: string): void;
+  /** Resolves when all changes so far are stored; rejects if that failed. */
+  written(): Promise<void>;
+  close(): Promise<void>;
+}
+
+export interface DatabaseEvents {
+  /** Called for each transaction that failed; its changes are tried again. */
+  onFault(error: unknown): void;
+  /** Called for each transaction that is stored. */
+  onWritten(): void;
+}
+
+export class Database implements Records {
   readonly #db: IDBDatabase;
-  readonly #onFault: (error: unknown) => void;
+  readonly #events: DatabaseEvents;
   /** Changes that no transaction has taken yet, by store and key. */
   #queued = new Map<string, Change>();
   #running: Promise<void> = Promise.resolve();
@@ -30,23 +50,22 @@ export class Database {
   #next: Promise<void> | null = null;
   #last: Promise<void> = Promise.resolve();
 
-  private constructor(db: IDBDatabase, onFault: (error: unknown) => void) {
+  private constructor(db: IDBDatabase, events: DatabaseEvents) {
     this.#db = db;
-    this.#onFault = onFault;
+    this.#events = events;
   }
 
-  /** `onFault`: called for each transaction that failed; its changes are tried again. */
-  static async open(name: string, onFault: (error: unknown) => void): Promise<Database> {
+  /** Rejects where the browser stores nothing for this site, as some do in private windows. */
+  static async open(name: string, events: DatabaseEvents): Promise<Database> {
     const request = indexedDB.open(name, VERSION);
     request.onupgradeneeded = () => {
       for (const store of STORES) {
         if (!request.result.objectStoreNames.contains(store)) request.result.createObjectStore(store);
       }
     };
-    return new Database(await settled(request), onFault);
+    return new Database(await settled(request), events);
   }
 
-  /** Everything that is stored, without the drawings. */
   async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
     const found = this.#db.transaction(store).objectStore(store);
     const [keys, values] = await Promise.all([settled(found.getAllKeys()), settled(found.getAll())]);
@@ -69,7 +88,6 @@ export class Database {
     this.#change({ store, key, value: undefined });
   }
 
-  /** Resolves when all changes so far are stored; rejects if that failed. */
   written(): Promise<void> {
     return this.#last;
   }
@@ -82,7 +100,7 @@ export class Database {
   #change(change: Change): void {
     this.#queued.set(`${change.store}/${change.key}`, change);
     this.#last = this.#nextWrite();
-    // Reported by onFault, and to each caller of `written`.
+    // Reported by `events`, and to each caller of `written`.
     this.#last.catch(() => undefined);
   }
 
@@ -103,11 +121,12 @@ export class Database {
     if (changes.size === 0) return;
     try {
       await this.#transact([...changes.values()]);
+      this.#events.onWritten();
     } catch (error) {
       // Newer changes of the same records win.
       this.#queued = new Map([...changes, ...this.#queued]);
       setTimeout(() => void this.#nextWrite().catch(() => undefined), RETRY_MS);
-      this.#onFault(error);
+      this.#events.onFault(error);
       throw error;
     }
   }

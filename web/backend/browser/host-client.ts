@@ -2,15 +2,18 @@
 import type { BackendListener } from "../backend.js";
 import { BackendFault } from "../backend.js";
 import type { HostMethod } from "./host-api.js";
+import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { browserText } from "./text.js";
 import {
   CHANNEL,
   type FromHost,
   type Message,
+  type PageVisibility,
   type Remote,
   type ToHost,
   type WorkerStart,
 } from "./protocol.js";
+import { reasonOf } from "./worker-fault.js";
 
 /** How long a call waits for a host: after a host's page was closed, there is none for a moment. */
 const NO_HOST_MS = 15_000;
@@ -21,9 +24,9 @@ interface Waiting {
 }
 
 export class HostClient {
-  readonly tab = crypto.randomUUID();
+  readonly tab: string;
   readonly remote: Remote;
-  readonly #channel = new BroadcastChannel(CHANNEL);
+  readonly #channel: BroadcastChannel;
   readonly #listeners = new Set<BackendListener>();
   readonly #calls = new Map<number, Waiting>();
   readonly #hostWaiters = new Set<() => void>();
@@ -32,12 +35,22 @@ export class HostClient {
   #nextId = 1;
 
   constructor(virtualSpeed: number) {
-    const start: WorkerStart = { tab: this.tab, virtualSpeed };
+    provideRandomIds();
+    this.tab = crypto.randomUUID();
+    const channel = hasLocks() ? CHANNEL : `${CHANNEL}-${this.tab}`;
+    this.#channel = new BroadcastChannel(channel);
+    const start: WorkerStart = { tab: this.tab, channel, virtualSpeed };
     const worker = new Worker(new URL("./host.worker.ts", import.meta.url), {
       type: "module",
       name: JSON.stringify(start),
     });
-    worker.onerror = (event) => this.#failed(event.message);
+    const sendVisibility = (): void => {
+      const message: PageVisibility = { isHidden: document.visibilityState === "hidden" };
+      worker.postMessage(message);
+    };
+    document.addEventListener("visibilitychange", sendVisibility);
+    sendVisibility();
+    worker.onerror = (event) => this.#failed(reasonOf(event));
     this.#channel.onmessage = ({ data }: MessageEvent<Message>) => {
       if (data.to === "pages") this.#hear(data);
     };

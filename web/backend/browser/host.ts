@@ -16,18 +16,21 @@ import { JobQueue } from "../../../host/queue/job-queue.js";
 import { Notices } from "../../../host/queue/notices.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
 import { browserClock } from "../../serial/web-serial.js";
-import { Database } from "./database.js";
+import { Database, type DatabaseEvents, type Records } from "./database.js";
+import { hasLocks } from "./capabilities.js";
 import { hostApi, type HostApi } from "./host-api.js";
+import { MemoryRecords } from "./memory-records.js";
 import { DATABASE, type WorkerStart } from "./protocol.js";
 import { serialDevices } from "./serial-devices.js";
 import { StoredModel } from "./stored-model.js";
+import { browserText } from "./text.js";
 import { workerPlanning } from "./worker-planning.js";
 
 const STOPPED =
   "The page was closed or reloaded while this was plotting. Check pen and paper, then continue from where it was.";
-const NOT_STORED =
-  "The browser can't store the queue: its storage for this site is full or blocked. Changes are in memory until there is room.";
 const PROGRESS_MS = 100;
+/** Systems give the process of a hidden tab less time. */
+const HIDDEN_LATENESS_S = 0.7;
 
 export interface Host {
   readonly api: HostApi;
@@ -38,15 +41,17 @@ export interface Host {
   close(): Promise<void>;
 }
 
-/** `send` gets every event once what it reports is stored, in order. */
-export async function openHost(start: WorkerStart, send: (event: ServerEvent) => void): Promise<Host> {
+export interface HostPage {
+  /** Gets every event once what it reports is stored, in order. */
+  send(event: ServerEvent): void;
+  isPageHidden(): boolean;
+}
+
+export async function openHost(start: WorkerStart, page: HostPage): Promise<Host> {
   const nowIso = (): string => new Date().toISOString();
-  let isFaultKnown = false;
-  const db = await Database.open(DATABASE, () => {
-    if (isFaultKnown) return;
-    isFaultKnown = true;
-    send({ type: "notice", notice: { id: "storage", at: nowIso(), message: NOT_STORED } });
-  });
+  let onFault = (_error: unknown): void => undefined;
+  let onWritten = (): void => undefined;
+  const db = await openRecords({ onFault: (error) => onFault(error), onWritten: () => onWritten() });
   const [jobs, plotterRows, settings, journals, machineRows] = await Promise.all([
     db.read("jobs"),
     db.read("plotters"),
@@ -55,7 +60,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
     db.read("machines"),
   ]);
   const store = new StoredModel(db, { jobs, plotters: plotterRows, settings, journals });
-  const announce = announcer(db, send);
+  const announce = announcer(db, (event) => page.send(event));
   const machines = new CustomMachines(
     [...machineRows.values()].flatMap((row) => machineProfileSchema.safeParse(row).data ?? []),
     {
@@ -65,7 +70,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
   );
   const withMachine = (wanted: PlotSettings): PlotSettings => machines.withMachine(wanted);
   const devices = serialDevices((navigator as { serial?: Serial }).serial);
-  const clock = browserClock();
+  const clock = { ...browserClock(), latenessS: () => (page.isPageHidden() ? HIDDEN_LATENESS_S : 0) };
   const log = (): void => undefined;
   const registry = new PlotterRegistry({
     store,
@@ -87,7 +92,11 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
     add: async (drawing: DrawingText): Promise<string> => {
       const id = crypto.randomUUID();
       db.put("drawings", id, drawing);
-      await db.written();
+      await db.written().catch((cause: unknown) => {
+        // It must not hold up the changes that have room.
+        db.remove("drawings", id);
+        throw new PlotwrightError("disk-full", browserText.notAdded(reasonOf(cause)), { cause });
+      });
       return id;
     },
     read: async (id: string): Promise<DrawingText> => {
@@ -112,6 +121,15 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
     stoppedMessage: STOPPED,
   });
   const notices = new Notices({ store, announce, nowIso });
+  let faultId: string | null = null;
+  onFault = (error) => (faultId ??= notices.add(browserText.onlyHere(reasonOf(error))));
+  onWritten = () => {
+    const id = faultId;
+    faultId = null;
+    if (notices.list().some((notice) => notice.id === id)) notices.remove(String(id));
+  };
+  // An insecure page says so in the plotter's panel.
+  if (db instanceof MemoryRecords && hasLocks()) notices.add(browserText.nothingStored);
   if (store.unreadableCount > 0) {
     notices.add(`Jobs of another version of plotwright that can't be read: ${store.unreadableCount}.`);
   } else await removeUnused(db, store);
@@ -130,7 +148,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
     }),
     written: () =>
       db.written().catch((cause: unknown) => {
-        throw new PlotwrightError("disk-full", NOT_STORED, { cause });
+        throw new PlotwrightError("disk-full", browserText.onlyHere(reasonOf(cause)), { cause });
       }),
     close: async () => {
       await queue.close();
@@ -140,8 +158,19 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
   };
 }
 
+/** Tabs that can't know of each other must not share records. */
+const openRecords = async (events: DatabaseEvents): Promise<Records> => {
+  if (!hasLocks()) return new MemoryRecords();
+  return Database.open(DATABASE, events).catch(() => new MemoryRecords());
+};
+
+const reasonOf = (error: unknown): string => {
+  if (error instanceof DOMException && error.name === "QuotaExceededError") return browserText.full;
+  return error instanceof Error ? error.message : String(error);
+};
+
 /** Holds each event back until all changes before it are stored, and sends progress ten times a second. */
-function announcer(db: Database, send: (event: ServerEvent) => void): (event: ServerEvent) => void {
+function announcer(db: Records, send: (event: ServerEvent) => void): (event: ServerEvent) => void {
   let last: Promise<void> = Promise.resolve();
   let progressAtMs = -Infinity;
   return (event) => {
@@ -156,6 +185,6 @@ function announcer(db: Database, send: (event: ServerEvent) => void): (event: Se
 }
 
 /** Drawings whose job was never added, because the page was closed before. */
-async function removeUnused(db: Database, store: StoredModel): Promise<void> {
+async function removeUnused(db: Records, store: StoredModel): Promise<void> {
   for (const id of await db.drawingIds()) if (!store.isUsed(id)) db.remove("drawings", id);
 }

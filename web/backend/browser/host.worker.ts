@@ -5,23 +5,26 @@
 import { faultOf } from "../../../host/planning/messages.js";
 import { PlotwrightError } from "../../../src/index.js";
 import type { JobAction } from "../backend.js";
+import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { openHost, type Host } from "./host.js";
 import { READING, STOPPING, type HostMethod } from "./host-api.js";
 import {
-  CHANNEL,
   HOST_LOCK,
   type Answer,
   type FromHost,
   type Message,
+  type PageVisibility,
   type ToHost,
   type WorkerStart,
 } from "./protocol.js";
 
 type Call = Extract<ToHost, { type: "call" }>;
 
+provideRandomIds();
 const start = JSON.parse(self.name) as WorkerStart;
-const channel = new BroadcastChannel(CHANNEL);
+const channel = new BroadcastChannel(start.channel);
 let host: Host | null = null;
+let isPageHidden = false;
 /** Ends this worker's time as the host. */
 let release: () => void = () => undefined;
 /** The page that another host has handed over to. */
@@ -36,6 +39,10 @@ channel.onmessage = ({ data }: MessageEvent<Message>) => {
     if (data.type === "handed-over") next = data.next;
   } else if (host !== null && data.type === "hello") sendSnapshot(host, data.tab);
   else if (host !== null && data.type === "call") void answer(host, data);
+};
+
+self.onmessage = ({ data }: MessageEvent<PageVisibility>) => {
+  isPageHidden = data.isHidden;
 };
 
 function sendSnapshot({ snapshot }: Host, tab?: string): void {
@@ -88,11 +95,19 @@ async function serve(): Promise<void> {
       next = null;
       if (isForAnother) return;
       const released = new Promise<void>((resolve) => (release = resolve));
-      host = await openHost(start, (event) => post({ type: "event", event }));
-      sendSnapshot(host);
+      await beHost();
       await released;
     });
   }
 }
 
-serve().catch((error: unknown) => post({ type: "failed", message: faultOf(error).message }));
+async function beHost(): Promise<void> {
+  host = await openHost(start, {
+    send: (event) => post({ type: "event", event }),
+    isPageHidden: () => isPageHidden,
+  });
+  sendSnapshot(host);
+}
+
+const serving = hasLocks() ? serve() : beHost();
+serving.catch((error: unknown) => post({ type: "failed", message: faultOf(error).message }));

@@ -6,7 +6,10 @@ import type { ErrorCode } from "../../../src/index.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
 import type { HostApi, HostMethod } from "./host-api.js";
 
-/** Changes with the messages, so that pages of different versions do not misunderstand each other. */
+/**
+ * The channel that all tabs share. Changes with the messages, so that pages of different versions do not misunderstand
+ * each other.
+ */
 export const CHANNEL = "plotwright-1";
 /** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
 export const HOST_LOCK = "plotwright-host";
@@ -16,7 +19,14 @@ export const DATABASE = "plotwright-host";
 export interface WorkerStart {
   /** The page's id, also used as the id of its host. */
   readonly tab: string;
+  /** Where tabs can't know of each other, each has a channel, and so a host, of its own. */
+  readonly channel: string;
   readonly virtualSpeed: number;
+}
+
+/** Posted to the worker by its own page. */
+export interface PageVisibility {
+  readonly isHidden: boolean;
 }
 
 export type ToHost =

@@ -2,9 +2,20 @@
 export const browserText = {
   closed: "The tab that operated the plotter was closed. Try again.",
   noHost: "No tab of plotwright answers. Reload this page, and close other tabs of it.",
+  notLoaded: "a part of the program did not load. Are you offline? Reload the page.",
   failed: (message: string) => `Plotting does not work in this browser: ${message}`,
   needsServer: "This needs plotwright’s server: install it on the computer that the plotter is plugged into.",
-  noSerial: "This browser can’t open USB boards from a page: use Chrome or Edge, at https or on localhost.",
+  noSerial:
+    "This browser can’t drive a plotter from a page. Open this page in Chrome or Edge on a computer. Here, plots run on a model of the board.",
+  insecure:
+    "This page was not opened by https, so the browser lets it use no plotter. Open it at its https address, or at http://localhost. Until then plots run on a model of the board, and the queue is lost when this tab is closed.",
+  full: "its storage for this site is full. Remove jobs from the queue and the history, or free space on the disk.",
+  onlyHere: (reason: string) =>
+    `The last changes are only in this tab, so keep it open. The browser can’t store them: ${reason}`,
+  notAdded: (reason: string) =>
+    `The job was not added; the drawing is still on the page. The browser can’t store it: ${reason}`,
+  nothingStored:
+    "The browser stores nothing for this site, as in some private windows or where site data is blocked. You can plot, but queue, history and settings are lost when this tab is closed.",
   noneChosen: "No plotter was chosen. Plug it in, switch it on, and choose it in the list.",
   sampleMissing: (name: string) => `The sample ${name} did not load. Are you offline?`,
 };

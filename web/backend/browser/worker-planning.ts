@@ -7,6 +7,7 @@ import type { FromWorker, ToWorker } from "../../../host/planning/messages.js";
 import type { Measured, Planning } from "../../../host/planning/planning.js";
 import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../../host/planning/plot-planner.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
+import { reasonOf } from "./worker-fault.js";
 import type { PlannerStart } from "./planner.worker.js";
 
 /** Drawings measured at the same time. The planner of a running plot does not wait for them. */
@@ -47,7 +48,7 @@ class WorkerPlanner implements PlotPlanner {
   private constructor() {
     this.#worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#settle(data);
     this.#worker.onerror = (event) =>
-      this.#end(new PlotwrightError("internal", `Planning failed: ${event.message}`));
+      this.#end(new PlotwrightError("internal", `Planning failed: ${reasonOf(event)}`));
   }
 
   /** Reads and prepares the drawing. Throws the errors of import and prepare, or `cancelled`. */

@@ -25,7 +25,7 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
   const requests = createRequests(fetchPath);
   const { ask, send, command, askWithDrawing } = requests;
   return {
-    features: { sharing: true, asksForPort: false },
+    features: { sharing: true, asksForPort: false, whyNoPort: null },
     listen: (listener) => openEvents(`${API}/events`, listener),
 
     addJob: (job, drawing) => askWithDrawing(jobSchema, "/jobs", job, drawing),

@@ -207,7 +207,8 @@ export class Carriage {
    */
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
-    return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
+    const windowS = sendAheadMs / 1_000 + (this.connection.boardClock.latenessS?.() ?? 0);
+    return Math.round(1_000 * mostAheadS(windowS, LONGEST_COMMAND_S)) + ANSWER_MS;
   }
 
   /** For the log that users send with a report. */

@@ -255,7 +255,8 @@ export class Streamer {
    * before the motion sent ahead has shrunk to the window's reserve.
    */
   private dueS(stream: CommandStream): number {
-    const { windowS } = this.options;
+    const { clock } = this.options;
+    const windowS = this.options.windowS + (clock.latenessS?.() ?? 0);
     const startS = this.offsetS + stream.boardS[this.next];
     const endS = this.offsetS + stream.boardS[this.next + 1];
     return Math.min(endS - windowS, startS - RESERVE_SHARE * windowS);
