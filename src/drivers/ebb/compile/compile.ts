@@ -1,11 +1,9 @@
 /**
- * Compiles a trajectory to EBB commands: pen moves, and between them each run of the trajectory
- * in the form that suits the firmware: legs with one ramp or parabola each (leg-runs), or slices
- * of constant speed (write-slices).
+ * Compiles a trajectory to EBB commands: pen moves, and between them the runs. How a run is written depends on the
+ * firmware: as legs with one ramp or parabola each (leg-runs.ts), or as slices of constant speed (write-slices.ts).
  *
- * The host model predicts the exact board state (steps and accumulators) after each command, and the
- * next command is computed from that state. So rounding never adds up, and the final step counters equal
- * those of the plan.
+ * A model of the firmware predicts the exact board state (steps and accumulators) after each command, and the next
+ * command is computed from that state. So rounding never adds up, and the final step counters equal the plan's.
  */
 import { checkObject } from "../../../check-arguments.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -33,7 +31,7 @@ import { SliceRuns } from "./write-slices.js";
 import { SteppedWriter } from "./write-stepped.js";
 import { TimedWriter } from "./write-timed.js";
 
-/** The board that `compile` writes for. */
+/** The board that `compile` writes commands for. */
 export interface CompileOptions {
   /** A machine with an EiBotBoard. */
   readonly machine: MachineProfile;
@@ -41,17 +39,17 @@ export interface CompileOptions {
   readonly firmware: string;
   /** Heights and speeds of the pen. */
   readonly pen: PenSettings;
-  /** State of the board at the start; default: at home, as after EM and CS. */
+  /** State of the board at the start; default: at home, all zero, as after EM and CS. */
   readonly start?: BoardState | undefined;
 }
 
 /**
- * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
- * `setUpCommands` switch the motors on before it, once per session; `EM,0,0` switches them off.
+ * Compiles a trajectory to the commands for a board with the given firmware, from setting the pen heights to the last
+ * pen move. Send `setUpCommands` before it, once per session: they switch the motors on. `EM,0,0` switches them off.
  *
  * @throws PlotwrightError "bad-setting" for an invalid firmware version, an incomplete machine profile, or a machine
  *   without an EiBotBoard
- * @throws TypeError for an argument of another kind
+ * @throws TypeError for an argument of the wrong type
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
@@ -87,9 +85,9 @@ class Compiler {
   private readonly m1: MotorPlace;
   private readonly m2: MotorPlace;
   private readonly runs: RunWriter;
-  /** The pen heights set last, percent. */
+  /** The current pen heights of the board, percent. */
   private readonly heights: { up: number; down: number };
-  /** The set-up lines sent so far, by "SC,number". */
+  /** The current set-up lines, by "SC,number". */
   private readonly parameters = new Map<string, string>();
 
   constructor(
@@ -144,19 +142,19 @@ class Compiler {
     );
   }
 
-  /** A pen move that costs the run a tick. */
+  /** A pen move during a run. It takes one tick, in which the motors do not move. */
   private penMoveInFlight(move: PenMove, run: number, planS: number): void {
     const way = this.wayOf(move, { inFlight: !move.up, run, planS });
     this.still(penCommand(this.options.machine, way, 0), 1, planS, run);
   }
 
-  /** The rest of a pen move that began in flight. */
+  /** Waits for the rest of a pen move that began during the run. */
   private waitForPen(waitS: number, planS: number): void {
     const waitMs = Math.round(waitS * 1_000);
     if (waitMs > 0) this.still(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
   }
 
-  /** Sets the height and speed of a pen move if they changed. */
+  /** Converts a pen move, and sets its height and speed on the board if they changed. */
   private wayOf(
     move: PenMove,
     { inFlight, run, planS }: { readonly inFlight: boolean; readonly run: number; readonly planS: number },

@@ -1,7 +1,7 @@
 /**
  * Writes legs for firmware 3: LT if the acceleration is constant, otherwise T3.
  *
- * A timed command of T ticks is followed by one idle tick, so a leg of n ticks runs in T = n − 1, with speeds
+ * A timed command of T ticks is followed by one idle tick, so a leg of n ticks uses T = n − 1, with speeds
  * scaled by n/T. With R, A, J the accumulator gains exactly (before the divisions by 2 and 6 are truncated)
  *
  *   R T + A T²/2 + J T³/6
@@ -92,7 +92,7 @@ function aim(
   keepInRange(out, ticks);
 }
 
-/** Rates were limited before; this keeps them in range if rounding and correction exceed the limit. */
+/** The planned rates are limited already. Rounding and correction may still exceed the range slightly. */
 function keepInRange(a: Arguments, ticks: number): void {
   const registers = registersFor("signed", a.rate, a.accel, a.jerk);
   const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);

@@ -1,9 +1,9 @@
 /**
  * Writes legs for firmware 2.5.3 to 2.6: LM, where each motor stops after its own number of steps.
  *
- * Each motor goes to the whole step nearest to the plan, counted from the predicted counter. The rate is set
- * so that the last step falls on the leg's last tick: both motors end together, and neither waits. The
- * accumulator is then just above zero, so every leg starts from nearly the same state.
+ * Each motor goes to the whole step nearest to the plan, counted from the predicted counter. The rate is chosen so that
+ * the last step is on the leg's last tick: both motors end together, and neither waits. The accumulator is then just
+ * above zero, so every leg starts from nearly the same state.
  *
  *   tick k adds R + (k − 1) A (magnitudes); one idle tick follows
  *
@@ -75,11 +75,11 @@ function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments):
   const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
   const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
   out.accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
-  // Rounded up: the last step comes on the last tick, never later.
+  // Rounded up, so that the last step is never after the last tick.
   out.rate = Math.ceil(mean - (out.accel * (ticks - 1)) / 2);
 }
 
-/** Advances the motor until its steps are done. Returns the ticks that takes. */
+/** Advances the motor until its steps are done. Returns the number of ticks. */
 function run(a: Arguments, ticks: number, place: MotorPlace): number {
   if (a.steps === 0) return 0;
   const registers = registersFor("late", a.rate, a.accel);
@@ -90,11 +90,11 @@ function run(a: Arguments, ticks: number, place: MotorPlace): number {
   return last;
 }
 
-/** First tick at which the sum of rates reaches `distance`, which happens by tick `ticks` at the latest. */
+/** First tick at which the sum of rates reaches `distance`; at most `ticks`. */
 function tickOfSum(distance: number, ticks: number, { rate, accel }: Registers): number {
   let low = 1;
   let high = ticks;
-  // It is nearly always the last tick: check that first.
+  // Usually the last tick.
   if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < distance) return ticks;
   while (low < high) {
     const middle = (low + high) >> 1;

@@ -1,13 +1,12 @@
 /**
  * Writes legs for firmware 2.7 to 2.8: LT with a constant acceleration per motor.
  *
- * This LT takes the direction from the sign of Rate and applies Accel to its magnitude. A magnitude that
- * falls below zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there),
- * and its speeds are kept at or above zero.
+ * This LT takes the direction from the sign of Rate and applies Accel to its magnitude. A magnitude that falls below
+ * zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there), and its speeds must
+ * not be negative.
  *
- * The accumulator holds the fraction of a step moved since the last step, in the direction of travel.
- * After a reversal that fraction counts from the wrong side. If zero is nearer to the true position, the
- * command clears the accumulator.
+ * The accumulator has the fraction of a step moved since the last step, in the direction of travel. After a reversal
+ * that fraction counts in the wrong direction. If zero is nearer to the true position, the command clears it.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";

@@ -1,6 +1,6 @@
 /**
- * Command lines of the EiBotBoard: those at the start and end of a plot, and a writer
- * for the commands between.
+ * Command lines of the EiBotBoard: those at the start and end of a plot, pen moves, and a text writer for the commands
+ * between.
  */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -8,9 +8,9 @@ import { checkEbbProfile, ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
 import { servoPosFromPct } from "./servo-height.js";
 
-/** The servo moves during this part of the wait for it; the rest is time to settle. */
+/** The servo moves during this part of its wait; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
-/** A drop in flight is as slow as its time says: a quicker one would touch the paper before the carriage arrives. */
+/** A drop during travel takes its full time: a quicker one would touch the paper before the carriage arrives. */
 const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
@@ -33,7 +33,7 @@ export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmwar
 /** After the last plot: motors off, so that the carriage can be moved by hand. */
 export const closingCommands = (): string[] => ["EM,0,0"];
 
-/** Pen heights and speeds; they apply to every SP that follows. Empty if S2 moves the pen. */
+/** Sets the pen's heights and speeds for all later SP. Empty if S2 moves the pen. */
 export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
   const lift = penMoveOf(pen, true);
   const drop = penMoveOf(pen, false);
@@ -56,7 +56,7 @@ export interface PenWay {
   readonly inFlight?: boolean | undefined;
 }
 
-/** The move between the two heights of the settings. */
+/** The full move between the up and down heights of the settings. */
 export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
   const wayPct = Math.abs(pen.upPct - pen.downPct);
   const heightPct = up ? pen.upPct : pen.downPct;
@@ -76,9 +76,7 @@ export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
   ];
 }
 
-/**
- * One pen move that holds the queue for `waitMs`. The set-up commands define the heights and speeds of SP.
- */
+/** One pen move, which holds the queue for `waitMs`. SP uses the heights and speeds that were set up before. */
 export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
   if (ebbOf(machine).servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
