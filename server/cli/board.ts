@@ -129,7 +129,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
   const dropped = watchDrops(ptyBoard, options.pty, io);
   io.err(
-    `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Ctrl-C ends it.\n`,
+    `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Press Ctrl-C to end it.\n`,
   );
   if (options.speed !== undefined && options.speed !== 1) {
     io.err(
@@ -147,7 +147,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   io.out(summary(board));
   const svg = options.svg ?? "drawn.svg";
   writeDrawing(svg, board, machine);
-  io.err(`What it drew is in ${svg}.\n`);
+  io.err(`The drawn lines are in ${svg}.\n`);
 }
 
 /** Plugs in a board that dropped its connection again after a second. Rejects if that fails. */

@@ -61,7 +61,7 @@ export const declareQueue: Declare = (command, { io }) => {
 
 const addServer = (command: Command): Command =>
   command
-    .option("--url <url>", "where the server is", DEFAULT_URL)
+    .option("--url <url>", "address of the server", DEFAULT_URL)
     .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
 
 const line = (job: Job): string =>

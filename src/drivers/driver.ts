@@ -156,7 +156,7 @@ export interface RunRequest {
 }
 
 export interface RunEvents {
-  tell(progress: PlotProgress): void;
+  progressed(progress: PlotProgress): void;
   /** A play has ended, for any reason; `place`: the first place still to be drawn, null if unknown. */
   ended(place: Place | null): void;
 }
@@ -181,7 +181,7 @@ export interface MachineRun {
   /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void;
   /** Switching to another plan; until that is done, no third plan is accepted. */
-  readonly isGoingOver: boolean;
+  readonly isSwitching: boolean;
   /**
    * A place at least `leadS` ahead where another plan can take over in motion. Null if too little of the plot is left or
    * the controller cannot switch in motion: a change then waits for the next rest.
@@ -197,5 +197,5 @@ export interface PlaceAhead {
   /** The machine's state there. */
   readonly board: MachineState;
   /** Switches to a plan that begins there; false if the machine has already passed the place. */
-  goOver(plot: PlannedPlot, afterS: number): boolean;
+  switchTo(plot: PlannedPlot, afterS: number): boolean;
 }

@@ -82,7 +82,7 @@ export function plan(
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
-  if (options.liftFirst ?? false) builder.liftAnyway();
+  if (options.liftFirst ?? false) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
     if (stroke === from.stroke) builder.draw(stroke, from.alongMm, penBesideMm);
@@ -232,7 +232,7 @@ class PlanBuilder {
     this.movePen(true, liftBefore(this.pen, travelMm));
   }
 
-  liftAnyway(): void {
+  liftFirst(): void {
     const { heightPct, waitS } = liftTiming(this.pen, this.heightPct);
     this.movePen(true, { heightPct, waitS, moveS: waitS });
   }

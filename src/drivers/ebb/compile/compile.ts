@@ -17,12 +17,12 @@ import {
   penCommand,
   penMoveSetUp,
   penSetUpCommands,
-  type PenWay,
+  type ServoMove,
 } from "../protocol/commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
 import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
-import type { LegWriter, MotorPlace, RunWriter } from "./leg.js";
+import type { LegWriter, MotorState, RunWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
@@ -82,8 +82,8 @@ export function commandLine(stream: CommandStream, index: number): string {
 
 class Compiler {
   private readonly columns = new StreamColumns();
-  private readonly m1: MotorPlace;
-  private readonly m2: MotorPlace;
+  private readonly m1: MotorState;
+  private readonly m2: MotorState;
   private readonly runs: RunWriter;
   /** The current pen heights of the board, percent. */
   private readonly heights: { up: number; down: number };
@@ -133,9 +133,9 @@ class Compiler {
   /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const way = this.wayOf(move, { inFlight: false, run: -1, planS: move.startS });
-    this.still(
-      penCommand(this.options.machine, way, waitMs),
+    const servoMove = this.servoMoveOf(move, { inFlight: false, run: -1, planS: move.startS });
+    this.writeIdle(
+      penCommand(this.options.machine, servoMove, waitMs),
       Math.max(1, waitMs * TICKS_PER_MS),
       move.startS,
       -1,
@@ -144,36 +144,36 @@ class Compiler {
 
   /** A pen move during a run. It takes one tick, in which the motors do not move. */
   private penMoveInFlight(move: PenMove, run: number, planS: number): void {
-    const way = this.wayOf(move, { inFlight: !move.up, run, planS });
-    this.still(penCommand(this.options.machine, way, 0), 1, planS, run);
+    const servoMove = this.servoMoveOf(move, { inFlight: !move.up, run, planS });
+    this.writeIdle(penCommand(this.options.machine, servoMove, 0), 1, planS, run);
   }
 
   /** Waits for the rest of a pen move that began during the run. */
   private waitForPen(waitS: number, planS: number): void {
     const waitMs = Math.round(waitS * 1_000);
-    if (waitMs > 0) this.still(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
+    if (waitMs > 0) this.writeIdle(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
   }
 
   /** Converts a pen move, and sets its height and speed on the board if they changed. */
-  private wayOf(
+  private servoMoveOf(
     move: PenMove,
     { inFlight, run, planS }: { readonly inFlight: boolean; readonly run: number; readonly planS: number },
-  ): PenWay {
+  ): ServoMove {
     const { machine, pen } = this.options;
     const { heights } = this;
-    const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
+    const distancePct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
     if (move.up) heights.up = move.heightPct;
     else heights.down = move.heightPct;
-    const way: PenWay = {
+    const servoMove: ServoMove = {
       up: move.up,
       heightPct: move.heightPct,
-      wayPct,
+      distancePct,
       timeMs: 1_000 * move.moveS,
       ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
       inFlight,
     };
-    this.setUp(penMoveSetUp(machine, way), planS, run);
-    return way;
+    this.setUp(penMoveSetUp(machine, servoMove), planS, run);
+    return servoMove;
   }
 
   /** Writes the set-up lines that differ from those sent before. */
@@ -182,12 +182,12 @@ class Compiler {
       const parameter = line.slice(0, line.lastIndexOf(","));
       if (this.parameters.get(parameter) === line) continue;
       this.parameters.set(parameter, line);
-      this.still(line, 0, planS, run);
+      this.writeIdle(line, 0, planS, run);
     }
   }
 
   /** A command during which the motors do not move. */
-  private still(line: string, ticks: number, planS: number, run: number): void {
+  private writeIdle(line: string, ticks: number, planS: number, run: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);
     columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
@@ -205,8 +205,8 @@ function runWriterFor(
   trajectory: Trajectory,
   walk: RunWalk,
   columns: StreamColumns,
-  m1: MotorPlace,
-  m2: MotorPlace,
+  m1: MotorState,
+  m2: MotorState,
 ): RunWriter {
   const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
   switch (features.motion) {

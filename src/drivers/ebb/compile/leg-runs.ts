@@ -18,7 +18,7 @@ import {
   type LegWriter,
   type Midway,
   type MotorLeg,
-  type MotorPlace,
+  type MotorState,
   type RunWriter,
 } from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
@@ -56,8 +56,8 @@ export class LegRuns implements RunWriter {
     private readonly walk: RunWalk,
     private readonly writer: LegWriter,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorPlace,
-    private readonly m2: MotorPlace,
+    private readonly m1: MotorState,
+    private readonly m2: MotorState,
   ) {}
 
   /** A reversal within this many ticks of a cut needs no separate cut. */
@@ -76,8 +76,9 @@ export class LegRuns implements RunWriter {
     for (;;) {
       const tick = columns.boardTicks;
       this.cut(tick, block, notBefore);
-      this.aim(leg, tick, block);
-      if (this.writer.turnTicks > 0 && this.cutShort(leg, tick, block, notBefore)) this.aim(leg, tick, block);
+      this.setLeg(leg, tick, block);
+      if (this.writer.turnTicks > 0 && this.shortenForTurn(leg, tick, block, notBefore))
+        this.setLeg(leg, tick, block);
       if (this.writeLeg(leg)) {
         notBefore = 0;
         block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
@@ -213,7 +214,7 @@ export class LegRuns implements RunWriter {
    * moves it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
    * gets the shortest possible leg. Returns true if the cut was moved.
    */
-  private cutShort({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
+  private shortenForTurn({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
     const { walk, writer } = this;
     const motor = backwards(m1) > backwards(m2) ? m1 : m2;
     if (backwards(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return false;
@@ -229,7 +230,7 @@ export class LegRuns implements RunWriter {
     return true;
   }
 
-  private aim(leg: Leg, tick: number, block: number): void {
+  private setLeg(leg: Leg, tick: number, block: number): void {
     const { walk } = this;
     walk.startLegs(tick, block, leg.m1, leg.m2);
     walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
@@ -269,15 +270,15 @@ export class LegRuns implements RunWriter {
    */
   private writeLeg(leg: Leg): boolean {
     if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
-      return this.put(leg);
-    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.put(leg);
+      return this.writeCommand(leg);
+    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.writeCommand(leg);
     const { half } = this;
     half.ticks = leg.ticks >> 1;
     half.isParabola = true;
     half.isLast = false;
     halve(leg.m1, leg.ticks, half.ticks, half.m1);
     halve(leg.m2, leg.ticks, half.ticks, half.m2);
-    if (!this.put(half)) return this.put(leg);
+    if (!this.writeCommand(half)) return this.writeCommand(leg);
     leg.ticks -= half.ticks;
     for (const [motor, first] of [
       [leg.m1, half.m1],
@@ -286,11 +287,11 @@ export class LegRuns implements RunWriter {
       motor.p0 = first.p1;
       motor.v0 = first.v1;
     }
-    this.put(leg);
+    this.writeCommand(leg);
     return true;
   }
 
-  private put(leg: Leg): boolean {
+  private writeCommand(leg: Leg): boolean {
     const { columns, m1, m2 } = this;
     const planS = this.walk.planS(columns.boardTicks);
     const ticks = this.writer.write(leg, m1, m2);

@@ -25,7 +25,7 @@ export interface Leg {
 }
 
 /** Predicted state of one motor. */
-export interface MotorPlace {
+export interface MotorState {
   steps: number;
   acc: number;
 }
@@ -66,7 +66,7 @@ export interface LegWriter {
    * Returns the ticks it takes (normally `leg.ticks`), or 0 if no motor has to move yet
    * and nothing was written.
    */
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number;
+  write(leg: Leg, m1: MotorState, m2: MotorState): number;
 }
 
 export const newLeg = (): Leg => ({

@@ -9,7 +9,7 @@ import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
-import { newLeg, type Midway, type MotorPlace, type RunWriter } from "./leg.js";
+import { newLeg, type Midway, type MotorState, type RunWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
@@ -32,8 +32,8 @@ export class SliceRuns implements RunWriter {
     private readonly features: FirmwareFeatures,
     private readonly walk: RunWalk,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorPlace,
-    private readonly m2: MotorPlace,
+    private readonly m1: MotorState,
+    private readonly m2: MotorState,
   ) {}
 
   write(run: number, midway: readonly Midway[]): void {
@@ -86,7 +86,7 @@ export class SliceRuns implements RunWriter {
   }
 
   /** Updates one motor's state. Returns the ticks until its last step. */
-  private step(motor: MotorPlace, ms: number, steps: number): number {
+  private step(motor: MotorState, ms: number, steps: number): number {
     if (steps === 0) return 0;
     const rate = slowRate(this.features.arithmetic, ms, Math.abs(steps));
     const counts = Math.abs(steps) * ACCUMULATOR_RANGE - motor.acc;

@@ -20,7 +20,7 @@ import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
-import { mostAheadS, Streamer } from "../stream/streamer.js";
+import { maxAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
@@ -200,7 +200,7 @@ export class Carriage {
    */
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
-    return Math.round(1_000 * mostAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
+    return Math.round(1_000 * maxAheadS(sendAheadMs / 1_000, LONGEST_COMMAND_S)) + ANSWER_MS;
   }
 
   /** For the log that users send with a report. */
@@ -338,12 +338,12 @@ export class Carriage {
     const machine = machineOf(settings);
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
     const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
-    const way = penMoveOf(pen, up);
+    const move = penMoveOf(pen, up);
     this.penIs(up, true);
     try {
       for (const line of penSetUpCommands(machine, pen)) await session.send(line);
-      await session.send(penCommand(machine, way), way.timeMs / 1000);
-      await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
+      await session.send(penCommand(machine, move), move.timeMs / 1000);
+      await new Promise<void>((resolve) => void boardClock.after(move.timeMs / 1000 + SETTLE_S, resolve));
     } catch (error) {
       this.penIs(null);
       throw error;

@@ -84,8 +84,8 @@ export class EbbRun implements MachineRun {
   }
 
   /** Switching to another plan; until that is done, no third plan is accepted. */
-  get isGoingOver(): boolean {
-    return this.streamer?.isGoingOver ?? false;
+  get isSwitching(): boolean {
+    return this.streamer?.isSwitching ?? false;
   }
 
   /** The place where the next command to be sent begins. */
@@ -122,7 +122,7 @@ export class EbbRun implements MachineRun {
       const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
       carriage.penUp = penUp;
       // The board is at rest, so the pen is too, even if its planned end is slightly later by rounding.
-      this.events.tell({
+      this.events.progressed({
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
         penUp,
         penMoving: false,
@@ -184,14 +184,14 @@ export class EbbRun implements MachineRun {
       if (isDown && !isWithinStroke(this.strokes, rest.place)) continue;
       const { endX: x, endY: y } = rest.part.trajectory;
       const from = rest.place;
-      const goOver = (plot: PlannedPlot, afterS: number): boolean =>
-        this.goOver({ index, part, rest, isDown }, plot, afterS);
-      return { from, x, y, board: rest.state, goOver };
+      const switchTo = (plot: PlannedPlot, afterS: number): boolean =>
+        this.switchTo({ index, part, rest, isDown }, plot, afterS);
+      return { from, x, y, board: rest.state, switchTo };
     }
     return null;
   }
 
-  private goOver(
+  private switchTo(
     { index, part, rest, isDown }: { index: number; part: EbbPart; rest: Rest; isDown: boolean },
     plot: PlannedPlot,
     afterSectionS: number,
@@ -261,7 +261,7 @@ export class EbbRun implements MachineRun {
     if (isDown && byPct > 0) {
       const { heightPct, ratePctPerS } = penMoveOf(pen, false);
       const timeMs = 1_000 * reseatWaitS(pen, byPct);
-      const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
+      const reseat = { up: false, heightPct, distancePct: byPct, timeMs, ratePctPerS };
       lines.push([penCommand(machine, reseat), timeMs / 1000]);
     }
     return restingStream(lines, state, planS);

@@ -68,7 +68,7 @@ interface Piece {
 }
 
 /** State of one motor after some ticks of a command. */
-export interface AxisPlace {
+export interface AxisState {
   /** Signed steps since the command began. */
   net: number;
   acc: number;
@@ -140,7 +140,7 @@ export class AxisMotion {
   }
 
   /** The state after `tick` ticks; after the last tick, the final state. */
-  placeAt(tick: number, out: AxisPlace): AxisPlace {
+  placeAt(tick: number, out: AxisState): AxisState {
     const piece = this.pieceAt(tick);
     if (piece === undefined || tick >= this.ticks) {
       out.net = this.net;

@@ -37,7 +37,7 @@ const RESERVE_SHARE = 0.8;
  * Max seconds of motion sent ahead of the pen, with commands of up to `commandS`: the largest of the window, its reserve
  * plus one command, and one running plus one waiting command.
  */
-export const mostAheadS = (windowS: number, commandS: number): number =>
+export const maxAheadS = (windowS: number, commandS: number): number =>
   Math.max(windowS, RESERVE_SHARE * windowS + commandS, 2 * commandS);
 
 export class Streamer {
@@ -95,7 +95,7 @@ export class Streamer {
   }
 
   /** True if other streams are set to follow the current one, without a later cut. */
-  get isGoingOver(): boolean {
+  get isSwitching(): boolean {
     return this.playing && (this.limit?.then.length ?? 0) > 0;
   }
 

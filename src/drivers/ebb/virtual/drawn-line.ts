@@ -2,7 +2,7 @@
  * The line that the virtual board has drawn: positions of both motors, sampled so densely that the straight line between
  * two samples is never farther than a microstep from the true path.
  */
-import type { AxisPlace } from "../model/accumulator.js";
+import type { AxisState } from "../model/accumulator.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { ACCUMULATOR_RANGE } from "../../../units.js";
@@ -32,8 +32,8 @@ export class DrawnLine implements LineRecord {
   /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
   private readonly downs: boolean[] = [];
-  private readonly place1: AxisPlace = { net: 0, acc: 0 };
-  private readonly place2: AxisPlace = { net: 0, acc: 0 };
+  private readonly place1: AxisState = { net: 0, acc: 0 };
+  private readonly place2: AxisState = { net: 0, acc: 0 };
 
   constructor(
     private readonly machine: MachineProfile,

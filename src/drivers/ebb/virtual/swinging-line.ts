@@ -7,7 +7,7 @@ import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { SpringAxis } from "../../../plan/spring-pen.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
-import type { AxisPlace } from "../model/accumulator.js";
+import type { AxisState } from "../model/accumulator.js";
 import type { RunningMove } from "../model/orders.js";
 import type { DrawnPolyline, LineRecord } from "./drawn-line.js";
 
@@ -31,8 +31,8 @@ export class SwingingLine implements LineRecord {
   /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
   private readonly downs: boolean[] = [false];
-  private readonly place1: AxisPlace = { net: 0, acc: 0 };
-  private readonly place2: AxisPlace = { net: 0, acc: 0 };
+  private readonly place1: AxisState = { net: 0, acc: 0 };
+  private readonly place2: AxisState = { net: 0, acc: 0 };
 
   constructor(
     private readonly machine: MachineProfile,

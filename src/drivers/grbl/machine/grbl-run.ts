@@ -37,7 +37,7 @@ interface Playing {
 export class GrblRun implements MachineRun {
   readonly progress = new RunProgress();
   stopped: { readonly place: Place | null } | null = null;
-  readonly isGoingOver = false;
+  readonly isSwitching = false;
 
   private current: Playing | null = null;
   /** A stop on request, while it runs. */
@@ -88,7 +88,7 @@ export class GrblRun implements MachineRun {
     try {
       await played;
       await machine.arrived();
-      this.events.tell(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
+      this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {
       left = progress.place;
@@ -136,7 +136,7 @@ export class GrblRun implements MachineRun {
     const at = machine.place(machineOf(this.request.settings()))!;
     const { trajectory } = plot;
     const planS = stopTime(trajectory, at, stream.boundsS, stream.planS);
-    this.events.tell({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
+    this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
     const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
     return snappedPlace(strokes, { stroke, alongMm }, { ...at, vx, vy }, SNAP_MM);
