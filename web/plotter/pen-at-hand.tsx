@@ -49,7 +49,7 @@ export const PenAtHand = () => {
   );
 };
 
-/** Nothing was ever plotted with this plotter. */
+/** This plotter has never plotted. */
 const isFirstPlot = (state: PageState): boolean => {
   const id = currentPlotter(state)?.id;
   const hasPlotted = state.jobs.some((job) => job.plotterId === id && job.startedAt !== null);
@@ -79,7 +79,10 @@ const HomeButtons = ({ onHome }: { onHome(): void }) => {
   );
 };
 
-/** While the pen moves, the plotter is busy for a moment, and the slider goes on. */
+/**
+ * Whether the pen can follow the slider. While the pen moves, the plotter is briefly busy, and the slider still
+ * works.
+ */
 const mayFollow = (state: PageState): boolean => {
   const connection = currentPlotter(state)?.connection;
   return (
@@ -92,13 +95,13 @@ const mayFollow = (state: PageState): boolean => {
 const Heights = ({ onTry }: { onTry(): void }) => {
   const pen = usePageState((state) => state.settings.pen);
   const isFollowing = usePageState(mayFollow);
-  // Its heights change when this browser has taken over, which storing them asks for.
+  // If another browser is the operator, storing the heights asks to take over first.
   const isOthers = usePageState((state) => otherOperator(state) !== null);
   const { changeSettings, movePen } = useActions();
   const follow = useMemo(
     () =>
       servoFollower(
-        ({ isUp, pct }) => movePen(isUp, pct),
+        ({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct),
         (delayMs, callback) => void setTimeout(callback, delayMs),
       ),
     [movePen],

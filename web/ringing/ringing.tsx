@@ -9,7 +9,7 @@ import "./ringing.css";
 const words = ringingText;
 type Part = keyof typeof words.partNames;
 
-/** Measures how the plotter swings, by two sheets: ripples are counted on one, the best line is picked on the other. */
+/** Measures the plotter's swing by two sheets: the user counts ripples on the first and picks a line on the second. */
 export const RingingDialog = () => {
   const [part, setPart] = useState<Part>("count");
   return (
